@@ -1,0 +1,90 @@
+#pragma once
+/// A block: elements of one kind and one material, state packed lane by lane.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "elements/hex8.hpp"
+#include "elements/motion.hpp"
+#include "materials/material.hpp"
+#include "src/base/aligned.hpp"
+#include "src/base/nodes.hpp"
+
+namespace brio {
+
+/// The kinds that a deck can name.
+using Element = std::variant<Hex8>;
+
+inline int nodes_per_element(const Element& element) {
+  return std::visit([](const auto& kind) { return kind.nodes; }, element);
+}
+inline bool has_rotations(const Element& element) {
+  return std::visit([](const auto& kind) { return kind.rotations; }, element);
+}
+inline std::string_view name_of(const Element& element) {
+  return std::visit([](const auto& kind) { return kind.name; }, element);
+}
+inline std::string_view name_of(const Material& material) {
+  return std::visit([](const auto& law) { return law.name; }, material);
+}
+
+/// Packs [first, last) of a block: the piece of work that one thread does at a time.
+struct Chunk {
+  std::size_t first_pack, last_pack;
+};
+
+/// Sums over a chunk since the last step, and what bounds the next one.
+struct SweepResult {
+  double internal_energy = 0;
+  double hourglass_energy = 0;
+  double viscous_energy = 0;
+  double stable_step = 0;              ///< smallest over the chunk; not positive: an element has broken down
+  std::size_t critical_element = 0;    ///< index within the block of the element that sets it
+};
+
+struct Block;
+/// The code of one (element, material, precision), chosen once when the block is made.
+struct BlockKernel {
+  /// Stress update and internal forces of one chunk, subtracted from nodes.force (and nodes.moment).
+  SweepResult (*sweep)(Block&, Chunk, Nodes&, double step);
+  /// Reference state and lumped masses, added to nodes.mass (and nodes.rotational_inertia).
+  /// Throws std::invalid_argument naming the element where the geometry is not valid.
+  void (*initialize)(Block&, Nodes&);
+  ElementSample (*sample)(const Block&, const Nodes&, std::size_t element);
+};
+
+struct Block {
+  std::string part;
+  Element element;
+  Material material;
+  Precision precision = Precision::double_precision;
+  BlockKernel kernel{};
+
+  std::size_t element_count = 0;
+  int lanes = 0;                        ///< elements to a pack
+  std::size_t pack_count = 0;
+  std::size_t pack_bytes = 0;
+  AlignedBuffer<int> connectivity;      ///< [pack][node][lane]; padding lanes repeat the last element
+  AlignedBuffer<std::byte> state;       ///< [pack][component][lane]
+
+  int node(std::size_t e, int corner) const {
+    const auto width = static_cast<std::size_t>(lanes);
+    const auto corners = static_cast<std::size_t>(nodes_per_element(element));
+    return connectivity[((e / width) * corners + static_cast<std::size_t>(corner)) * width + e % width];
+  }
+};
+
+/// True where the law has the update that the element needs.
+bool accepts(const Element& element, const Material& material);
+
+/// A block with its state allocated and zero; call kernel.initialize next.
+/// \param connectivity nodes of each element, one after the other; ordered for locality by the caller.
+/// \throws std::invalid_argument if the law does not fit the element.
+Block make_block(std::string part, const Element& element, const Material& material, Precision precision,
+                 std::span<const int> connectivity);
+
+}  // namespace brio

@@ -1,0 +1,115 @@
+#pragma once
+/// Rows of nodal records to lanes and back: whole rows are loaded and transposed in registers, which beats
+/// hardware gathers. `node` lists one node a lane.
+
+#include "src/base/lanes.hpp"
+#include "src/base/nodes.hpp"
+
+namespace brio {
+
+typedef double Row4 __attribute__((vector_size(32)));
+typedef double Row8 __attribute__((vector_size(64)));
+
+BRIO_INLINE Row4 load_row(const double* row) {
+  Row4 r;
+  __builtin_memcpy(&r, __builtin_assume_aligned(row, 32), sizeof r);
+  return r;
+}
+BRIO_INLINE void store_row(double* row, Row4 r) {
+  __builtin_memcpy(__builtin_assume_aligned(row, 32), &r, sizeof r);
+}
+
+/// First three entries of eight rows: x, y, z with one row a lane.
+BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z) {
+  Row8 pair[4];
+  for (int k = 0; k < 4; ++k) pair[k] = __builtin_shufflevector(rows[k], rows[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  const Row8 xz01 = __builtin_shufflevector(pair[0], pair[1], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Row8 xz23 = __builtin_shufflevector(pair[2], pair[3], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Row8 yw01 = __builtin_shufflevector(pair[0], pair[1], 1, 9, 3, 11, 5, 13, 7, 15);
+  const Row8 yw23 = __builtin_shufflevector(pair[2], pair[3], 1, 9, 3, 11, 5, 13, 7, 15);
+  x = __builtin_shufflevector(xz01, xz23, 0, 1, 8, 9, 4, 5, 12, 13);
+  y = __builtin_shufflevector(yw01, yw23, 0, 1, 8, 9, 4, 5, 12, 13);
+  z = __builtin_shufflevector(xz01, xz23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/// The inverse: eight rows (x, y, z, 0).
+BRIO_INLINE void transpose_lanes(Row8 x, Row8 y, Row8 z, Row4 rows[8]) {
+  const Row8 zero = {};
+  const Row8 xy_even = __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Row8 xy_odd = __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Row8 z_even = __builtin_shufflevector(z, zero, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Row8 z_odd = __builtin_shufflevector(z, zero, 1, 9, 3, 11, 5, 13, 7, 15);
+  rows[0] = __builtin_shufflevector(xy_even, z_even, 0, 1, 8, 9);
+  rows[1] = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 8, 9);
+  rows[2] = __builtin_shufflevector(xy_even, z_even, 2, 3, 10, 11);
+  rows[3] = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 10, 11);
+  rows[4] = __builtin_shufflevector(xy_even, z_even, 4, 5, 12, 13);
+  rows[5] = __builtin_shufflevector(xy_odd, z_odd, 4, 5, 12, 13);
+  rows[6] = __builtin_shufflevector(xy_even, z_even, 6, 7, 14, 15);
+  rows[7] = __builtin_shufflevector(xy_odd, z_odd, 6, 7, 14, 15);
+}
+
+/// Three doubles a lane for all lanes of a pack: one group of eight for double, two for float.
+template <Floating Real>
+struct WideVector {
+  static constexpr int groups = lane_count<Real> / 8;
+  Row8 x[groups], y[groups], z[groups];
+};
+
+/// `first` points at row 0 of an array whose rows are `stride` doubles apart.
+template <Floating Real>
+BRIO_INLINE WideVector<Real> gather_rows(const double* first, std::size_t stride, const int* node) {
+  WideVector<Real> wide;
+  for (int group = 0; group < WideVector<Real>::groups; ++group) {
+    Row4 rows[8];
+    for (int lane = 0; lane < 8; ++lane)
+      rows[lane] = load_row(first + stride * static_cast<std::size_t>(node[8 * group + lane]));
+    transpose_rows(rows, wide.x[group], wide.y[group], wide.z[group]);
+  }
+  return wide;
+}
+
+template <Floating Real>
+BRIO_INLINE Lanes<Real> narrow(const Row8* wide) {
+  if constexpr (sizeof(Real) == 8) {
+    return Lanes<Real>(wide[0]);
+  } else {
+    typedef float Half __attribute__((vector_size(32)));
+    const Half low = __builtin_convertvector(wide[0], Half);
+    const Half high = __builtin_convertvector(wide[1], Half);
+    return Lanes<Real>(__builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+  }
+}
+template <Floating Real>
+BRIO_INLINE void widen(Lanes<Real> lanes, Row8* wide) {
+  if constexpr (sizeof(Real) == 8) {
+    wide[0] = lanes.v;
+  } else {
+    typedef float Half __attribute__((vector_size(32)));
+    const Half low = __builtin_shufflevector(lanes.v, lanes.v, 0, 1, 2, 3, 4, 5, 6, 7);
+    const Half high = __builtin_shufflevector(lanes.v, lanes.v, 8, 9, 10, 11, 12, 13, 14, 15);
+    wide[0] = __builtin_convertvector(low, Row8);
+    wide[1] = __builtin_convertvector(high, Row8);
+  }
+}
+
+/// Subtract three components from the rows of the first `count` lanes.
+template <Floating Real>
+BRIO_INLINE void subtract_from_rows(NodeVector* first, const int* node, int count, Lanes<Real> x, Lanes<Real> y,
+                                    Lanes<Real> z) {
+  WideVector<Real> wide;
+  widen(x, wide.x);
+  widen(y, wide.y);
+  widen(z, wide.z);
+  for (int group = 0; group < WideVector<Real>::groups; ++group) {
+    Row4 rows[8];
+    transpose_lanes(wide.x[group], wide.y[group], wide.z[group], rows);
+    const int last = count - 8 * group < 8 ? count - 8 * group : 8;
+    for (int lane = 0; lane < last; ++lane) {
+      double* row = first[node[8 * group + lane]].component;
+      store_row(row, load_row(row) - rows[lane]);
+    }
+  }
+}
+
+}  // namespace brio

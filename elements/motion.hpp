@@ -1,0 +1,63 @@
+#pragma once
+/// What an element kernel sees: positions and velocities of its nodes, and what it hands back.
+
+#include "materials/stress_state.hpp"
+
+namespace brio {
+
+/// Positions at step n and velocities at n-1/2, [component][node]; both relative to the element's first node, so that
+/// precision does not depend on where the model stands or how fast its frame moves.
+template <class T, int N>
+struct NodalMotion {
+  T position[3][N];
+  T velocity[3][N];
+};
+/// The same with angular velocities (absolute), for elements whose nodes turn.
+template <class T, int N>
+struct RotatingNodalMotion : NodalMotion<T, N> {
+  T angular_velocity[3][N];
+};
+
+/// Internal forces, [component][node]: what the element exerts is their negative.
+template <class T, int N>
+struct NodalForces {
+  T force[3][N];
+};
+template <class T, int N>
+struct RotatingNodalForces : NodalForces<T, N> {
+  T moment[3][N];
+};
+
+/// Work done on the element since the last step, by kind, and the largest step for which it is stable now.
+/// A stable step that is not positive says that the element has inverted.
+template <class T>
+struct Increment {
+  T internal_energy;   ///< elastic and plastic
+  T hourglass_energy;
+  T viscous_energy;    ///< bulk viscosity and viscous hourglass control
+  T stable_step;
+};
+
+/// Lumped mass and rotational inertia that an element gives to each of its nodes (inertia 0 for solids).
+template <class T>
+struct NodalMass {
+  T mass;
+  T rotational_inertia;
+};
+
+/// What output asks of an element, on global axes.
+struct ElementSample {
+  SymmetricTensor<double> stress{};        ///< Cauchy stress; mean over the points
+  double equivalent_plastic_strain = 0;    ///< largest over the points
+  double internal_energy = 0;
+  double thickness = 0;                    ///< shells; 0 for solids
+};
+
+template <class Element, class T>
+using MotionOf = std::conditional_t<Element::rotations, RotatingNodalMotion<T, Element::nodes>,
+                                    NodalMotion<T, Element::nodes>>;
+template <class Element, class T>
+using ForcesOf = std::conditional_t<Element::rotations, RotatingNodalForces<T, Element::nodes>,
+                                    NodalForces<T, Element::nodes>>;
+
+}  // namespace brio

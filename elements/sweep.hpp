@@ -1,0 +1,246 @@
+#pragma once
+/// The one loop over elements. An element kind provides
+///
+///     static constexpr std::string_view name;
+///     static constexpr int nodes;  static constexpr bool rotations;
+///     template <class Law> static constexpr bool accepts;
+///     int points() const;                                    // material points an element
+///     template <class T, class Law> struct Header;           // per element, T is the number of the lanes
+///     template <class T, class Law> struct Point;            // per material point
+///     NodalMass<T> initialize(const MotionOf<E, T>&, const Law&, Header<T, Law>&, Point<T, Law>*) const;
+///     Increment<T> force(const MotionOf<E, T>&, T step, const Law&, Header<T, Law>&, Point<T, Law>*,
+///                        ForcesOf<E, T>&) const;
+///     ElementSample sample(const MotionOf<E, double>&, const Law&, const Header<double, Law>&,
+///                          const Point<double, Law>*) const;
+///
+/// and one .cpp with `choose_kernel` for it. Header and Point hold nothing but numbers `T`, so that a pack is an array
+/// [component][lane] and one lane of it can be read back as plain doubles.
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "elements/block.hpp"
+#include "elements/gather.hpp"
+
+namespace brio {
+
+template <class Kind, class Law, Floating Real>
+struct PackLayout {
+  using Number = Lanes<Real>;
+  using Header = typename Kind::template Header<Number, Law>;
+  using Point = typename Kind::template Point<Number, Law>;
+  static_assert(sizeof(Header) % sizeof(Number) == 0 && sizeof(Point) % sizeof(Number) == 0);
+
+  static std::size_t bytes(const Kind& kind) {
+    return sizeof(Header) + static_cast<std::size_t>(kind.points()) * sizeof(Point);
+  }
+  static Header& header(Block& block, std::size_t pack) {
+    return *reinterpret_cast<Header*>(block.state.data() + pack * block.pack_bytes);
+  }
+  static Point* points(Block& block, std::size_t pack) {
+    return reinterpret_cast<Point*>(block.state.data() + pack * block.pack_bytes + sizeof(Header));
+  }
+};
+
+template <class Kind, Floating Real>
+BRIO_INLINE MotionOf<Kind, Lanes<Real>> gather_motion(const Nodes& nodes, const int* connectivity) {
+  constexpr int width = lane_count<Real>;
+  constexpr std::size_t stride = sizeof(NodeRecord) / sizeof(double);
+  MotionOf<Kind, Lanes<Real>> motion;
+  const double* position = nodes.record.data()->position;
+  const double* velocity = nodes.record.data()->velocity;
+  WideVector<Real> first_position, first_velocity;
+#pragma GCC unroll 8
+  for (int corner = 0; corner < Kind::nodes; ++corner) {
+    const int* node = connectivity + corner * width;
+    WideVector<Real> x = gather_rows<Real>(position, stride, node);
+    WideVector<Real> v = gather_rows<Real>(velocity, stride, node);
+    if (corner == 0) {
+      first_position = x;
+      first_velocity = v;
+    }
+    for (int group = 0; group < WideVector<Real>::groups; ++group) {
+      x.x[group] -= first_position.x[group];
+      x.y[group] -= first_position.y[group];
+      x.z[group] -= first_position.z[group];
+      v.x[group] -= first_velocity.x[group];
+      v.y[group] -= first_velocity.y[group];
+      v.z[group] -= first_velocity.z[group];
+    }
+    motion.position[0][corner] = narrow<Real>(x.x);
+    motion.position[1][corner] = narrow<Real>(x.y);
+    motion.position[2][corner] = narrow<Real>(x.z);
+    motion.velocity[0][corner] = narrow<Real>(v.x);
+    motion.velocity[1][corner] = narrow<Real>(v.y);
+    motion.velocity[2][corner] = narrow<Real>(v.z);
+    if constexpr (Kind::rotations) {
+      const WideVector<Real> w =
+          gather_rows<Real>(nodes.angular_velocity.data()->component, sizeof(NodeVector) / sizeof(double), node);
+      motion.angular_velocity[0][corner] = narrow<Real>(w.x);
+      motion.angular_velocity[1][corner] = narrow<Real>(w.y);
+      motion.angular_velocity[2][corner] = narrow<Real>(w.z);
+    }
+  }
+  return motion;
+}
+
+/// Sum in double, lane by lane, over the packs of a chunk.
+template <Floating Real>
+struct LaneSum {
+  Row8 total[lane_count<Real> / 8] = {};
+
+  BRIO_INLINE void add(Lanes<Real> value, int count) {
+    if (count < lane_count<Real>)
+      for (int lane = count; lane < lane_count<Real>; ++lane) value.set(lane, Real(0));
+    Row8 wide[lane_count<Real> / 8];
+    widen(value, wide);
+    for (int group = 0; group < lane_count<Real> / 8; ++group) total[group] += wide[group];
+  }
+  double sum() const {
+    double result = 0;
+    for (const Row8& group : total)
+      for (int lane = 0; lane < 8; ++lane) result += group[lane];
+    return result;
+  }
+};
+
+template <class Kind, class Law, Floating Real>
+SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
+  using T = Lanes<Real>;
+  using Layout = PackLayout<Kind, Law, Real>;
+  constexpr int width = lane_count<Real>;
+  // Copies that nothing else can alias, so that what depends on parameters alone leaves the loop.
+  const Kind kind = std::get<Kind>(block.element);
+  const Law law = std::get<Law>(block.material);
+  LaneSum<Real> internal_energy, hourglass_energy, viscous_energy;
+  SweepResult result;
+  result.stable_step = HUGE_VAL;
+  for (std::size_t pack = chunk.first_pack; pack < chunk.last_pack; ++pack) {
+    const int* connectivity = block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
+    const int count = static_cast<int>(std::min<std::size_t>(width, block.element_count - pack * width));
+    const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
+    ForcesOf<Kind, T> forces;
+    const Increment<T> increment =
+        kind.force(motion, T(step), law, Layout::header(block, pack), Layout::points(block, pack), forces);
+#pragma GCC unroll 8
+    for (int corner = 0; corner < Kind::nodes; ++corner) {
+      const int* node = connectivity + corner * width;
+      subtract_from_rows<Real>(nodes.force.data(), node, count, forces.force[0][corner], forces.force[1][corner],
+                               forces.force[2][corner]);
+      if constexpr (Kind::rotations)
+        subtract_from_rows<Real>(nodes.moment.data(), node, count, forces.moment[0][corner],
+                                 forces.moment[1][corner], forces.moment[2][corner]);
+    }
+    internal_energy.add(increment.internal_energy, count);
+    hourglass_energy.add(increment.hourglass_energy, count);
+    viscous_energy.add(increment.viscous_energy, count);
+    // Not "any smaller": a step that is not a number must count as the smallest of all.
+    if (!all(increment.stable_step >= T(result.stable_step))) {
+      for (int lane = 0; lane < count; ++lane) {
+        const double candidate = static_cast<double>(increment.stable_step[lane]);
+        if (candidate >= result.stable_step || result.stable_step <= 0) continue;
+        result.stable_step = std::isnan(candidate) ? -1.0 : candidate;
+        result.critical_element = pack * width + static_cast<std::size_t>(lane);
+      }
+    }
+  }
+  result.internal_energy = internal_energy.sum();
+  result.hourglass_energy = hourglass_energy.sum();
+  result.viscous_energy = viscous_energy.sum();
+  return result;
+}
+
+template <class Kind, class Law, Floating Real>
+void initialize_block(Block& block, Nodes& nodes) {
+  using T = Lanes<Real>;
+  using Layout = PackLayout<Kind, Law, Real>;
+  constexpr int width = lane_count<Real>;
+  const Kind& kind = std::get<Kind>(block.element);
+  const Law& law = std::get<Law>(block.material);
+  for (std::size_t pack = 0; pack < block.pack_count; ++pack) {
+    const int* connectivity = block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
+    const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
+    const NodalMass<T> share = kind.initialize(motion, law, Layout::header(block, pack), Layout::points(block, pack));
+    for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count; ++lane) {
+      if (!(share.mass[lane] > 0))
+        throw std::invalid_argument("element " + std::to_string(pack * width + static_cast<std::size_t>(lane)) +
+                                    " of part '" + block.part + "' has no positive volume");
+      for (int corner = 0; corner < Kind::nodes; ++corner) {
+        const auto node = static_cast<std::size_t>(connectivity[corner * width + lane]);
+        nodes.mass[node] += static_cast<double>(share.mass[lane]);
+        if constexpr (Kind::rotations)
+          nodes.rotational_inertia[node] += static_cast<double>(share.rotational_inertia[lane]);
+      }
+    }
+  }
+}
+
+/// One lane of a pack as plain doubles.
+template <class Scalar, Floating Real>
+void copy_lane(const std::byte* pack, int lane, Scalar* out) {
+  static_assert(std::is_trivially_copyable_v<Scalar>);
+  for (std::size_t component = 0; component < sizeof(Scalar) / sizeof(double); ++component) {
+    Real value;
+    std::memcpy(&value, pack + (component * lane_count<Real> + static_cast<std::size_t>(lane)) * sizeof(Real), sizeof value);
+    const auto widened = static_cast<double>(value);
+    std::memcpy(reinterpret_cast<std::byte*>(out) + component * sizeof(double), &widened, sizeof widened);
+  }
+}
+
+template <class Kind, class Law, Floating Real>
+ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t e) {
+  using Layout = PackLayout<Kind, Law, Real>;
+  constexpr int width = lane_count<Real>;
+  const Kind& kind = std::get<Kind>(block.element);
+  const std::byte* pack = block.state.data() + (e / width) * block.pack_bytes;
+  const int lane = static_cast<int>(e % width);
+  typename Kind::template Header<double, Law> header;
+  copy_lane<decltype(header), Real>(pack, lane, &header);
+  std::vector<typename Kind::template Point<double, Law>> points(static_cast<std::size_t>(kind.points()));
+  for (std::size_t p = 0; p < points.size(); ++p)
+    copy_lane<typename Kind::template Point<double, Law>, Real>(
+        pack + sizeof(typename Layout::Header) + p * sizeof(typename Layout::Point), lane, &points[p]);
+  MotionOf<Kind, double> motion;
+  const NodeRecord& first = nodes.record[static_cast<std::size_t>(block.node(e, 0))];
+  for (int corner = 0; corner < Kind::nodes; ++corner) {
+    const auto node = static_cast<std::size_t>(block.node(e, corner));
+    for (int i = 0; i < 3; ++i) {
+      motion.position[i][corner] = nodes.record[node].position[i] - first.position[i];
+      motion.velocity[i][corner] = nodes.record[node].velocity[i] - first.velocity[i];
+      if constexpr (Kind::rotations)
+        motion.angular_velocity[i][corner] = nodes.angular_velocity[node].component[i];
+    }
+  }
+  return kind.sample(motion, std::get<Law>(block.material), header, points.data());
+}
+
+template <class Kind, class Law, Floating Real>
+void set_kernel(Block& block) {
+  block.pack_bytes = PackLayout<Kind, Law, Real>::bytes(std::get<Kind>(block.element));
+  block.kernel = {sweep_chunk<Kind, Law, Real>, initialize_block<Kind, Law, Real>, sample_element<Kind, Law, Real>};
+}
+
+/// Sets block.kernel and block.pack_bytes; instantiates every accepted law in both precisions.
+template <class Kind>
+void choose_kernel_of(Block& block) {
+  std::visit(
+      [&](const auto& law) {
+        using Law = std::decay_t<decltype(law)>;
+        if constexpr (Kind::template accepts<Law>) {
+          if (block.precision == Precision::double_precision) {
+            set_kernel<Kind, Law, double>(block);
+          } else {
+            set_kernel<Kind, Law, float>(block);
+          }
+        }
+      },
+      block.material);
+}
+
+// One translation unit an element kind holds the code of its kernels.
+void choose_kernel(const Hex8&, Block& block);
+
+}  // namespace brio

@@ -1,0 +1,43 @@
+#pragma once
+/// Nodal state. One 64-byte record a node holds what every kernel reads; forces stand beside it. Rotational
+/// twins are allocated only where shells or beams exist.
+
+#include <cstddef>
+
+#include "src/base/aligned.hpp"
+
+namespace brio {
+
+struct alignas(64) NodeRecord {
+  double position[4];      ///< x y z, unused
+  double velocity[3];      ///< at the last half step
+  double inverse_mass;     ///< 0 where a node has no mass
+};
+
+/// Force, moment, angular velocity: three components and a fourth that keeps rows aligned.
+struct alignas(32) NodeVector {
+  double component[4];
+};
+
+struct Nodes {
+  AlignedBuffer<NodeRecord> record;
+  AlignedBuffer<NodeVector> force;             ///< external minus internal, of the current step
+  AlignedBuffer<double> mass;
+  AlignedBuffer<NodeVector> angular_velocity;  ///< component[3] holds the inverse rotational inertia
+  AlignedBuffer<NodeVector> moment;
+  AlignedBuffer<double> rotational_inertia;
+
+  Nodes() = default;
+  Nodes(std::size_t count, bool with_rotations)
+      : record(count),
+        force(count),
+        mass(count),
+        angular_velocity(with_rotations ? count : 0),
+        moment(with_rotations ? count : 0),
+        rotational_inertia(with_rotations ? count : 0) {}
+
+  std::size_t size() const { return record.size(); }
+  bool has_rotations() const { return !angular_velocity.empty(); }
+};
+
+}  // namespace brio

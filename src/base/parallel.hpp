@@ -1,0 +1,68 @@
+#pragma once
+/// The only mention of threads. Work is cut into numbered tasks whatever the number of threads, and what a task
+/// computes does not depend on who runs it; sums over tasks are formed in task order by the caller. So results
+/// are the same bits for any number of threads.
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+namespace brio {
+
+/// A fixed team of threads. `for_each` returns when every task is done; it allocates nothing.
+class ThreadTeam {
+ public:
+  /// \param count number of threads, the caller's included; at least 1.
+  explicit ThreadTeam(int count = 1);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  int size() const { return static_cast<int>(workers_.size()) + 1; }
+
+  /// Run `task(i)` for i in [0, count), in any order, by any thread of the team. Tasks must not throw.
+  template <class Task>
+  void for_each(std::size_t count, Task&& task) {
+    if (workers_.empty() || count < 2) {
+      for (std::size_t i = 0; i < count; ++i) task(i);
+      return;
+    }
+    using Callable = std::remove_reference_t<Task>;
+    run(
+        count, [](void* context, std::size_t i) { (*static_cast<Callable*>(context))(i); },
+        const_cast<void*>(static_cast<const void*>(&task)));
+  }
+
+  /// Run `task(begin, end)` over [0, count) cut into pieces of `grain`; a single piece runs on the caller.
+  template <class Task>
+  void for_ranges(std::size_t count, std::size_t grain, Task&& task) {
+    const std::size_t pieces = (count + grain - 1) / grain;
+    for_each(pieces, [&](std::size_t piece) {
+      const std::size_t begin = piece * grain;
+      task(begin, begin + grain < count ? begin + grain : count);
+    });
+  }
+
+ private:
+  using Call = void (*)(void*, std::size_t);
+  void run(std::size_t count, Call call, void* context);
+  void work();
+  void drain();
+
+  std::vector<std::thread> workers_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::atomic<std::size_t> generation_{0};
+  std::atomic<std::size_t> next_{0};
+  std::atomic<int> busy_{0};
+  std::atomic<bool> stop_{false};
+  Call call_ = nullptr;
+  void* context_ = nullptr;
+  std::size_t count_ = 0;
+};
+
+}  // namespace brio

@@ -3,6 +3,7 @@
 /// twins are allocated only where shells or beams exist.
 
 #include <cstddef>
+#include <cstdint>
 
 #include "src/base/aligned.hpp"
 
@@ -26,6 +27,9 @@ struct Nodes {
   AlignedBuffer<NodeVector> angular_velocity;  ///< component[3] holds the inverse rotational inertia
   AlignedBuffer<NodeVector> moment;
   AlignedBuffer<double> rotational_inertia;
+  /// Bit i: velocity component i is prescribed (infinite mass along axis i); bits 3 to 5: the rotations.
+  /// Empty where no deck entry prescribes anything.
+  AlignedBuffer<std::uint8_t> prescribed;
 
   Nodes() = default;
   Nodes(std::size_t count, bool with_rotations)
@@ -37,6 +41,11 @@ struct Nodes {
         rotational_inertia(with_rotations ? count : 0) {}
 
   std::size_t size() const { return record.size(); }
+  /// Inverse mass as contact and walls see it along one axis: 0 where the motion is prescribed.
+  double free_inverse_mass(std::size_t node, int axis) const {
+    if (!prescribed.empty() && (prescribed[node] >> axis & 1) != 0) return 0;
+    return record[node].inverse_mass;
+  }
   bool has_rotations() const { return !angular_velocity.empty(); }
 };
 

@@ -1,0 +1,33 @@
+#pragma once
+/// What a mesh holds, before it is part of a model.
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace brio {
+
+/// A side of an element, for pressure: element index and local side (hex: 0..5 as in sides_of_hex; shell: 0).
+struct ElementSide {
+  int element;
+  int side;
+};
+
+struct Mesh {
+  int nodes_per_element = 8;
+  std::vector<std::array<double, 3>> position;
+  std::vector<int> connectivity;                      ///< nodes_per_element entries an element
+  std::map<std::string, std::vector<int>> node_sets;  ///< ascending node indices
+  std::map<std::string, std::vector<ElementSide>> side_sets;
+
+  std::size_t element_count() const {
+    return connectivity.size() / static_cast<std::size_t>(nodes_per_element);
+  }
+};
+
+/// Corners of the sides of a hexahedron in VTK order, each seen counter-clockwise from outside.
+inline constexpr std::array<std::array<int, 4>, 6> sides_of_hex{
+    {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+
+}  // namespace brio

@@ -1,0 +1,41 @@
+#pragma once
+/// The search of Heinstein et al. (1993), after Swegle: for each axis the points' indices in ascending order
+/// and each point's rank in that order, and one scratch list: 7 n integers. Two binary searches an axis give
+/// the slab of a box; the points of the shortest slab are tested by their ranks on the other two axes. A slab
+/// of a large scene holds many points, so that the cost grows faster than n log n: this is the counted
+/// reference.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/pair_pieces.hpp"
+#include "contact/search.hpp"
+
+namespace brio {
+
+class SortedListSearch {
+ public:
+  /// Replace `pairs` by all (box, point) pairs with the point inside the box, and add the work to `counts`.
+  /// The same for any number of threads; allocates nothing once as many points, boxes and pairs have been
+  /// seen. \throws std::length_error when the pairs cannot be numbered by an int.
+  void find(std::span<const Vector3<double>> points, std::span<const CaptureBox> boxes, ThreadTeam& team,
+            CandidatePairs& pairs, SearchCounts& counts);
+
+ private:
+  struct Slab {
+    int begin, end;  ///< positions in order_
+  };
+  void sort(std::span<const Vector3<double>> points, int axis);
+  Slab slab(int axis, std::span<const Vector3<double>> points, double lower, double upper,
+            std::uint64_t& comparisons) const;
+  void find_in_box(std::span<const Vector3<double>> points, std::span<const CaptureBox> boxes,
+                   std::size_t box, PairPiece& piece) const;
+
+  std::vector<int> order_[3];  ///< point indices by ascending coordinate, without points that are not numbers
+  std::vector<int> rank_[3];   ///< position of a point in order_; -1 where left out
+  std::vector<int> scratch_;
+  std::vector<PairPiece> pieces_;
+};
+
+}  // namespace brio

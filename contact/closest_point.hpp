@@ -1,0 +1,67 @@
+#pragma once
+/// Closest point of a triangle and of a quadrilateral face to a node, with the feature it lies on. Everything
+/// here is local to one face: normals that need the neighbours (angle-weighted at vertices, averaged at
+/// edges: Baerentzen and Aanaes 2005) belong to whoever knows the neighbours.
+///
+/// A face has four vertices, counterclockwise when seen from the side its normal points to. It is the union
+/// of four triangles (centroid, vertex k, vertex k+1), the centroid being the mean of the four vertices. A
+/// triangular face repeats its third vertex as the fourth and is then that one triangle.
+
+#include <Eigen/Dense>
+#include <array>
+
+namespace brio {
+
+using FaceVertices = std::array<Eigen::Vector3d, 4>;
+
+enum class Feature { interior, edge, vertex };
+
+/// a x b, each component correct to about one rounding even where the products nearly cancel (Kahan's
+/// difference of products with fused multiply-add): the normal of a sliver keeps its direction.
+Eigen::Vector3d accurate_cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+/// Closest point of one triangle.
+struct TrianglePoint {
+  std::array<double, 3> weights;  // of the three vertices: none negative, their sum is 1
+  Eigen::Vector3d offset;         // from the node to the closest point, in the unit of the vertices
+  Eigen::Vector3d area_vector;    // (b - a) x (c - a): twice the area times the unit normal
+  double squared_distance;
+  Feature feature;
+  int index;  // edge k joins vertices k and k+1; vertex k; 0 in the interior
+};
+
+/// Closest point of the triangle to the node. Slivers and triangles without area are allowed: whatever the
+/// shape, the point lies on the triangle and is the closest within a few roundings of the distances involved.
+TrianglePoint closest_point_on_triangle(const Eigen::Vector3d& node,
+                                        const std::array<Eigen::Vector3d, 3>& vertices);
+
+/// Closest point of a face.
+struct ClosestPoint {
+  Eigen::Vector3d point;
+  Eigen::Vector3d
+      separation;  // node - point, formed from local differences, so exact also far from the origin
+  std::array<double, 4> weights;  // of the four face vertices: none negative, their sum is 1
+  Eigen::Vector3d normal;  // unit normal of the sub-triangle; zero if neither it nor the face has an area
+  double squared_distance;
+  Feature feature;   // seams between sub-triangles belong to the interior
+  int index;         // edge k joins face vertices k and k+1; vertex k; the sub-triangle in the interior
+  int sub_triangle;  // 0..3; 0 for a triangular face
+};
+
+ClosestPoint closest_point_on_quad(const Eigen::Vector3d& node, const FaceVertices& vertices);
+
+/// Whether the fourth vertex repeats the third.
+inline bool is_triangle(const FaceVertices& vertices) { return vertices[3] == vertices[2]; }
+
+/// Signed gap of a node: its distance with the sign of the side on which it lies, judged by the normal (or
+/// pseudo-normal) of the feature the closest point is on. Positive outside, negative behind.
+double signed_gap(const ClosestPoint& closest, const Eigen::Vector3d& normal);
+
+/// Gap along the normal of the sub-triangle: (node - point) . normal. Zero or nearly so beyond an edge in the
+/// plane.
+double normal_gap(const ClosestPoint& closest);
+
+/// Unit vector along `area_vector`, or along `otherwise` if that has no length, or zero if neither has.
+Eigen::Vector3d unit_or(const Eigen::Vector3d& area_vector, const Eigen::Vector3d& otherwise);
+
+}  // namespace brio

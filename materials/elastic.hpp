@@ -4,13 +4,9 @@
 #include <string_view>
 #include <tuple>
 
-#include "materials/stress_state.hpp"
-#include "src/base/fields.hpp"
+#include "materials/elastic_constants.hpp"
 
 namespace brio {
-
-/// Poisson's ratio at which the bulk modulus is still finite.
-inline constexpr Range poissons_ratio_range{.lower = -1, .upper = 0.5, .lower_open = true, .upper_open = true};
 
 struct Elastic {
   static constexpr std::string_view name = "elastic";
@@ -29,21 +25,26 @@ struct Elastic {
   template <class T>
   struct History {};
 
-  double first_lame() const {
-    return youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio));
-  }
-  double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
+  ElasticConstants elastic() const { return {youngs_modulus, poissons_ratio}; }
 
   template <class T>
   ElasticModuli<T> moduli(const History<T>&) const {
-    return {T(first_lame()), T(shear_modulus())};
+    return elastic().template moduli<T>();
   }
 
   template <class T>
   BRIO_INLINE void update(const SymmetricTensor<T>& strain_increment, SymmetricTensor<T>& stress,
                           History<T>&) const {
-    stress = stress + isotropic(T(first_lame()) * trace(strain_increment)) +
-             T(2 * shear_modulus()) * strain_increment;
+    stress = stress + elastic().stress(strain_increment);
+  }
+
+  template <class T>
+  BRIO_INLINE void update_plane_stress(const ShellTensor<T>& strain_increment, double shear_factor,
+                                       ShellTensor<T>& stress, History<T>&,
+                                       T& thickness_strain_increment) const {
+    const ShellTensor<T> stress_increment = elastic().plane_stress(strain_increment, shear_factor);
+    stress = stress + stress_increment;
+    thickness_strain_increment = elastic().thickness_strain(stress_increment);
   }
 };
 

@@ -4,10 +4,11 @@
 #include <variant>
 
 #include "materials/elastic.hpp"
+#include "materials/elastic_plastic.hpp"
 
 namespace brio {
 
-using Material = std::variant<Elastic>;
+using Material = std::variant<Elastic, ElasticPlastic>;
 
 inline double density(const Material& material) {
   return std::visit([](const auto& law) { return law.density; }, material);

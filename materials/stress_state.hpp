@@ -1,29 +1,54 @@
 #pragma once
 /// What elements and materials exchange.
 ///
-/// A material is a plain struct: parameters with their `fields()`, `template <class T> struct History`, and pointwise
-/// updates on a number-like `T` (lanes.hpp). It provides
+/// A material is a plain struct: parameters with their `fields()`, `template <class T> struct History`, and
+/// pointwise updates on a number-like `T` (lanes.hpp). It provides
 ///
 ///     template <class T> void update(const SymmetricTensor<T>& strain_increment, SymmetricTensor<T>& stress,
 ///                                    History<T>& history) const;                       // solids
-///     template <class T> void update_plane_stress(const ShellTensor<T>& strain_increment, double shear_factor,
+///     template <class T> void update_plane_stress(const ShellTensor<T>& strain_increment, double
+///     shear_factor,
 ///                                    ShellTensor<T>& stress, History<T>& history,
 ///                                    T& thickness_strain_increment) const;              // shells
-///     template <class T> ElasticModuli<T> moduli(const History<T>& history) const;     // current tangent, upper bound
+///     template <class T> ElasticModuli<T> moduli(const History<T>& history) const;     // current tangent,
+///     upper bound
 ///
-/// Stress and strain increments are on axes that turn with the material (unrotated), so a law never sees a rotation.
-/// A law that lacks one of the updates does not pair with elements that need it: the deck reader says so. A law on
-/// total stretch provides `update_from_stretch` instead of `update` (see neo_hookean.hpp).
+/// Stress and strain increments are on axes that turn with the material (unrotated), so a law never sees a
+/// rotation. A law that lacks one of the updates does not pair with elements that need it: the deck reader
+/// says so. A law on total stretch provides `update_from_stretch` instead of `update` (see neo_hookean.hpp).
 
 #include "src/base/tensor.hpp"
 
 namespace brio {
 
+template <class T, class Mask>
+BRIO_INLINE SymmetricTensor<T> where(Mask condition, const SymmetricTensor<T>& a,
+                                     const SymmetricTensor<T>& b) {
+  return {where(condition, a.xx, b.xx), where(condition, a.yy, b.yy), where(condition, a.zz, b.zz),
+          where(condition, a.xy, b.xy), where(condition, a.yz, b.yz), where(condition, a.xz, b.xz)};
+}
+
 /// In-plane and transverse components on shell axes (zz = 0); shears are tensor components.
 template <class T>
 struct ShellTensor {
   T xx, yy, xy, yz, xz;
+
+  friend BRIO_INLINE ShellTensor operator+(const ShellTensor& a, const ShellTensor& b) {
+    return {a.xx + b.xx, a.yy + b.yy, a.xy + b.xy, a.yz + b.yz, a.xz + b.xz};
+  }
+  friend BRIO_INLINE ShellTensor operator-(const ShellTensor& a, const ShellTensor& b) {
+    return {a.xx - b.xx, a.yy - b.yy, a.xy - b.xy, a.yz - b.yz, a.xz - b.xz};
+  }
+  friend BRIO_INLINE ShellTensor operator*(T s, const ShellTensor& a) {
+    return {s * a.xx, s * a.yy, s * a.xy, s * a.yz, s * a.xz};
+  }
 };
+
+template <class T, class Mask>
+BRIO_INLINE ShellTensor<T> where(Mask condition, const ShellTensor<T>& a, const ShellTensor<T>& b) {
+  return {where(condition, a.xx, b.xx), where(condition, a.yy, b.yy), where(condition, a.xy, b.xy),
+          where(condition, a.yz, b.yz), where(condition, a.xz, b.xz)};
+}
 
 /// First Lame constant and shear modulus that bound wave speeds.
 template <class T>

@@ -1,0 +1,64 @@
+#pragma once
+/// J2 plasticity with linear hardening, isotropic, kinematic or a mix of both.
+
+#include <string_view>
+#include <tuple>
+
+#include "materials/plastic_flow.hpp"
+
+namespace brio {
+
+struct ElasticPlastic {
+  static constexpr std::string_view name = "elastic_plastic";
+  double density = 0;
+  double youngs_modulus = 0;
+  double poissons_ratio = 0;
+  double yield_stress = 0;
+  double hardening_modulus = 0;
+  double hardening_mix = 0;
+
+  static constexpr auto fields() {
+    return std::tuple{
+        required("density", &ElasticPlastic::density, positive, "mass per reference volume"),
+        required("youngs_modulus", &ElasticPlastic::youngs_modulus, positive, "Young's modulus, stress"),
+        required("poissons_ratio", &ElasticPlastic::poissons_ratio, poissons_ratio_range,
+                 "Poisson's ratio, -"),
+        required("yield_stress", &ElasticPlastic::yield_stress, positive, "uniaxial yield stress"),
+        optional("hardening_modulus", &ElasticPlastic::hardening_modulus, non_negative,
+                 "slope of uniaxial stress over plastic strain, stress"),
+        optional("hardening_mix", &ElasticPlastic::hardening_mix, fraction,
+                 "share of the hardening that moves the yield surface: 0 isotropic, 1 kinematic, -"),
+    };
+  }
+
+  template <class T>
+  struct History {
+    T equivalent_plastic_strain;
+    SymmetricTensor<T> back_stress;  ///< deviatoric
+  };
+
+  ElasticConstants elastic() const { return {youngs_modulus, poissons_ratio}; }
+  LinearHardening hardening() const { return {yield_stress, (1 - hardening_mix) * hardening_modulus}; }
+  double kinematic_modulus() const { return hardening_mix * hardening_modulus; }
+
+  template <class T>
+  ElasticModuli<T> moduli(const History<T>&) const {
+    return elastic().template moduli<T>();
+  }
+
+  template <class T>
+  BRIO_INLINE void update(const SymmetricTensor<T>& strain_increment, SymmetricTensor<T>& stress,
+                          History<T>& history) const {
+    plastic_update(*this, strain_increment, stress, history);
+  }
+
+  template <class T>
+  BRIO_INLINE void update_plane_stress(const ShellTensor<T>& strain_increment, double shear_factor,
+                                       ShellTensor<T>& stress, History<T>& history,
+                                       T& thickness_strain_increment) const {
+    plastic_update_plane_stress(*this, strain_increment, shear_factor, stress, history,
+                                thickness_strain_increment);
+  }
+};
+
+}  // namespace brio

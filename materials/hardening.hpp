@@ -1,0 +1,45 @@
+#pragma once
+/// The yield stress as a function of the equivalent plastic strain. A hardening law is a small struct that
+/// provides
+///
+///     HardeningPoint<T> at(T plastic_strain) const;
+///     HardeningPoint<T> meet(HardeningPoint<T> near, T effective_stress, T stiffness) const;
+///     double initial_yield_stress() const;
+///
+/// `meet` is the point where the hardening curve crosses the falling line
+///
+///     q(p) = effective_stress - stiffness (p - near.plastic_strain)
+///
+/// on which elastic unloading by plastic flow takes the effective stress: the solution of the consistency
+/// condition of a radial return. The line starts on or above the curve, but for the last digits; stiffness >
+/// 0. Everything that flows (solids, shells, fibres) is written on these three.
+
+#include "src/base/lanes.hpp"
+
+namespace brio {
+
+template <class T>
+struct HardeningPoint {
+  T plastic_strain;  ///< equivalent plastic strain p, -
+  T stress;          ///< yield stress at p
+};
+
+/// yield_stress + modulus p
+struct LinearHardening {
+  double yield_stress;
+  double modulus;  ///< d(yield stress)/dp >= 0
+
+  double initial_yield_stress() const { return yield_stress; }
+
+  template <class T>
+  BRIO_INLINE HardeningPoint<T> at(T plastic_strain) const {
+    return {plastic_strain, T(yield_stress) + T(modulus) * plastic_strain};
+  }
+
+  template <class T>
+  BRIO_INLINE HardeningPoint<T> meet(HardeningPoint<T> near, T effective_stress, T stiffness) const {
+    return at(near.plastic_strain + (effective_stress - near.stress) / (stiffness + T(modulus)));
+  }
+};
+
+}  // namespace brio

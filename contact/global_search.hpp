@@ -5,6 +5,7 @@
 
 #include "contact/search.hpp"
 #include "contact/sorted_list_search.hpp"
+#include "contact/tree_search.hpp"
 
 namespace brio {
 
@@ -17,12 +18,17 @@ class GlobalSearch {
   /// boxes and pairs have been seen. \throws std::length_error when the pairs cannot be numbered by an int.
   void find(std::span<const Vector3<double>> points, std::span<const CaptureBox> boxes, ThreadTeam& team,
             CandidatePairs& pairs, SearchCounts& counts) {
-    sorted_lists_.find(points, boxes, team, pairs, counts);
+    if (strategy_ == SearchStrategy::sorted_lists) {
+      sorted_lists_.find(points, boxes, team, pairs, counts);
+    } else {
+      tree_.find(points, boxes, team, pairs, counts);
+    }
   }
 
  private:
   SearchStrategy strategy_;
   SortedListSearch sorted_lists_;
+  TreeSearch tree_;
 };
 
 }  // namespace brio

@@ -8,7 +8,7 @@ namespace brio {
 void merge(std::span<const PairPiece> pieces, std::size_t boxes, ThreadTeam& team, CandidatePairs& pairs,
            SearchCounts& counts) {
   std::size_t found = 0;
-  for (const PairPiece& piece : pieces) found += piece.node.size();
+  for (const PairPiece& piece : pieces) found += piece.found;
   if (found > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw std::length_error("contact search: more candidate pairs than an int can number");
 

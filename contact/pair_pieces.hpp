@@ -12,18 +12,36 @@
 
 namespace brio {
 
-/// What one task found: node[...] holds count[0] points of box[0], then count[1] points of box[1], ...
+/// Make room for `size` elements in a list that only ever grows.
+template <class T>
+void make_room(std::vector<T>& list, std::size_t size) {
+  if (list.size() < size) list.resize(std::max(size, 2 * list.size()));
+}
+
+/// What one task found: node[0] ... node[found - 1] holds count[0] points of box[0], then count[1] of box[1],
+/// ...
 struct PairPiece {
   std::vector<int> box;
   std::vector<int> count;
-  std::vector<int> node;
+  std::vector<int> node;  ///< room for more than was found
+  std::size_t found = 0;
   std::uint64_t comparisons = 0;
 
   void clear() {
     box.clear();
     count.clear();
-    node.clear();
+    found = 0;
     comparisons = 0;
+  }
+  /// Where the next box may write up to `most` points.
+  int* room(std::size_t most) {
+    make_room(node, found + most);
+    return node.data() + found;
+  }
+  void add(int box_number, std::size_t points) {
+    box.push_back(box_number);
+    count.push_back(static_cast<int>(points));
+    found += points;
   }
 };
 

@@ -57,7 +57,8 @@ void SortedListSearch::find_in_box(std::span<const Vector3<double>> points, std:
   }
   const int second = (shortest + 1) % 3;
   const int third = (shortest + 2) % 3;
-  const std::size_t before = piece.node.size();
+  int* const found = piece.room(static_cast<std::size_t>(slabs[shortest].end - slabs[shortest].begin));
+  std::size_t count = 0;
   for (int position = slabs[shortest].begin; position < slabs[shortest].end; ++position) {
     const int point = order_[shortest][static_cast<std::size_t>(position)];
     const auto inside = [&](int axis) {
@@ -65,11 +66,10 @@ void SortedListSearch::find_in_box(std::span<const Vector3<double>> points, std:
       piece.comparisons += 2;
       return rank >= slabs[axis].begin && rank < slabs[axis].end;
     };
-    if (inside(second) && inside(third)) piece.node.push_back(point);
+    if (inside(second) && inside(third)) found[count++] = point;
   }
-  std::sort(piece.node.begin() + static_cast<std::ptrdiff_t>(before), piece.node.end());
-  piece.box.push_back(static_cast<int>(box));
-  piece.count.push_back(static_cast<int>(piece.node.size() - before));
+  std::sort(found, found + count);
+  piece.add(static_cast<int>(box), count);
 }
 
 void SortedListSearch::find(std::span<const Vector3<double>> points, std::span<const CaptureBox> boxes,

@@ -3,13 +3,17 @@
 #include <random>
 
 #include "contact/global_search.hpp"
-#include "contact/sorted_list_search.hpp"
 #include "tests/contact/search_by_brute_force.hpp"
 
 namespace brio {
 namespace {
 
-TEST(Search, FindsThePairsOfBruteForce) {
+template <class Strategy>
+class EveryStrategy : public ::testing::Test {};
+using Strategies = ::testing::Types<SortedListSearch, TreeSearch>;
+TYPED_TEST_SUITE(EveryStrategy, Strategies);
+
+TYPED_TEST(EveryStrategy, FindsThePairsOfBruteForce) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   std::vector<Vector3<double>> points(500);
@@ -24,7 +28,7 @@ TEST(Search, FindsThePairsOfBruteForce) {
   ASSERT_GT(expected.size(), 0u);
   for (int threads : {1, 2, 3, 8}) {
     ThreadTeam team(threads);
-    SortedListSearch search;
+    TypeParam search;
     CandidatePairs pairs;
     SearchCounts counts;
     search.find(points, boxes, team, pairs, counts);

@@ -30,6 +30,8 @@ struct Nodes {
   /// Bit i: velocity component i is prescribed (infinite mass along axis i); bits 3 to 5: the rotations.
   /// Empty where no deck entry prescribes anything.
   AlignedBuffer<std::uint8_t> prescribed;
+  /// Velocities at the half step before, for the work of impulses; empty where nothing but forces acts on nodes.
+  AlignedBuffer<NodeVector> velocity_before;
 
   Nodes() = default;
   Nodes(std::size_t count, bool with_rotations)

@@ -1,0 +1,178 @@
+#include "src/advance.hpp"
+
+#include <cmath>
+
+#include "src/motion.hpp"
+
+namespace brio {
+
+namespace {
+
+// A step this much smaller than the first says that the mesh has collapsed.
+constexpr double collapse_ratio = 1e-5;
+
+std::string element_name(const Model& model, std::size_t block, std::size_t element) {
+  const PartInModel& part = model.parts[block];
+  return "element " + std::to_string(part.element_order[element]) + " of part '" + part.name + "'";
+}
+
+void apply_loads(Model& model) {
+  const StageTimer timer(model.stages, Stage::loads);
+  for (ActiveLoad& load : model.loads) apply(load, model.times.time, model.nodes);
+}
+
+double load_work(Model& model) {
+  const StageTimer timer(model.stages, Stage::loads);
+  double sum = 0;
+  for (const ActiveLoad& load : model.loads) sum += model.times.mean() * power(load, model.nodes);
+  return sum;
+}
+
+void book_load_impulses(Model& model) {
+  const StageTimer timer(model.stages, Stage::loads);
+  for (const ActiveLoad& load : model.loads) {
+    Impulse impulse = resultant(load, model.nodes);
+    for (std::size_t i = 0; i < 3; ++i) {
+      impulse.linear[i] *= model.times.mean();
+      impulse.angular[i] *= model.times.mean();
+    }
+    model.momentum.loads.add(impulse);
+  }
+}
+
+// Internal forces by colours of chunks; sums and the stable step in the order of tasks.
+void sweep_elements(Model& model, ThreadTeam& team) {
+  const StageTimer timer(model.stages, Stage::elements);
+  const SweepSchedule& schedule = model.schedule;
+  for (std::size_t colour = 0; colour + 1 < schedule.colour_first.size(); ++colour) {
+    const std::size_t first = schedule.colour_first[colour];
+    team.for_each(schedule.colour_first[colour + 1] - first, [&](std::size_t i) {
+      const SweepTask& task = schedule.tasks[first + i];
+      Block& block = model.blocks[task.block];
+      model.sweep_results[first + i] =
+          block.kernel.sweep(block, task.chunk, model.nodes, model.times.previous);
+    });
+  }
+  model.control.stable = HUGE_VAL;
+  for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
+    const SweepResult& result = model.sweep_results[t];
+    model.energy.internal += result.internal_energy;
+    model.energy.hourglass += result.hourglass_energy;
+    model.energy.viscous += result.viscous_energy;
+    if (result.stable_step < model.control.stable) {
+      model.control.stable = result.stable_step;
+      model.control.critical_block = schedule.tasks[t].block;
+      model.control.critical_element = result.critical_element;
+    }
+  }
+  if (!(model.control.stable > 0))
+    throw Breakdown(element_name(model, model.control.critical_block, model.control.critical_element) +
+                    " has inverted or holds a value that is not a number, at time " +
+                    std::to_string(model.times.time));
+}
+
+void choose_step(Model& model) {
+  StepControl& control = model.control;
+  double step = control.settings.step_scale * control.stable;
+  if (control.settings.step) {
+    step = *control.settings.step;
+    if (step > control.stable)
+      throw Breakdown("the constant step " + std::to_string(step) + " exceeds the stable step " +
+                      std::to_string(control.stable) + " of " +
+                      element_name(model, control.critical_block, control.critical_element));
+  }
+  if (model.step > 0) step = std::min(step, control.settings.step_growth * model.times.previous);
+  if (model.step > 0 && step < collapse_ratio * control.first)
+    throw Breakdown("the stable step has collapsed to " + std::to_string(step) + ", set by " +
+                    element_name(model, control.critical_block, control.critical_element));
+  // The last two steps share what is left, so that the end time is met without a sliver.
+  const double left = control.settings.end - model.times.time;
+  if (left > 0 && step >= left) {
+    step = left;
+  } else if (left > 0 && 2 * step > left) {
+    step = 0.5 * left;
+  }
+  model.times.next = step;
+  if (model.step == 0) control.first = control.least = control.largest = step;
+  if (left > 2 * step) control.least = std::min(control.least, step);
+  control.largest = std::max(control.largest, step);
+}
+
+void constrain(Model& model) {
+  if (model.prescribed.empty()) return;
+  const StageTimer timer(model.stages, Stage::constraints);
+  for (const PrescribedNodes& given : model.prescribed) {
+    const Reaction reaction = prescribe(given, model.times, model.nodes);
+    model.energy.external.before += reaction.before;
+    model.energy.external.after += reaction.after;
+    model.momentum.supports.add(reaction.impulse);
+  }
+}
+
+void stop_at_walls(Model& model) {
+  if (model.walls.empty()) return;
+  const StageTimer timer(model.stages, Stage::constraints);
+  for (const WallInRun& wall : model.walls) {
+    const WallReaction reaction = stop_at(wall, model.times, model.nodes);
+    model.energy.contact.before += reaction.normal.before;
+    model.energy.contact.after += reaction.normal.after;
+    model.energy.friction.before += reaction.friction.before;
+    model.energy.friction.after += reaction.friction.after;
+    model.momentum.walls.add(reaction.normal.impulse);
+    model.momentum.walls.add(reaction.friction.impulse);
+  }
+}
+
+void check_books(Model& model, double energy_error_limit) {
+  EnergyBook& energy = model.energy;
+  energy.reference =
+      std::max({energy.reference, energy.kinetic_start, std::abs(energy.sum()), energy.internal});
+  energy.contact_added_max = std::max(energy.contact_added_max, energy.contact.at_step());
+  const double error = energy.relative_error();
+  energy.error_max = std::max(energy.error_max, std::abs(error));
+  if (!(std::abs(error) <= energy_error_limit))
+    throw Breakdown("the energy error " + std::to_string(error) +
+                    " exceeds numerics.energy_error_limit at time " + std::to_string(model.times.time));
+}
+
+}  // namespace
+
+void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team) {
+  EnergyBook& energy = model.energy;
+  for (Work* work : {&energy.external, &energy.contact, &energy.friction}) work->begin_step();
+
+  apply_loads(model);
+  sweep_elements(model, team);
+  choose_step(model);
+  energy.external.before += load_work(model);
+  KineticEnergy kinetic;
+  {
+    const StageTimer timer(model.stages, Stage::nodes);
+    kinetic = accelerate(model.nodes, model.times.mean(), model.kinetic_sums, team);
+  }
+  constrain(model);
+  stop_at_walls(model);
+  energy.external.after += load_work(model);
+  book_load_impulses(model);
+  if (!model.nodes.velocity_before.empty()) {
+    const StageTimer timer(model.stages, Stage::nodes);
+    kinetic = kinetic_energy(model.nodes, model.times.mean(), model.kinetic_sums, team);
+  }
+  energy.kinetic = kinetic.now;
+  energy.kinetic_half = kinetic.half;
+  check_books(model, energy_error_limit);
+}
+
+void update_positions(Model& model, ThreadTeam& team) {
+  {
+    const StageTimer timer(model.stages, Stage::nodes);
+    move(model.nodes, model.times.next, team);
+  }
+  model.times.time += model.times.next;
+  if (model.control.settings.end - model.times.time < 1e-12 * model.control.settings.end)
+    model.times.time = model.control.settings.end;
+  model.times.previous = model.times.next;
+  ++model.step;
+}
+
+}  // namespace brio

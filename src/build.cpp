@@ -1,0 +1,215 @@
+#include "src/build.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace brio {
+
+namespace {
+
+const Material& material_of(const Part& part, const Deck& deck) {
+  for (const auto& [name, material] : deck.materials)
+    if (name == part.material) return material;
+  throw BuildError("part '" + part.name + "': no material is named '" + part.material + "'");
+}
+
+// Elements in memory order, with nodes numbered in the order in which those elements first touch them.
+void place_parts(const Deck& deck, std::span<const Mesh> meshes, Model& model,
+                 std::vector<std::vector<int>>& connectivity) {
+  int next = 0;
+  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+    const Mesh& mesh = meshes[p];
+    const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+    PartInModel part;
+    part.name = deck.parts[p].name;
+    part.block = p;
+    part.element_order = locality_order(mesh.position, mesh.connectivity, mesh.nodes_per_element);
+    part.element_slot.resize(part.element_order.size());
+    part.node.assign(mesh.position.size(), -1);
+    std::vector<int> nodes;
+    for (std::size_t slot = 0; slot < part.element_order.size(); ++slot) {
+      const auto e = static_cast<std::size_t>(part.element_order[slot]);
+      part.element_slot[e] = static_cast<int>(slot);
+      for (std::size_t corner = 0; corner < corners; ++corner) {
+        int& node = part.node[static_cast<std::size_t>(mesh.connectivity[e * corners + corner])];
+        if (node < 0) node = next++;
+        nodes.push_back(node);
+      }
+    }
+    for (int node : part.node)
+      if (node < 0) throw BuildError("part '" + part.name + "' has a node that belongs to no element");
+    connectivity.push_back(std::move(nodes));
+    model.parts.push_back(std::move(part));
+  }
+}
+
+std::size_t node_total(std::span<const Mesh> meshes) {
+  std::size_t count = 0;
+  for (const Mesh& mesh : meshes) count += mesh.position.size();
+  return count;
+}
+
+void fill_nodes(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  const bool turning = std::any_of(deck.parts.begin(), deck.parts.end(),
+                                   [](const Part& part) { return has_rotations(part.element); });
+  model.nodes = Nodes(node_total(meshes), turning);
+  for (std::size_t p = 0; p < meshes.size(); ++p)
+    for (std::size_t i = 0; i < meshes[p].position.size(); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        model.nodes.record[static_cast<std::size_t>(model.parts[p].node[i])].position[axis] =
+            meshes[p].position[i][axis];
+}
+
+void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connectivity, Model& model) {
+  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+    const Part& part = deck.parts[p];
+    try {
+      model.blocks.push_back(make_block(part.name, part.element, material_of(part, deck),
+                                        deck.numerics.precision, connectivity[p]));
+    } catch (const std::invalid_argument& fault) {
+      throw BuildError("part '" + part.name + "': " + fault.what());
+    }
+  }
+}
+
+void lump_masses(Model& model) {
+  Nodes& nodes = model.nodes;
+  for (std::size_t p = 0; p < model.blocks.size(); ++p) {
+    try {
+      model.blocks[p].kernel.initialize(model.blocks[p], nodes);
+    } catch (const std::invalid_argument& fault) {
+      throw BuildError(fault.what());
+    }
+  }
+  for (PartInModel& part : model.parts)
+    for (int node : part.node) part.mass += nodes.mass[static_cast<std::size_t>(node)];
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes.record[i].inverse_mass = nodes.mass[i] > 0 ? 1 / nodes.mass[i] : 0;
+    if (nodes.has_rotations())
+      nodes.angular_velocity[i].component[3] =
+          nodes.rotational_inertia[i] > 0 ? 1 / nodes.rotational_inertia[i] : 0;
+  }
+}
+
+void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  for (const InitialCondition& condition : deck.initial_conditions) {
+    for (int entry : select_nodes(condition.where, deck, meshes, model)) {
+      const auto node = static_cast<std::size_t>(entry);
+      NodeRecord& record = model.nodes.record[node];
+      Vector velocity = condition.velocity;
+      if (condition.spin) {
+        Vector arm{};
+        for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - condition.spin->point[i];
+        add_to(velocity, cross(condition.spin->angular_velocity, arm));
+        if (model.nodes.has_rotations() && model.nodes.rotational_inertia[node] > 0)
+          for (std::size_t i = 0; i < 3; ++i)
+            model.nodes.angular_velocity[node].component[i] = condition.spin->angular_velocity[i];
+      }
+      for (std::size_t i = 0; i < 3; ++i) record.velocity[i] = velocity[i];
+    }
+  }
+}
+
+Vector unit(const Triple& direction) {
+  const double size = std::sqrt(dot(direction, direction));
+  if (!(size > 0)) throw BuildError("a rigid wall has a normal without length");
+  return {direction[0] / size, direction[1] / size, direction[2] / size};
+}
+
+void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  for (const BoundaryCondition& condition : deck.boundary_conditions) {
+    if (const auto* wall = std::get_if<RigidWall>(&condition)) {
+      model.walls.push_back({*wall});
+      model.walls.back().wall.normal = unit(wall->normal);
+      continue;
+    }
+    const auto& motion = std::get<PrescribedMotion>(condition);
+    const std::vector<int> nodes = select_nodes(motion.where, deck, meshes, model);
+    for (const PrescribedComponent& component : motion.components) {
+      if (component.axis >= 3 && !model.nodes.has_rotations()) continue;  // solids have no rotations to hold
+      model.prescribed.push_back({nodes, motion.kind, component.axis, component.curve});
+      mark(model.prescribed.back(), model.nodes);
+    }
+  }
+}
+
+std::vector<std::array<int, 4>> sides_of(const std::string& side_set, const Deck& deck,
+                                         std::span<const Mesh> meshes, const Model& model) {
+  const std::size_t dot_at = side_set.find('.');
+  const std::string name = side_set.substr(0, dot_at);
+  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+    if (deck.parts[p].name != name || dot_at == std::string::npos) continue;
+    const Mesh& mesh = meshes[p];
+    const auto found = mesh.side_sets.find(side_set.substr(dot_at + 1));
+    if (found == mesh.side_sets.end()) break;
+    const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+    std::vector<std::array<int, 4>> sides;
+    for (const ElementSide& side : found->second) {
+      std::array<int, 4> nodes{};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const int corner =
+            corners == 8 ? sides_of_hex[static_cast<std::size_t>(side.side)][k] : static_cast<int>(k);
+        const auto entry =
+            static_cast<std::size_t>(side.element) * corners + static_cast<std::size_t>(corner);
+        nodes[k] = model.parts[p].node[static_cast<std::size_t>(mesh.connectivity[entry])];
+      }
+      sides.push_back(nodes);
+    }
+    return sides;
+  }
+  throw BuildError("no side set is named '" + side_set + "'");
+}
+
+void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  for (const Load& entry : deck.loads) {
+    if (const auto* gravity = std::get_if<Gravity>(&entry))
+      model.loads.push_back({GravityLoad{gravity->acceleration, gravity->factor}, {}});
+    if (const auto* force = std::get_if<NodalForce>(&entry))
+      model.loads.push_back(
+          {NodalLoad{select_nodes(force->where, deck, meshes, model), force->force, force->factor}, {}});
+    if (const auto* pressure = std::get_if<Pressure>(&entry))
+      model.loads.push_back(
+          {PressureLoad{sides_of(pressure->side_set, deck, meshes, model), pressure->pressure}, {}});
+  }
+}
+
+void open_books(Model& model) {
+  if (!model.prescribed.empty() || !model.walls.empty())
+    model.nodes.velocity_before = AlignedBuffer<NodeVector>(model.nodes.size());
+  const Momentum start = momentum(model.nodes);
+  model.momentum.start = model.momentum.now = start.total;
+  model.momentum.linear_scale = start.linear_size;
+  model.momentum.angular_scale = start.angular_size;
+  double energy = 0;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const double* v = model.nodes.record[i].velocity;
+    energy += 0.5 * model.nodes.mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!model.nodes.has_rotations()) continue;
+    const double* w = model.nodes.angular_velocity[i].component;
+    energy += 0.5 * model.nodes.rotational_inertia[i] * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+  }
+  model.energy.kinetic_start = model.energy.kinetic_half = model.energy.kinetic = energy;
+}
+
+}  // namespace
+
+Model build(const Deck& deck, std::span<const Mesh> meshes) {
+  Model model;
+  std::vector<std::vector<int>> connectivity;
+  place_parts(deck, meshes, model, connectivity);
+  fill_nodes(deck, meshes, model);
+  make_blocks(deck, connectivity, model);
+  lump_masses(model);
+  model.schedule = make_schedule(model.blocks, model.nodes.size());
+  model.sweep_results.resize(model.schedule.tasks.size());
+  model.kinetic_sums.resize(range_count(model.nodes));
+  model.control.settings = deck.time;
+  set_initial_velocities(deck, meshes, model);
+  constrain(deck, meshes, model);
+  load(deck, meshes, model);
+  open_books(model);
+  return model;
+}
+
+}  // namespace brio

@@ -1,0 +1,34 @@
+#pragma once
+/// Wall time by stage of the step.
+
+#include <array>
+#include <chrono>
+#include <string_view>
+
+namespace brio {
+
+enum class Stage { loads, elements, nodes, constraints, contact_search, contact, output };
+inline constexpr std::array<std::string_view, 7> stage_names{
+    "loads", "elements", "nodes", "constraints", "contact_search", "contact", "output"};
+
+struct StageTimes {
+  std::array<double, stage_names.size()> seconds{};
+
+  double& operator[](Stage stage) { return seconds[static_cast<std::size_t>(stage)]; }
+  double operator[](Stage stage) const { return seconds[static_cast<std::size_t>(stage)]; }
+};
+
+/// Adds the time of its own life to a stage.
+class StageTimer {
+ public:
+  StageTimer(StageTimes& times, Stage stage) : sum_(times[stage]) {}
+  ~StageTimer() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace brio

@@ -1,0 +1,217 @@
+#include "src/observe.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace brio {
+
+namespace {
+
+constexpr std::size_t most_parts_in_history = 100;
+
+FieldArray field(std::string name, int components, std::size_t count,
+                 Storage storage = Storage::single_precision, bool fixed = false) {
+  return {std::move(name), components, std::vector<double>(static_cast<std::size_t>(components) * count),
+          storage, fixed};
+}
+
+bool is_shell(const Element& element) { return has_rotations(element) && nodes_per_element(element) == 4; }
+
+bool has_shells(const Model& model) {
+  return std::any_of(model.blocks.begin(), model.blocks.end(),
+                     [](const Block& block) { return is_shell(block.element); });
+}
+
+// Mean velocity of a part: momentum over mass.
+Vector mean_velocity(const PartInModel& part, const Nodes& nodes) {
+  Vector sum{};
+  for (int entry : part.node) {
+    const auto node = static_cast<std::size_t>(entry);
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += nodes.mass[node] * nodes.record[node].velocity[i];
+  }
+  for (double& component : sum) component /= part.mass;
+  return sum;
+}
+
+void balance_momentum(Model& model) {
+  const Momentum now = momentum(model.nodes);
+  model.momentum.now = now.total;
+  model.momentum.linear_scale = std::max(model.momentum.linear_scale, now.linear_size);
+  model.momentum.angular_scale = std::max(model.momentum.angular_scale, now.angular_size);
+}
+
+}  // namespace
+
+FieldObserver::FieldObserver(const Model& model) {
+  std::size_t cells = 0;
+  Topology& topology = snapshot_.topology;
+  for (const PartInModel& part : model.parts) {
+    const auto first_point = static_cast<std::int64_t>(node_of_point_.size());
+    node_of_point_.insert(node_of_point_.end(), part.node.begin(), part.node.end());
+    const Block& block = model.blocks[part.block];
+    std::vector<std::int64_t> point_of_node(model.nodes.size());
+    for (std::size_t i = 0; i < part.node.size(); ++i)
+      point_of_node[static_cast<std::size_t>(part.node[i])] = first_point + static_cast<std::int64_t>(i);
+    for (int slot : part.element_slot) {
+      topology.cell_type.push_back(nodes_per_element(block.element) == 8 ? hexahedron_cell
+                                                                         : quadrilateral_cell);
+      topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+      for (int corner = 0; corner < nodes_per_element(block.element); ++corner)
+        topology.connectivity.push_back(
+            point_of_node[static_cast<std::size_t>(block.node(static_cast<std::size_t>(slot), corner))]);
+    }
+    cells += part.element_slot.size();
+  }
+  topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+
+  const std::size_t points = node_of_point_.size();
+  snapshot_.points.resize(3 * points);
+  snapshot_.point_fields = {field("displacement", 3, points, Storage::double_precision),
+                            field("velocity", 3, points)};
+  snapshot_.cell_fields = {field("stress", 6, cells), field("equivalent_plastic_strain", 1, cells),
+                           field("part", 1, cells, Storage::integer, true),
+                           field("element_id", 1, cells, Storage::integer, true)};
+  if (has_shells(model)) snapshot_.cell_fields.push_back(field("thickness", 1, cells));
+  fill_points(model);
+  reference_ = snapshot_.points;
+}
+
+void FieldObserver::fill_points(const Model& model) {
+  for (std::size_t p = 0; p < node_of_point_.size(); ++p) {
+    const NodeRecord& record = model.nodes.record[static_cast<std::size_t>(node_of_point_[p])];
+    for (std::size_t i = 0; i < 3; ++i) snapshot_.points[3 * p + i] = record.position[i];
+  }
+}
+
+void FieldObserver::fill_cells(const Model& model) {
+  std::size_t cell = 0;
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const PartInModel& part = model.parts[p];
+    const Block& block = model.blocks[part.block];
+    for (std::size_t e = 0; e < part.element_slot.size(); ++e, ++cell) {
+      const ElementSample sample =
+          block.kernel.sample(block, model.nodes, static_cast<std::size_t>(part.element_slot[e]));
+      double* stress = &snapshot_.cell_fields[0].values[6 * cell];
+      const SymmetricTensor<double>& s = sample.stress;
+      for (double component : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) *stress++ = component;
+      snapshot_.cell_fields[1].values[cell] = sample.equivalent_plastic_strain;
+      snapshot_.cell_fields[2].values[cell] = static_cast<double>(p);
+      snapshot_.cell_fields[3].values[cell] = static_cast<double>(e);
+      if (snapshot_.cell_fields.size() > 4) snapshot_.cell_fields[4].values[cell] = sample.thickness;
+    }
+  }
+}
+
+const Snapshot& FieldObserver::observe(const Model& model) {
+  snapshot_.time = model.times.time;
+  snapshot_.step = model.step;
+  fill_points(model);
+  for (std::size_t i = 0; i < reference_.size(); ++i)
+    snapshot_.point_fields[0].values[i] = snapshot_.points[i] - reference_[i];
+  for (std::size_t p = 0; p < node_of_point_.size(); ++p)
+    for (std::size_t i = 0; i < 3; ++i)
+      snapshot_.point_fields[1].values[3 * p + i] =
+          model.nodes.record[static_cast<std::size_t>(node_of_point_[p])].velocity[i];
+  fill_cells(model);
+  return snapshot_;
+}
+
+std::vector<std::string> history_columns(const Model& model) {
+  std::vector<std::string> columns{"time",
+                                   "step",
+                                   "dt",
+                                   "kinetic",
+                                   "internal",
+                                   "hourglass",
+                                   "viscous",
+                                   "contact",
+                                   "friction",
+                                   "external",
+                                   "total",
+                                   "error_relative",
+                                   "contact_added_max",
+                                   "momentum_x",
+                                   "momentum_y",
+                                   "momentum_z",
+                                   "angular_momentum_x",
+                                   "angular_momentum_y",
+                                   "angular_momentum_z",
+                                   "linear_imbalance",
+                                   "angular_imbalance",
+                                   "support_impulse_x",
+                                   "support_impulse_y",
+                                   "support_impulse_z",
+                                   "wall_impulse_x",
+                                   "wall_impulse_y",
+                                   "wall_impulse_z"};
+  for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p)
+    for (const char* axis : {".velocity_x", ".velocity_y", ".velocity_z"})
+      columns.push_back(model.parts[p].name + axis);
+  return columns;
+}
+
+void observe_history(Model& model, std::vector<double>& row) {
+  balance_momentum(model);
+  const EnergyBook& energy = model.energy;
+  const MomentumBook& book = model.momentum;
+  row.assign({model.times.time, static_cast<double>(model.step), model.times.next, energy.kinetic,
+              energy.internal, energy.hourglass, energy.viscous, -energy.contact.at_step(),
+              -energy.friction.at_step(), energy.external.at_step(), energy.sum(), energy.relative_error(),
+              energy.contact_added_max});
+  for (const Vector& vector : {book.now.linear, book.now.angular})
+    row.insert(row.end(), vector.begin(), vector.end());
+  row.push_back(book.linear_imbalance());
+  row.push_back(book.angular_imbalance());
+  for (const Vector& vector : {book.supports.linear, book.walls.linear})
+    row.insert(row.end(), vector.begin(), vector.end());
+  for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p) {
+    const Vector velocity = mean_velocity(model.parts[p], model.nodes);
+    row.insert(row.end(), velocity.begin(), velocity.end());
+  }
+}
+
+std::vector<std::string> active_features(const Model& model) {
+  std::set<std::string> features;
+  for (const Block& block : model.blocks) {
+    features.insert(std::string(name_of(block.element)));
+    features.insert(std::string(name_of(block.material)));
+    if (block.precision == Precision::single_precision) features.insert("float");
+  }
+  for (const ActiveLoad& load : model.loads)
+    features.insert(std::array{"gravity", "nodal_force", "pressure"}[load.load.index()]);
+  if (!model.prescribed.empty()) features.insert("prescribed_motion");
+  if (!model.walls.empty()) features.insert("rigid_wall");
+  return {features.begin(), features.end()};
+}
+
+Summary observe_end(Model& model) {
+  balance_momentum(model);
+  Summary summary;
+  summary.steps = model.step;
+  summary.time = model.times.time;
+  summary.dt = {model.control.least, model.control.largest, model.times.previous};
+  summary.nodes = static_cast<std::int64_t>(model.nodes.size());
+  for (const Block& block : model.blocks) {
+    std::int64_t& count =
+        nodes_per_element(block.element) == 8 ? summary.elements.hex8 : summary.elements.shell4;
+    count += static_cast<std::int64_t>(block.element_count);
+  }
+  const EnergyBook& energy = model.energy;
+  summary.energy = {.kinetic = energy.kinetic,
+                    .internal = energy.internal,
+                    .hourglass = energy.hourglass,
+                    .viscous = energy.viscous,
+                    .contact = -energy.contact.at_step(),
+                    .friction = -energy.friction.at_step(),
+                    .external = energy.external.at_step(),
+                    .deleted = 0,
+                    .total_start = energy.kinetic_start,
+                    .error_relative = energy.relative_error()};
+  summary.momentum = {model.momentum.now.linear, model.momentum.now.angular};
+  for (std::size_t stage = 0; stage < stage_names.size(); ++stage)
+    summary.wall_s.by_stage[std::string(stage_names[stage])] = model.stages.seconds[stage];
+  summary.active_features = active_features(model);
+  return summary;
+}
+
+}  // namespace brio

@@ -1,0 +1,96 @@
+// Who may include whom, and where printing, threads and file formats may appear.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace brio {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = BRIO_SOURCE_DIR;
+
+struct SourceFile {
+  std::string path;  ///< from the root of the project
+  std::string room;
+  std::vector<std::string> lines;
+};
+
+std::string room_of(const std::string& path) {
+  if (path.starts_with("src/base/")) return "src/base";
+  return path.substr(0, path.find('/'));
+}
+
+std::vector<SourceFile> source_files() {
+  std::vector<SourceFile> files;
+  for (const char* folder : {"src", "materials", "elements", "contact", "io", "apps"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
+      SourceFile file{fs::relative(entry.path(), root).generic_string(), "", {}};
+      file.room = room_of(file.path);
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line);) file.lines.push_back(line);
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
+TEST(Architecture, IncludesFollowTheArrows) {
+  const std::map<std::string, std::set<std::string>> allowed{
+      {"src/base", {"src/base"}},
+      {"materials", {"materials", "src/base"}},
+      {"elements", {"elements", "materials", "src/base"}},
+      {"contact", {"contact", "src/base"}},
+      {"src", {"src", "elements", "materials", "contact", "src/base"}},
+      {"io", {"io", "src", "elements", "materials", "contact", "src/base"}},
+      {"apps", {"apps", "io", "src", "elements", "materials", "contact", "src/base"}},
+  };
+  const std::regex include(R"re(^\s*#include "([^"]+)")re");
+  std::size_t seen = 0;
+  for (const SourceFile& file : source_files()) {
+    for (const std::string& line : file.lines) {
+      std::smatch match;
+      if (!std::regex_search(line, match, include)) continue;
+      ++seen;
+      EXPECT_TRUE(fs::exists(root / match[1].str()))
+          << file.path << " includes " << match[1] << ": not from the root";
+      EXPECT_TRUE(allowed.at(file.room).contains(room_of(match[1])))
+          << file.path << " must not include " << match[1];
+    }
+  }
+  EXPECT_GT(seen, 20u);
+}
+
+// A word may stand only in files whose path begins with one of the given places.
+void expect_only_in(const std::string& what, const std::vector<std::string>& places) {
+  const std::regex pattern(what);
+  for (const SourceFile& file : source_files()) {
+    bool is_allowed = false;
+    for (const std::string& place : places) is_allowed = is_allowed || file.path.starts_with(place);
+    if (is_allowed) continue;
+    for (std::size_t i = 0; i < file.lines.size(); ++i)
+      EXPECT_FALSE(std::regex_search(file.lines[i], pattern))
+          << file.path << ":" << i + 1 << ": " << file.lines[i];
+  }
+}
+
+TEST(Architecture, FileFormatsStayInIo) { expect_only_in(R"(#include <(yaml-cpp|hdf5|H5))", {"io/"}); }
+
+TEST(Architecture, PrintingAndExitingStayInApps) {
+  expect_only_in(R"(std::(cout|cerr|exit|abort|quick_exit)\b|[^sn]printf\(|fmt::print|std::puts)", {"apps/"});
+}
+
+TEST(Architecture, ThreadsStayInParallel) {
+  expect_only_in(R"(#include <(thread|mutex|condition_variable|omp\.h)>|#pragma omp)", {"src/base/parallel"});
+}
+
+}  // namespace
+}  // namespace brio

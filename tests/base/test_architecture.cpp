@@ -31,6 +31,7 @@ std::string room_of(const std::string& path) {
 std::vector<SourceFile> source_files() {
   std::vector<SourceFile> files;
   for (const char* folder : {"src", "materials", "elements", "contact", "io", "apps"}) {
+    if (!fs::exists(root / folder)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
       SourceFile file{fs::relative(entry.path(), root).generic_string(), "", {}};

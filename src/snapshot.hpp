@@ -1,0 +1,54 @@
+#pragma once
+/// What one dump of the results shows: plain arrays that the owner of the step loop fills and a writer reads.
+/// The same snapshot is filled again for the next dump, so that its buffers are allocated once.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace brio {
+
+/// How the numbers of a field are kept in the file. Stress, velocity and the like lose nothing that a picture
+/// or a plot can show in single precision (seven digits) and halve the file; displacements, from which
+/// strains may be formed by difference, are kept in double precision, as positions always are.
+enum class Storage { single_precision, double_precision, integer };
+
+/// One named array over points, over cells, or over the whole scene.
+struct FieldArray {
+  std::string name;  ///< snake_case, no '/'
+  int components = 1;
+  std::vector<double> values;  ///< components of the first point (cell), then of the second, ...
+  Storage storage = Storage::single_precision;
+  /// True of what cannot change while the topology stays as it is (part, element number): written only with a
+  /// new topology. Means nothing for a field of the whole scene.
+  bool fixed_by_topology = false;
+};
+
+/// Cell types by their VTK numbers, the only ones that elements need.
+enum CellType : unsigned char {
+  vertex_cell = 1,
+  line_cell = 3,
+  quadrilateral_cell = 9,
+  hexahedron_cell = 12
+};
+
+/// Cells over the points of a snapshot.
+struct Topology {
+  std::vector<unsigned char> cell_type;    ///< one CellType a cell
+  std::vector<std::int64_t> connectivity;  ///< points of the first cell, of the second, ..., in VTK order
+  std::vector<std::int64_t> offset;  ///< cells + 1; cell c has connectivity[offset[c]] to [offset[c + 1])
+};
+
+/// The scene at one time. Every dump of one file holds the same fields in the same order.
+struct Snapshot {
+  double time = 0;
+  std::int64_t step = 0;
+  std::vector<double> points;  ///< current x y z of every point
+  Topology topology;
+  int topology_version = 0;  ///< raise it whenever topology or the number of points has changed
+  std::vector<FieldArray> point_fields;
+  std::vector<FieldArray> cell_fields;
+  std::vector<FieldArray> global_fields;  ///< `components` values each
+};
+
+}  // namespace brio

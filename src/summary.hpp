@@ -1,0 +1,59 @@
+#pragma once
+/// The end state of a run in figures, for scripts. The names are a contract: they may grow in number, not
+/// change.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace brio {
+
+struct Summary {
+  struct ElementCounts {
+    std::int64_t hex8 = 0, shell4 = 0, beam2 = 0, particle = 0;
+  };
+  struct StepSizes {
+    double min = 0, max = 0, last = 0;
+  };
+  struct Energies {
+    double kinetic = 0, internal = 0, hourglass = 0, viscous = 0, contact = 0, friction = 0, external = 0,
+           deleted = 0;
+    double total_start = 0;     ///< at the beginning of the run
+    double error_relative = 0;  ///< what the balance misses, over the largest energy in it
+  };
+  struct Momenta {
+    std::array<double, 3> linear{}, angular{};  ///< angular: about the origin
+  };
+  struct ContactCounts {
+    std::int64_t searches = 0, comparisons = 0, candidate_pairs = 0, active_max = 0;
+    double penetration_max = 0;  ///< a length
+    std::int64_t missed = 0;     ///< found by the audit, not by the search
+  };
+  struct WallTimes {
+    double total = 0;  ///< seconds
+    std::map<std::string, double> by_stage;
+  };
+
+  std::string version;
+  std::string deck;
+  std::string status;  ///< "finished", "interrupted", "terminated" or "failed"
+  int exit_code = 0;
+  std::int64_t steps = 0;
+  double time = 0;
+  StepSizes dt;
+  std::int64_t nodes = 0;
+  ElementCounts elements;  ///< at the start
+  ElementCounts deleted;
+  Energies energy;
+  Momenta momentum;
+  ContactCounts contact;
+  WallTimes wall_s;
+  double element_updates_per_s = 0;
+  double peak_memory_mb = 0;
+  int threads = 1;
+  std::vector<std::string> active_features;
+};
+
+}  // namespace brio

@@ -1,17 +1,60 @@
 #pragma once
-/// What a deck may say about contact beside the list of surfaces.
+/// What a deck may say about contact beside the list of surfaces. Every default states its reason.
 
 #include <tuple>
 
+#include "contact/search.hpp"
 #include "src/base/fields.hpp"
 
 namespace brio {
 
 struct ContactOptions {
+  /// Coulomb coefficient; none unless asked for.
   double friction = 0;
+  /// Sweeps over the constraints of a step: one is usable, five leave a residual below 1e-3 of an edge, ten
+  /// verify.
+  int passes = 5;
+  SearchStrategy search = SearchStrategy::automatic;
+  /// Length by which capture boxes are grown so that the search can be skipped, over the mean edge of the
+  /// surface.
+  double reach_buffer = 0.5;
+  /// Find first touches along the motion of the step as well; without it a fast node can pass through a thin
+  /// body.
+  bool velocity_check = true;
+  /// Share of an old overlap that a step may remove ...
+  double overlap_recovery = 0.1;
+  /// ... and the most it may remove, over the smallest edge: about 0.001 of the speed of sound, so that no
+  /// overlap, whatever its depth, turns into a kick.
+  double overlap_recovery_cap = 1e-3;
+  /// Scale of the thickness at which shells touch; 1 is the true thickness, also while it changes.
+  double shell_thickness_scale = 1;
+  /// Initial overlaps up to this share of the edge (or of the thickness of a shell) are removed by moving
+  /// nodes before the first step; deeper ones are an error of the input.
+  double initial_overlap_limit = 0.2;
+  /// Count, by comparing every node with every face, the contacts that were missed.
+  bool audit = false;
+
   static constexpr auto fields() {
     return std::tuple{
-        optional("friction", &ContactOptions::friction, non_negative, "Coulomb coefficient, -")};
+        optional("friction", &ContactOptions::friction, non_negative, "Coulomb coefficient, -"),
+        optional("passes", &ContactOptions::passes, at_least_one,
+                 "sweeps over the contact constraints of a step, -"),
+        optional("search", &ContactOptions::search, any_number,
+                 "how candidates are found; the pairs are the same"),
+        optional("reach_buffer", &ContactOptions::reach_buffer, positive,
+                 "growth of capture boxes that lets the search be skipped, in mean edges, -"),
+        optional("velocity_check", &ContactOptions::velocity_check, any_number,
+                 "find first touches along the motion of a step"),
+        optional("overlap_recovery", &ContactOptions::overlap_recovery, fraction,
+                 "share of an old overlap removed in a step, -"),
+        optional("overlap_recovery_cap", &ContactOptions::overlap_recovery_cap, non_negative,
+                 "most overlap removed in a step, in smallest edges, -"),
+        optional("shell_thickness_scale", &ContactOptions::shell_thickness_scale,
+                 Range{.lower = 0, .upper = 2, .lower_open = true},
+                 "contact thickness over thickness of shells, -"),
+        optional("initial_overlap_limit", &ContactOptions::initial_overlap_limit, fraction,
+                 "deepest initial overlap removed by moving nodes, in edges or thicknesses, -"),
+        optional("audit", &ContactOptions::audit, any_number, "count missed contacts by brute force")};
   }
 };
 

@@ -5,11 +5,10 @@
 
 #include "materials/elastic.hpp"
 #include "materials/elastic_plastic.hpp"
-#include "materials/power_law_hardening.hpp"
 
 namespace brio {
 
-using Material = std::variant<Elastic, ElasticPlastic, PowerLawHardening>;
+using Material = std::variant<Elastic, ElasticPlastic>;
 
 inline double density(const Material& material) {
   return std::visit([](const auto& law) { return law.density; }, material);

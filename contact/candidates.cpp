@@ -1,0 +1,143 @@
+#include "contact/candidates.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "contact/exclusion.hpp"
+#include "contact/face_geometry.hpp"
+
+namespace brio {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void include(Spread& spread, const Eigen::Vector3d& value) {
+  for (int axis = 0; axis < 3; ++axis) {
+    spread.lower[axis] = std::min(spread.lower[axis], value[axis]);
+    spread.upper[axis] = std::max(spread.upper[axis], value[axis]);
+  }
+}
+constexpr Spread nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+
+// Relative motion since the search, now and as far ahead as constraints look.
+bool within_buffer(const Candidates& candidates, const Surface& surface, const Nodes& nodes, double dt) {
+  if (candidates.growth[0] < 0) return false;
+  Spread now = nothing;
+  Spread ahead = nothing;
+  for (std::size_t s = 0; s < surface.slaves(); ++s) {
+    const Vector3<double>& start = candidates.point[s];
+    const Eigen::Vector3d moved =
+        position(nodes, surface.node[s]) - Eigen::Vector3d(start.x, start.y, start.z);
+    include(now, moved);
+    include(ahead, moved + approach_share * dt * velocity(nodes, surface.node[s]));
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::max(now.width(axis), ahead.width(axis)) <= candidates.growth[axis])) return false;
+  return true;
+}
+
+void measure_edges(Candidates& candidates, const Surface& surface, const Nodes& nodes) {
+  candidates.edge.resize(surface.face.size());
+  candidates.smallest_edge = infinity;
+  double sum = 0;
+  for (std::size_t f = 0; f < surface.face.size(); ++f) {
+    candidates.edge[f] = shortest_edge(nodes, surface.face[f]);
+    candidates.smallest_edge = std::min(candidates.smallest_edge, candidates.edge[f]);
+    sum += candidates.edge[f];
+  }
+  candidates.mean_edge = surface.face.empty() ? 0 : sum / static_cast<double>(surface.face.size());
+}
+
+CaptureBox capture_box(const Nodes& nodes, const Face& face, const double (&growth)[3]) {
+  CaptureBox box{};
+  for (int axis = 0; axis < 3; ++axis) {
+    double lower = infinity;
+    double upper = -infinity;
+    for (int node : face.node) {
+      const double x = nodes.record[static_cast<std::size_t>(node)].position[axis];
+      lower = std::min(lower, x);
+      upper = std::max(upper, x);
+    }
+    box.lower[axis] = lower - growth[axis];
+    box.upper[axis] = upper + growth[axis];
+  }
+  return box;
+}
+
+// Turn the pairs, which come face by face, into the faces of each node, without the excluded.
+void sort_by_slave(Candidates& candidates, const Surface& surface, const Lists& excluded) {
+  const std::size_t slaves = surface.slaves();
+  Lists& lists = candidates.faces_of;
+  lists.first.assign(slaves + 1, 0);
+  candidates.face.clear();
+  CandidatePairs& pairs = candidates.pairs;
+  std::size_t kept = 0;
+  int begin = 0;
+  for (std::size_t f = 0; f < surface.face.size(); ++f) {
+    const std::size_t kept_before = kept;
+    const int end = pairs.first[f + 1];
+    for (int i = begin; i < end; ++i) {
+      const int slave = pairs.node[static_cast<std::size_t>(i)];
+      if (is_excluded(excluded, slave, static_cast<int>(f))) continue;
+      pairs.node[kept++] = slave;
+      ++lists.first[static_cast<std::size_t>(slave) + 1];
+    }
+    begin = end;
+    pairs.first[f + 1] = static_cast<int>(kept);
+    if (kept > kept_before) candidates.face.push_back(static_cast<int>(f));
+  }
+  pairs.node.resize(kept);
+  for (std::size_t s = 0; s < slaves; ++s) lists.first[s + 1] += lists.first[s];
+  lists.item.resize(kept);
+  candidates.fill.assign(lists.first.begin(), lists.first.end() - 1);
+  for (int f : candidates.face)
+    for (int slave : pairs.of_box(static_cast<std::size_t>(f)))
+      lists.item[static_cast<std::size_t>(candidates.fill[static_cast<std::size_t>(slave)]++)] = f;
+}
+
+}  // namespace
+
+double influence(const Surface& surface, const ContactOptions& options, const Candidates& candidates,
+                 int face) {
+  const auto f = static_cast<std::size_t>(face);
+  const double edge = candidates.edge[f];
+  return 0.5 * options.shell_thickness_scale * surface.thickness[f] +
+         (surface.face[f].shell ? band_share : std::max(band_share, depth_share)) * edge;
+}
+
+Spread velocity_spread(const Surface& surface, const Nodes& nodes) {
+  Spread spread = nothing;
+  for (int node : surface.node) include(spread, velocity(nodes, node));
+  return spread;
+}
+
+bool refresh(Candidates& candidates, const Surface& surface, const Lists& excluded,
+             const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
+             ThreadTeam& team) {
+  if (surface.face.empty() || within_buffer(candidates, surface, nodes, dt)) return false;
+  measure_edges(candidates, surface, nodes);
+  for (int axis = 0; axis < 3; ++axis)
+    candidates.growth[axis] =
+        options.reach_buffer * candidates.mean_edge + approach_share * dt * velocities.width(axis);
+  double largest_radius = 0;
+  for (double radius : surface.radius) largest_radius = std::max(largest_radius, radius);
+  candidates.box.resize(surface.face.size());
+  for (std::size_t f = 0; f < surface.face.size(); ++f) {
+    const double reach = influence(surface, options, candidates, static_cast<int>(f)) +
+                         options.shell_thickness_scale * largest_radius;
+    candidates.box[f] = capture_box(
+        nodes, surface.face[f],
+        {candidates.growth[0] + reach, candidates.growth[1] + reach, candidates.growth[2] + reach});
+  }
+  candidates.point.resize(surface.slaves());
+  for (std::size_t s = 0; s < surface.slaves(); ++s) {
+    const Eigen::Vector3d x = position(nodes, surface.node[s]);
+    candidates.point[s] = {x[0], x[1], x[2]};
+  }
+  candidates.search.find(candidates.point, candidates.box, team, candidates.pairs, candidates.counts);
+  sort_by_slave(candidates, surface, excluded);
+  return true;
+}
+
+}  // namespace brio

@@ -1,0 +1,67 @@
+#pragma once
+/// Which faces each slave node may meet soon. The capture boxes of the search are grown by a buffer, so that
+/// the search can be skipped until nodes have moved that far relative to each other; skipping never loses a
+/// pair.
+
+#include <vector>
+
+#include "contact/global_search.hpp"
+#include "contact/options.hpp"
+#include "contact/surface.hpp"
+#include "src/base/nodes.hpp"
+#include "src/base/parallel.hpp"
+
+namespace brio {
+
+/// Distance beyond the touching distance at which a face still matters to a node, over the face's shortest
+/// edge: constraints reach 0.02 outside; old overlaps are followed down to half an edge inside.
+inline constexpr double band_share = 0.02;
+inline constexpr double depth_share = 0.5;
+/// Constraints are formed ahead of touching, over what the present approach speed would cover: other impulses
+/// of the same step may double it.
+inline constexpr double approach_share = 2;
+
+/// Per-axis extent of the relative motion of slave nodes.
+struct Spread {
+  double lower[3];
+  double upper[3];
+  double width(int axis) const { return upper[axis] - lower[axis]; }
+};
+
+struct Candidates {
+  GlobalSearch search;
+  SearchCounts counts;
+  Lists faces_of;            ///< of each slave node, ascending
+  std::vector<int> face;     ///< faces that occur, ascending
+  std::vector<double> edge;  ///< shortest edge of each face, at the last search
+  double smallest_edge = 0;  ///< of all
+  double mean_edge = 0;
+
+  std::vector<Vector3<double>> point;  ///< slave positions at the last search
+  std::vector<CaptureBox> box;
+  CandidatePairs pairs;
+  std::vector<int> fill;
+  double growth[3] = {-1, -1, -1};  ///< what may be travelled; negative: no search yet
+
+  explicit Candidates(SearchStrategy strategy = SearchStrategy::automatic) : search(strategy) {}
+};
+
+/// Distance at which a face and a slave node touch: half the thickness of each where it is a shell.
+inline double touching_distance(const Surface& surface, const ContactOptions& options, int face, int slave) {
+  return options.shell_thickness_scale * (0.5 * surface.thickness[static_cast<std::size_t>(face)] +
+                                          surface.radius[static_cast<std::size_t>(slave)]);
+}
+
+/// How far from a face, beyond its nodes' motion, a node of no radius can matter to it.
+double influence(const Surface& surface, const ContactOptions& options, const Candidates& candidates,
+                 int face);
+
+/// Spread of velocities of the slave nodes.
+Spread velocity_spread(const Surface& surface, const Nodes& nodes);
+
+/// Search again if some pair could have come closer than the buffer allows. \returns whether it searched.
+bool refresh(Candidates& candidates, const Surface& surface, const Lists& excluded,
+             const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
+             ThreadTeam& team);
+
+}  // namespace brio

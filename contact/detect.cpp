@@ -1,0 +1,367 @@
+#include "contact/detect.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/face_geometry.hpp"
+#include "contact/velocity_check.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Slave nodes to a task.
+constexpr std::size_t slaves_per_task = 128;
+/// Contacts of a node with one body closer in direction than this (about 8 degrees) are one.
+constexpr double same_direction = 0.99;
+/// A contact of the last step whose direction differs less than this continues; beyond, it is another
+/// contact.
+constexpr double continued_direction = 0.5;
+/// A node belongs on the face's outside only if its own normal opposes the face's by at least this.
+constexpr double opposing = -0.1;
+/// Overlaps below this share of an edge are rounding and impulses not yet converged, not penetration.
+constexpr double touching_share = 1e-6;
+/// Directions are formed from positions only where these are farther apart than this share of an edge.
+constexpr double direction_share = 1e-8;
+
+CaptureBox swept_box(const Nodes& nodes, std::span<const int> points, const Vector3d& frame, double ahead,
+                     double growth) {
+  Vector3d lower = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Vector3d upper = -lower;
+  for (int node : points) {
+    const Vector3d x = position(nodes, node);
+    const Vector3d later = x + ahead * (velocity(nodes, node) - frame);
+    lower = lower.cwiseMin(x).cwiseMin(later);
+    upper = upper.cwiseMax(x).cwiseMax(later);
+  }
+  CaptureBox box{};
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = lower[axis] - growth;
+    box.upper[axis] = upper[axis] + growth;
+  }
+  return box;
+}
+
+bool apart(const CaptureBox& a, const CaptureBox& b) {
+  bool separated = false;
+  for (int axis = 0; axis < 3; ++axis)
+    separated |= a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis];
+  return separated;
+}
+
+/// The detailed check of one slave node.
+class NodeCheck {
+ public:
+  NodeCheck(const Scenery& scenery, DetectionPiece& piece) : scene_(scenery), piece_(piece) {}
+
+  void run(int slave) {
+    slave_ = slave;
+    const auto faces = scene_.candidates.faces_of.of(slave);
+    if (faces.empty()) return;
+    const auto s = static_cast<std::size_t>(slave);
+    node_ = scene_.surface.node[s];
+    solid_ = scene_.surface.of_solid[s] != 0;
+    gather(faces);
+    if (piece_.near.empty()) return;
+    find_history();
+    normal_known_ = false;
+    begin_ = piece_.contact.size();
+    for (std::size_t i = 0; i < piece_.near.size(); ++i) judge(i);
+    if (scene_.options.velocity_check) check_motion();
+  }
+
+ private:
+  // ---- what is near
+
+  void gather(std::span<const int> faces) {
+    piece_.near.clear();
+    const std::array<int, 1> self{node_};
+    const double radius =
+        scene_.options.shell_thickness_scale * scene_.surface.radius[static_cast<std::size_t>(slave_)];
+    const CaptureBox own = swept_box(scene_.nodes, self, scene_.frame, approach_share * scene_.dt, radius);
+    const Vector3d x = position(scene_.nodes, node_);
+    for (int f : faces) {
+      if (apart(own, scene_.face_box[static_cast<std::size_t>(f)])) continue;
+      const ClosestPoint closest = closest_point_on_quad(x, vertices(scene_.nodes, face(f)));
+      piece_.near.push_back({.face = f, .distance = std::sqrt(closest.squared_distance), .closest = closest});
+    }
+    std::sort(piece_.near.begin(), piece_.near.end(), [](const NearFace& a, const NearFace& b) {
+      return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
+    });
+  }
+
+  void find_history() {
+    const auto begin =
+        std::lower_bound(scene_.last.begin(), scene_.last.end(), slave_,
+                         [](const Contact& contact, int slave) { return contact.slave < slave; });
+    auto end = begin;
+    while (end != scene_.last.end() && end->slave == slave_) ++end;
+    history_ = scene_.last.subspan(static_cast<std::size_t>(begin - scene_.last.begin()),
+                                   static_cast<std::size_t>(end - begin));
+  }
+
+  // ---- small questions
+
+  const Face& face(int f) const { return scene_.surface.face[static_cast<std::size_t>(f)]; }
+  double edge(int f) const { return scene_.candidates.edge[static_cast<std::size_t>(f)]; }
+  double touching(int f) const { return touching_distance(scene_.surface, scene_.options, f, slave_); }
+
+  // Nodes of the face that its closest feature consists of.
+  bool shares_feature(const NearFace& near, const Face& other) const {
+    const Face& own = face(near.face);
+    const auto k = static_cast<std::size_t>(near.closest.index);
+    if (!other.has(own.node[k])) return false;
+    return near.closest.feature == Feature::vertex ||
+           other.has(own.node[(k + 1) % static_cast<std::size_t>(own.corners())]);
+  }
+
+  // The closest point lies on an edge or vertex that a face already judged has too, at a place at least as
+  // close.
+  bool repeated(std::size_t i) const {
+    const NearFace& near = piece_.near[i];
+    if (near.closest.feature == Feature::interior) return false;
+    for (std::size_t j = 0; j < i; ++j)
+      if (shares_feature(near, face(piece_.near[j].face))) return true;
+    return false;
+  }
+
+  // First (closest) entry of the same body.
+  std::size_t closest_of_body(std::size_t i) const {
+    const int body = face(piece_.near[i].face).body;
+    for (std::size_t j = 0; j < i; ++j)
+      if (face(piece_.near[j].face).body == body && !face(piece_.near[j].face).shell) return j;
+    return i;
+  }
+
+  bool neighbors(int a, int b) const {
+    if (a == b) return true;
+    for (int k = 0; k < face(a).corners(); ++k)
+      if (face(b).has(face(a).node[static_cast<std::size_t>(k)])) return true;
+    return false;
+  }
+
+  // A contact of the last step with this face or one beside it that pushed about the same way.
+  bool was_tracked(int f, const Vector3d& direction) const {
+    for (const Contact& old : history_)
+      if (old.normal.dot(direction) > continued_direction && neighbors(old.face, f)) return true;
+    return false;
+  }
+
+  // Whether the node's own surface faces the other way; nodes of shells alone face all ways.
+  bool faces_towards(const Vector3d& direction) {
+    if (!solid_) return true;
+    if (!normal_known_) node_normal_ = vertex_normal(scene_.surface, scene_.nodes, slave_);
+    normal_known_ = true;
+    return node_normal_.dot(direction) < opposing;
+  }
+
+  Vector3d relative_velocity(int f, const std::array<double, 4>& weights) const {
+    Vector3d relative = velocity(scene_.nodes, node_);
+    for (std::size_t k = 0; k < 4; ++k)
+      if (weights[k] != 0) relative -= weights[k] * velocity(scene_.nodes, face(f).node[k]);
+    return relative;
+  }
+
+  bool has_similar(int body, const Vector3d& normal) const {
+    for (std::size_t i = begin_; i < piece_.contact.size(); ++i)
+      if (piece_.contact[i].body == body && piece_.contact[i].normal.dot(normal) > same_direction)
+        return true;
+    return false;
+  }
+
+  // ---- judgement
+
+  void judge(std::size_t i) {
+    if (face(piece_.near[i].face).shell)
+      judge_shell(i);
+    else
+      judge_solid(i);
+  }
+
+  // Unit vector from the closest point to the node, towards the outside of `normal`.
+  Vector3d direction(const NearFace& near, const Vector3d& normal) const {
+    const ClosestPoint& closest = near.closest;
+    const double along = closest.separation.dot(closest.normal);
+    const bool above_triangle = std::abs(along) >= (1 - 1e-12) * near.distance;
+    if (near.distance <= direction_share * edge(near.face) ||
+        (closest.feature == Feature::interior && above_triangle))
+      return closest.feature == Feature::interior ? closest.normal : normal;
+    return closest.separation / (closest.separation.dot(normal) < 0 ? -near.distance : near.distance);
+  }
+
+  void judge_solid(std::size_t i) {
+    const std::size_t first = closest_of_body(i);
+    const NearFace& near = piece_.near[i];
+    const Vector3d normal = pseudo_normal(scene_.surface, scene_.nodes, near.face, near.closest);
+    const double distance = signed_gap(near.closest, normal);
+    const double tolerance = touching_share * edge(near.face);
+    if (first == i) piece_.near[i].inside = distance < -tolerance;
+    if (repeated(i)) return;
+    const Vector3d push = direction(near, normal);
+    if (!faces_towards(push)) return;
+    if (distance < -tolerance) {
+      if (!piece_.near[first].inside || -distance > depth_share * edge(near.face)) return;
+      const bool tracked = was_tracked(near.face, push);
+      const bool self = face(near.face).body == scene_.surface.body[static_cast<std::size_t>(slave_)];
+      if (!tracked && (self || first != i)) return;
+    }
+    add(near, push, distance - touching(near.face));
+  }
+
+  void judge_shell(std::size_t i) {
+    if (repeated(i)) return;
+    const NearFace& near = piece_.near[i];
+    const double reach = touching(near.face);
+    const Vector3d side = side_of(near);
+    Vector3d push = side;
+    double distance = near.distance;
+    if (near.distance > direction_share * edge(near.face)) {
+      push = near.closest.separation / near.distance;
+      // Beyond the middle surface, against the side it was on in the last step: pushed back where it came
+      // from.
+      if (near.closest.feature == Feature::interior && near.distance < reach && push.dot(side) < 0) {
+        push = -push;
+        distance = -distance;
+      }
+    }
+    if (!faces_towards(push)) return;
+    add(near, push, distance - reach);
+  }
+
+  // The side of a shell on which the node belongs: the last step's, else where it is now.
+  Vector3d side_of(const NearFace& near) const {
+    for (const Contact& old : history_)
+      if (old.face == near.face || neighbors(old.face, near.face)) return old.normal;
+    const double along = near.closest.separation.dot(near.closest.normal);
+    const double approach = relative_velocity(near.face, near.closest.weights).dot(near.closest.normal);
+    return along < 0 || (along == 0 && approach > 0) ? Vector3d(-near.closest.normal) : near.closest.normal;
+  }
+
+  void add(const NearFace& near, const Vector3d& push, double gap) {
+    const double approach = relative_velocity(near.face, near.closest.weights).dot(push);
+    if (gap > band_share * edge(near.face) + approach_share * std::abs(approach) * scene_.dt) return;
+    append(near.face, near.closest.weights, push, gap);
+  }
+
+  void append(int f, const std::array<double, 4>& weights, const Vector3d& push, double gap) {
+    if (has_similar(face(f).body, push)) return;
+    Contact contact;
+    contact.slave = slave_;
+    contact.face = f;
+    contact.body = face(f).body;
+    contact.node[0] = slave_;
+    contact.weight[0] = 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+      contact.node[k + 1] = scene_.surface.slave(face(f).node[k]);
+      contact.weight[k + 1] = -weights[k];
+    }
+    contact.normal = push;
+    contact.gap = gap;
+    piece_.contact.push_back(contact);
+  }
+
+  // ---- first touches along the motion
+
+  void check_motion() {
+    const std::size_t judged = piece_.contact.size();
+    const NearFace* earliest = nullptr;
+    VelocityContact first{};
+    for (const NearFace& near : piece_.near) {
+      if (in_contact(near.face, judged)) continue;
+      const double reach = touching(near.face);
+      if (near.distance <= reach || farthest_travel(near.face) < near.distance - reach) continue;
+      const auto touch = velocity_check(moving_node(), moving_face(near.face), reach);
+      if (!touch || (earliest != nullptr && touch->time >= first.time)) continue;
+      if (!face(near.face).shell && touch->side < 0) continue;
+      earliest = &near;
+      first = *touch;
+    }
+    if (earliest != nullptr) add_touch(earliest->face, first);
+  }
+
+  bool in_contact(int f, std::size_t judged) const {
+    for (std::size_t i = begin_; i < judged; ++i)
+      if (piece_.contact[i].face == f) return true;
+    return false;
+  }
+
+  double farthest_travel(int f) const {
+    double farthest = 0;
+    const Vector3d own = velocity(scene_.nodes, node_);
+    for (int corner : face(f).node)
+      farthest = std::max(farthest, (own - velocity(scene_.nodes, corner)).norm());
+    return farthest * scene_.dt;
+  }
+
+  MovingNode moving_node() const {
+    return {position(scene_.nodes, node_), scene_.dt * (velocity(scene_.nodes, node_) - scene_.frame)};
+  }
+  MovingFace moving_face(int f) const {
+    MovingFace moving{.start = vertices(scene_.nodes, face(f)), .displacement = {}};
+    for (std::size_t k = 0; k < 4; ++k)
+      moving.displacement[k] = scene_.dt * (velocity(scene_.nodes, face(f).node[k]) - scene_.frame);
+    return moving;
+  }
+
+  void add_touch(int f, const VelocityContact& touch) {
+    const MovingNode node = moving_node();
+    const MovingFace moving = moving_face(f);
+    Vector3d start = node.start;
+    Vector3d then = node.start + touch.time * node.displacement;
+    for (std::size_t k = 0; k < 4; ++k) {
+      start -= touch.weights[k] * moving.start[k];
+      then -= touch.weights[k] * (moving.start[k] + touch.time * moving.displacement[k]);
+    }
+    const double reach = touching(f);
+    Vector3d push = touch.side < 0 ? Vector3d(-touch.normal) : touch.normal;
+    if (reach > direction_share * edge(f) && then.norm() > 0.5 * reach) push = then.normalized();
+    if (push.squaredNorm() < 0.5 || !faces_towards(push)) return;
+    append(f, touch.weights, push, std::max(push.dot(start) - reach, 0.0));
+  }
+
+  const Scenery& scene_;
+  DetectionPiece& piece_;
+  std::span<const Contact> history_;
+  Vector3d node_normal_ = Vector3d::Zero();
+  std::size_t begin_ = 0;
+  int slave_ = 0;
+  int node_ = 0;
+  bool solid_ = false;
+  bool normal_known_ = false;
+};
+
+}  // namespace
+
+void detect(Detection& detection, const Surface& surface, const Candidates& candidates,
+            const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
+            std::span<const Contact> last, ThreadTeam& team, std::vector<Contact>& contacts) {
+  Vector3d frame;
+  for (int axis = 0; axis < 3; ++axis) frame[axis] = 0.5 * (velocities.lower[axis] + velocities.upper[axis]);
+  detection.face_box.resize(surface.face.size());
+  team.for_ranges(candidates.face.size(), slaves_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int f = candidates.face[i];
+      const auto index = static_cast<std::size_t>(f);
+      detection.face_box[index] = swept_box(nodes, surface.face[index].node, frame, approach_share * dt,
+                                            influence(surface, options, candidates, f));
+    }
+  });
+  const Scenery scenery{surface, candidates, options, nodes, dt, frame, last, detection.face_box};
+  const std::size_t tasks = (surface.slaves() + slaves_per_task - 1) / slaves_per_task;
+  detection.piece.resize(tasks);
+  team.for_each(tasks, [&](std::size_t task) {
+    DetectionPiece& piece = detection.piece[task];
+    piece.contact.clear();
+    NodeCheck check(scenery, piece);
+    const std::size_t end = std::min(surface.slaves(), (task + 1) * slaves_per_task);
+    for (std::size_t s = task * slaves_per_task; s < end; ++s) check.run(static_cast<int>(s));
+  });
+  contacts.clear();
+  for (const DetectionPiece& piece : detection.piece)
+    contacts.insert(contacts.end(), piece.contact.begin(), piece.contact.end());
+}
+
+}  // namespace brio

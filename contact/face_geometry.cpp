@@ -1,0 +1,89 @@
+#include "contact/face_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+Vector3d centroid(const FaceVertices& v) {
+  return v[0] + 0.25 * ((v[1] - v[0]) + (v[2] - v[0]) + (v[3] - v[0]));
+}
+
+// What one face adds to the normal at its corner: of each sub-triangle there, its normal times its angle.
+Vector3d corner_share(const FaceVertices& v, std::size_t corner) {
+  if (is_triangle(v)) {
+    const Vector3d to_next = v[(corner + 1) % 3] - v[corner];
+    const Vector3d to_last = v[(corner + 2) % 3] - v[corner];
+    return angle_between(to_next, to_last) * to_next.cross(to_last).stableNormalized();
+  }
+  const Vector3d to_middle = centroid(v) - v[corner];
+  const Vector3d to_next = v[(corner + 1) % 4] - v[corner];
+  const Vector3d to_last = v[(corner + 3) % 4] - v[corner];
+  return angle_between(to_next, to_middle) * to_next.cross(to_middle).stableNormalized() +
+         angle_between(to_middle, to_last) * to_middle.cross(to_last).stableNormalized();
+}
+
+Vector3d edge_normal(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
+  const auto k = static_cast<std::size_t>(closest.index);
+  const int other = surface.neighbor[static_cast<std::size_t>(face)][k];
+  if (other < 0) return closest.normal;
+  const Face& own = surface.face[static_cast<std::size_t>(face)];
+  const Face& across = surface.face[static_cast<std::size_t>(other)];
+  const int from = own.node[k];
+  const int to = own.node[(k + 1) % static_cast<std::size_t>(own.corners())];
+  for (int j = 0; j < across.corners(); ++j) {
+    const int a = across.node[static_cast<std::size_t>(j)];
+    const int b = across.node[static_cast<std::size_t>((j + 1) % across.corners())];
+    if (a == to && b == from)
+      return unit_or(closest.normal + sub_triangle_area(vertices(nodes, across), j).stableNormalized(),
+                     closest.normal);
+  }
+  return closest.normal;
+}
+
+}  // namespace
+
+Vector3d sub_triangle_area(const FaceVertices& v, int k) {
+  if (is_triangle(v)) return accurate_cross(v[1] - v[0], v[2] - v[0]);
+  const auto first = static_cast<std::size_t>(k);
+  const Vector3d middle = centroid(v);
+  return accurate_cross(v[first] - middle, v[(first + 1) % 4] - middle);
+}
+
+Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave) {
+  Vector3d sum = Vector3d::Zero();
+  const int node = surface.node[static_cast<std::size_t>(slave)];
+  for (int f : surface.faces_of.of(slave)) {
+    const Face& face = surface.face[static_cast<std::size_t>(f)];
+    if (face.shell) continue;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(face.corners()); ++k)
+      if (face.node[k] == node) sum += corner_share(vertices(nodes, face), k);
+  }
+  return unit_or(sum, Vector3d::Zero());
+}
+
+Vector3d pseudo_normal(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
+  if (closest.feature == Feature::interior) return closest.normal;
+  if (closest.feature == Feature::edge) return edge_normal(surface, nodes, face, closest);
+  const Face& own = surface.face[static_cast<std::size_t>(face)];
+  return vertex_normal(surface, nodes, surface.slave(own.node[static_cast<std::size_t>(closest.index)]));
+}
+
+double shortest_edge(const Nodes& nodes, const Face& face) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < face.corners(); ++k) {
+    const Vector3d edge = position(nodes, face.node[static_cast<std::size_t>((k + 1) % face.corners())]) -
+                          position(nodes, face.node[static_cast<std::size_t>(k)]);
+    shortest = std::min(shortest, edge.norm());
+  }
+  return shortest;
+}
+
+}  // namespace brio

@@ -1,0 +1,116 @@
+#include "contact/scene.hpp"
+
+#include <algorithm>
+
+#include "contact/exclusion.hpp"
+#include "contact/face_geometry.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr std::size_t nodes_per_task = 2048;
+
+void load_motion(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
+  team.for_ranges(scene.surface.slaves(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      const auto node = static_cast<std::size_t>(scene.surface.node[s]);
+      for (int axis = 0; axis < 3; ++axis) {
+        scene.motion[s].velocity[axis] = nodes.record[node].velocity[axis];
+        scene.motion[s].inverse_mass[axis] = nodes.free_inverse_mass(node, axis);
+      }
+    }
+  });
+}
+
+void store_velocities(const ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
+  team.for_ranges(scene.surface.slaves(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      double* v = nodes.record[static_cast<std::size_t>(scene.surface.node[s])].velocity;
+      for (int axis = 0; axis < 3; ++axis) v[axis] = scene.motion[s].velocity[axis];
+    }
+  });
+}
+
+void sum_impulses(ContactScene& scene) {
+  std::fill(scene.normal_impulse.begin(), scene.normal_impulse.end(), Vector3d::Zero());
+  std::fill(scene.friction_impulse.begin(), scene.friction_impulse.end(), Vector3d::Zero());
+  for (const Contact& contact : scene.contacts) {
+    if (contact.impulse == 0) continue;
+    for (std::size_t k = 0; k < 5; ++k) {
+      const auto s = static_cast<std::size_t>(contact.node[k]);
+      scene.normal_impulse[s] += contact.weight[k] * contact.impulse * contact.normal;
+      scene.friction_impulse[s] += contact.weight[k] * contact.friction;
+    }
+  }
+}
+
+// Predicted and corrected velocities agree where contact did not act, so only nodes with impulses count.
+void book(ContactScene& scene) {
+  ContactStep& step = scene.step;
+  step.contacts = static_cast<int>(scene.contacts.size());
+  for (const Contact& contact : scene.contacts) {
+    step.deepest_overlap = std::max(step.deepest_overlap, -contact.gap);
+    if (contact.impulse > 0) ++step.active;
+  }
+  for (std::size_t s = 0; s < scene.surface.slaves(); ++s) {
+    const double* v = scene.motion[s].velocity;
+    const Vector3d after(v[0], v[1], v[2]);
+    step.normal_work_before += scene.normal_impulse[s].dot(scene.velocity_before[s]);
+    step.normal_work_after += scene.normal_impulse[s].dot(after);
+    step.friction_work_before += scene.friction_impulse[s].dot(scene.velocity_before[s]);
+    step.friction_work_after += scene.friction_impulse[s].dot(after);
+    scene.velocity_before[s] = after;
+  }
+  ContactTotals& totals = scene.totals;
+  ++totals.steps;
+  totals.contacts += static_cast<std::uint64_t>(step.contacts);
+  totals.most_contacts = std::max(totals.most_contacts, step.contacts);
+  totals.normal_work += step.normal_work();
+  totals.normal_work_added += std::max(0.0, step.normal_work());
+  totals.largest_normal_work = std::max(totals.largest_normal_work, totals.normal_work);
+  totals.friction_work += step.friction_work();
+  totals.deepest_overlap = std::max(totals.deepest_overlap, step.deepest_overlap);
+}
+
+}  // namespace
+
+ContactScene make_contact_scene(const ContactOptions& options, std::span<const SurfacePart> parts,
+                                const Nodes& nodes) {
+  ContactScene scene;
+  scene.options = options;
+  scene.surface = make_surface(parts, nodes.size());
+  scene.excluded = excluded_faces(scene.surface, nodes);
+  scene.candidates = Candidates(options.search);
+  const std::size_t slaves = scene.surface.slaves();
+  scene.motion.resize(slaves);
+  scene.velocity_before.resize(slaves);
+  scene.normal_impulse.resize(slaves, Vector3d::Zero());
+  scene.friction_impulse.resize(slaves, Vector3d::Zero());
+  for (std::size_t s = 0; s < slaves; ++s) scene.velocity_before[s] = velocity(nodes, scene.surface.node[s]);
+  return scene;
+}
+
+void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team) {
+  scene.step = ContactStep{};
+  if (scene.surface.face.empty()) return;
+  const Spread velocities = velocity_spread(scene.surface, nodes);
+  scene.step.searched =
+      refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, velocities, dt, team);
+  scene.last.swap(scene.contacts);
+  detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, velocities, dt, scene.last,
+         team, scene.contacts);
+  warm_start(scene.last, scene.last_dt > 0 ? dt / scene.last_dt : 1.0, scene.contacts);
+  load_motion(scene, nodes, team);
+  solve(scene.solver, scene.options, scene.candidates.smallest_edge, dt, scene.contacts, scene.motion);
+  scene.step.passes = scene.solver.passes_done;
+  scene.step.residual = scene.solver.residual;
+  if (!scene.contacts.empty()) store_velocities(scene, nodes, team);
+  sum_impulses(scene);
+  book(scene);
+  scene.last_dt = dt;
+}
+
+}  // namespace brio

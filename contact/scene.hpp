@@ -1,0 +1,84 @@
+#pragma once
+/// One contact scene: surfaces that may touch each other and themselves, and what is remembered between
+/// steps.
+///
+///     ContactScene scene = make_contact_scene(options, parts, nodes);
+///     each step, positions at n, velocities predicted for n+1/2:  resolve(scene, nodes, dt, team);
+///
+/// Only velocities are changed. Allocates nothing once as many pairs and contacts have been seen.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/candidates.hpp"
+#include "contact/detect.hpp"
+#include "contact/options.hpp"
+#include "contact/pair.hpp"
+#include "contact/solve.hpp"
+#include "contact/surface.hpp"
+#include "src/base/nodes.hpp"
+#include "src/base/parallel.hpp"
+
+namespace brio {
+
+/// What contact did in the last step. Work is that of all impulses J on all nodes, J.v with the velocities of
+/// the half step before and of the half step after; the mean of both is what motion gained by contact
+/// (negative: lost).
+struct ContactStep {
+  double normal_work_before = 0;
+  double normal_work_after = 0;
+  double friction_work_before = 0;
+  double friction_work_after = 0;
+  int contacts = 0;            ///< constraints, touching or about to
+  int active = 0;              ///< of these, with an impulse
+  double deepest_overlap = 0;  ///< at the beginning of the step
+  int passes = 0;
+  double residual = 0;  ///< relative velocity changed in the last pass
+  bool searched = false;
+
+  double normal_work() const { return 0.5 * (normal_work_before + normal_work_after); }
+  double friction_work() const { return 0.5 * (friction_work_before + friction_work_after); }
+};
+
+/// Sums and extremes over all steps.
+struct ContactTotals {
+  double normal_work = 0;          ///< net
+  double normal_work_added = 0;    ///< sum of the positive steps
+  double largest_normal_work = 0;  ///< largest net sum so far: how much contact has ever added
+  double friction_work = 0;        ///< not positive but for rounding and the supports' share
+  double deepest_overlap = 0;
+  std::uint64_t steps = 0;
+  std::uint64_t contacts = 0;  ///< sum over the steps
+  int most_contacts = 0;
+};
+
+struct ContactScene {
+  ContactOptions options;
+  Surface surface;
+  Lists excluded;
+  Candidates candidates;
+  Detection detection;
+  Solver solver;
+  std::vector<Contact> contacts;  ///< of the last step, by slave node
+  std::vector<Contact> last;      ///< of the step before, while one is resolved
+  double last_dt = 0;
+
+  std::vector<ContactMotion> motion;             ///< of each slave node
+  std::vector<Eigen::Vector3d> velocity_before;  ///< of each slave node, at the half step before
+  std::vector<Eigen::Vector3d> normal_impulse;   ///< of each slave node, in the last step
+  std::vector<Eigen::Vector3d> friction_impulse;
+
+  ContactStep step;
+  ContactTotals totals;
+};
+
+/// \throws std::invalid_argument for elements without surface.
+ContactScene make_contact_scene(const ContactOptions& options, std::span<const SurfacePart> parts,
+                                const Nodes& nodes);
+
+/// Correct the predicted velocities of all surface nodes so that nothing passes through anything in this
+/// step.
+void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team);
+
+}  // namespace brio

@@ -1,0 +1,73 @@
+#pragma once
+/// The contact surface of a mesh, found without any side set: every hexahedron side that no other hexahedron
+/// shares, every shell (one face stands for both of its sides, by its thickness), and the nodes of both as
+/// slave nodes.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace brio {
+
+/// What the surface is made of: the elements of one part.
+struct SurfacePart {
+  std::string name;
+  bool shell = false;
+  int nodes_per_element = 8;  ///< 8: hexahedra in VTK's order; 4: shells. Repeated nodes degenerate them
+  std::span<const int> connectivity;  ///< global node numbers, nodes_per_element of each element
+  std::vector<double> thickness;      ///< of each shell; empty for hexahedra
+};
+
+struct Face {
+  std::array<int, 4> node;  ///< global, counterclockwise from outside; a triangle repeats its third node
+  int part = 0;
+  int element = 0;  ///< within its part
+  int body = 0;     ///< elements connected through nodes are one body
+  bool shell = false;
+
+  bool has(int global_node) const {
+    return node[0] == global_node || node[1] == global_node || node[2] == global_node ||
+           node[3] == global_node;
+  }
+  int corners() const { return node[3] == node[2] ? 3 : 4; }
+};
+
+/// Lists of different lengths in one array: of(i) is list i.
+struct Lists {
+  std::vector<int> first;  ///< lists + 1 entries
+  std::vector<int> item;
+
+  std::span<const int> of(int list) const {
+    const auto begin = static_cast<std::size_t>(first[static_cast<std::size_t>(list)]);
+    const auto end = static_cast<std::size_t>(first[static_cast<std::size_t>(list) + 1]);
+    return {item.data() + begin, end - begin};
+  }
+};
+
+struct Surface {
+  std::vector<std::string> part_name;
+  std::vector<Face> face;         ///< ordered by part, element, side
+  std::vector<double> thickness;  ///< of each face; 0 for sides of hexahedra
+  std::vector<std::array<int, 4>>
+      neighbor;                        ///< face across the edge from corner k to the next; -1: free edge
+  std::vector<int> node;               ///< global numbers of the slave nodes, ascending
+  std::vector<int> slave_of;           ///< of each global node: its index in `node`; -1: not on the surface
+  std::vector<double> radius;          ///< of each slave node: half the mean thickness of its shells
+  std::vector<std::uint8_t> of_solid;  ///< of each slave node: 1 where it belongs to a side of a hexahedron
+  std::vector<int> body;               ///< of each slave node
+  Lists faces_of;                      ///< of each slave node: the faces it belongs to, ascending
+  int body_count = 0;
+
+  std::size_t slaves() const { return node.size(); }
+  int slave(int global_node) const { return slave_of[static_cast<std::size_t>(global_node)]; }
+};
+
+/// \throws std::invalid_argument when a shell has no thickness or a node number is out of range.
+Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count);
+
+/// Take over the current thickness of the shells of a part, in the order of its elements.
+void update_thickness(Surface& surface, int part, std::span<const double> thickness);
+
+}  // namespace brio

@@ -1,0 +1,226 @@
+#pragma once
+/// A small elastic world for tests of contact: hexahedra and shells whose nodes are held together by springs
+/// (between all nodes of an element, and for shells between nodes two apart, which resist bending). Central
+/// difference.
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "contact/scene.hpp"
+#include "contact/surface.hpp"
+#include "src/base/nodes.hpp"
+#include "src/base/parallel.hpp"
+
+namespace brio::testing {
+
+using Eigen::Vector3d;
+
+/// Where a point of a new piece goes.
+using Map = std::function<Vector3d(const Vector3d&)>;
+/// Moved by a vector.
+inline Map shifted(const Vector3d& by) {
+  return [by](const Vector3d& x) -> Vector3d { return x + by; };
+}
+
+class SpringModel {
+ public:
+  double stiffness = 1e4;  ///< of a spring times its length
+  Vector3d gravity = Vector3d::Zero();
+  double damping = 0;  ///< rate at which velocities decay
+  Nodes nodes;
+  ContactScene scene;
+
+  /// Box of cells with its lowest corner at the origin, placed by `map`. \returns its first node.
+  int add_box(std::array<int, 3> cells, const Vector3d& size, double density, const Map& map) {
+    const int first = static_cast<int>(position_.size());
+    const auto [nx, ny, nz] = cells;
+    for (int k = 0; k <= nz; ++k)
+      for (int j = 0; j <= ny; ++j)
+        for (int i = 0; i <= nx; ++i) {
+          position_.push_back(map(Vector3d(size[0] * i / nx, size[1] * j / ny, size[2] * k / nz)));
+          mass_.push_back(0);
+          velocity_.push_back(Vector3d::Zero());
+        }
+    Piece& piece = pieces_.emplace_back();
+    const double mass = density * size.prod() / (8.0 * nx * ny * nz);
+    const auto at = [&](int i, int j, int k) { return first + i + (nx + 1) * (j + (ny + 1) * k); };
+    for (int k = 0; k < nz; ++k)
+      for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) {
+          const int corner[8] = {
+              at(i, j, k),     at(i + 1, j, k),     at(i + 1, j + 1, k),     at(i, j + 1, k),
+              at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)};
+          for (int a : corner) {
+            piece.connectivity.push_back(a);
+            mass_[static_cast<std::size_t>(a)] += mass;
+          }
+          for (int a = 0; a < 8; ++a)
+            for (int b = 0; b < a; ++b) add_spring(corner[a], corner[b]);
+        }
+    return first;
+  }
+
+  /// Sheet of shells in the plane z = 0, placed by `map`. \returns its first node.
+  int add_sheet(std::array<int, 2> cells, std::array<double, 2> size, double thickness, double density,
+                const Map& map) {
+    const int first = static_cast<int>(position_.size());
+    const auto [nx, ny] = cells;
+    for (int j = 0; j <= ny; ++j)
+      for (int i = 0; i <= nx; ++i) {
+        position_.push_back(map(Vector3d(size[0] * i / nx, size[1] * j / ny, 0)));
+        mass_.push_back(0);
+        velocity_.push_back(Vector3d::Zero());
+      }
+    Piece& piece = pieces_.emplace_back();
+    piece.shell = true;
+    const double mass = density * thickness * size[0] * size[1] / (4.0 * nx * ny);
+    const auto at = [&](int i, int j) { return first + i + (nx + 1) * j; };
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        const int corner[4] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+        piece.thickness.push_back(thickness);
+        for (int a : corner) {
+          piece.connectivity.push_back(a);
+          mass_[static_cast<std::size_t>(a)] += mass;
+        }
+        for (int a = 0; a < 4; ++a)
+          for (int b = 0; b < a; ++b) add_spring(corner[a], corner[b]);
+      }
+    for (int j = 0; j <= ny; ++j)
+      for (int i = 0; i <= nx; ++i) {
+        if (i + 2 <= nx) add_spring(at(i, j), at(i + 2, j));
+        if (j + 2 <= ny) add_spring(at(i, j), at(i, j + 2));
+      }
+    return first;
+  }
+
+  int count() const { return static_cast<int>(position_.size()); }
+  /// Set the velocity of the nodes from `first` to the last one so far.
+  void throw_from(int first, const Vector3d& velocity) {
+    for (std::size_t n = static_cast<std::size_t>(first); n < velocity_.size(); ++n) velocity_[n] = velocity;
+  }
+
+  /// After everything is added.
+  void start(const ContactOptions& options) {
+    nodes = Nodes(position_.size(), false);
+    nodes.prescribed = AlignedBuffer<std::uint8_t>(position_.size());
+    for (std::size_t n = 0; n < position_.size(); ++n) {
+      for (int axis = 0; axis < 3; ++axis) {
+        nodes.record[n].position[axis] = position_[n][axis];
+        nodes.record[n].velocity[axis] = velocity_[n][axis];
+      }
+      nodes.mass[n] = mass_[n];
+      nodes.record[n].inverse_mass = 1 / mass_[n];
+    }
+    std::vector<SurfacePart> parts;
+    for (const Piece& piece : pieces_)
+      parts.push_back({.name = "part " + std::to_string(parts.size()),
+                       .shell = piece.shell,
+                       .nodes_per_element = piece.shell ? 4 : 8,
+                       .connectivity = piece.connectivity,
+                       .thickness = piece.thickness});
+    scene = make_contact_scene(options, parts, nodes);
+    for (Spring& spring : springs_) spring.length = (x(spring.a) - x(spring.b)).norm();
+  }
+
+  void hold(int first, int end, int axes = 7) {
+    for (int n = first; n < end; ++n)
+      nodes.prescribed[static_cast<std::size_t>(n)] |= static_cast<std::uint8_t>(axes);
+  }
+
+  void step(double dt, ThreadTeam& team) {
+    accelerate(dt);
+    resolve(scene, nodes, dt, team);
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      for (int axis = 0; axis < 3; ++axis)
+        nodes.record[n].position[axis] += dt * nodes.record[n].velocity[axis];
+  }
+  void step(double dt) { step(dt, alone_); }
+
+  Vector3d x(int n) const { return Vector3d(nodes.record[static_cast<std::size_t>(n)].position); }
+  Vector3d v(int n) const { return Vector3d(nodes.record[static_cast<std::size_t>(n)].velocity); }
+  void set_velocity(int n, const Vector3d& value) {
+    for (int axis = 0; axis < 3; ++axis)
+      nodes.record[static_cast<std::size_t>(n)].velocity[axis] = value[axis];
+  }
+  double mass(int n) const { return nodes.mass[static_cast<std::size_t>(n)]; }
+
+  double kinetic_energy() const {
+    double sum = 0;
+    for (int n = 0; n < count(); ++n) sum += 0.5 * mass(n) * v(n).squaredNorm();
+    return sum;
+  }
+  double spring_energy() const {
+    double sum = 0;
+    for (const Spring& s : springs_) {
+      const double stretch = (x(s.a) - x(s.b)).norm() - s.length;
+      sum += 0.5 * stiffness / s.length * stretch * stretch;
+    }
+    return sum;
+  }
+  Vector3d momentum(int first = 0, int end = -1) const {
+    Vector3d sum = Vector3d::Zero();
+    for (int n = first; n < (end < 0 ? count() : end); ++n) sum += mass(n) * v(n);
+    return sum;
+  }
+  Vector3d angular_momentum() const {
+    Vector3d sum = Vector3d::Zero();
+    for (int n = 0; n < count(); ++n) sum += mass(n) * x(n).cross(v(n));
+    return sum;
+  }
+  Vector3d mean_velocity(int first, int end) const {
+    double total = 0;
+    for (int n = first; n < end; ++n) total += mass(n);
+    return momentum(first, end) / total;
+  }
+  Vector3d centre(int first, int end) const {
+    Vector3d sum = Vector3d::Zero();
+    double total = 0;
+    for (int n = first; n < end; ++n) {
+      sum += mass(n) * x(n);
+      total += mass(n);
+    }
+    return sum / total;
+  }
+
+ private:
+  struct Piece {
+    bool shell = false;
+    std::vector<int> connectivity;
+    std::vector<double> thickness;
+  };
+  struct Spring {
+    int a, b;
+    double length = 0;
+  };
+
+  void add_spring(int a, int b) { springs_.push_back({a, b}); }
+
+  void accelerate(double dt) {
+    std::vector<Vector3d> force(nodes.size(), Vector3d::Zero());
+    for (const Spring& s : springs_) {
+      const Vector3d along = x(s.b) - x(s.a);
+      const double length = along.norm();
+      const Vector3d pull = stiffness / s.length * (length - s.length) / length * along;
+      force[static_cast<std::size_t>(s.a)] += pull;
+      force[static_cast<std::size_t>(s.b)] -= pull;
+    }
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      for (int axis = 0; axis < 3; ++axis) {
+        NodeRecord& record = nodes.record[n];
+        if (nodes.free_inverse_mass(n, axis) == 0) continue;
+        record.velocity[axis] += dt * (force[n][axis] * record.inverse_mass + gravity[axis]);
+        record.velocity[axis] *= 1 - dt * damping;
+      }
+  }
+
+  std::vector<Vector3d> position_, velocity_;
+  std::vector<double> mass_;
+  std::vector<Piece> pieces_;
+  std::vector<Spring> springs_;
+  ThreadTeam alone_{1};
+};
+
+}  // namespace brio::testing

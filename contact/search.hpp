@@ -9,6 +9,7 @@
 /// lower > upper, belongs to no pair.
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -30,6 +31,12 @@ struct CaptureBox {
            point.z >= lower[2] && point.z <= upper[2];
   }
 };
+
+/// Whether the box has an inside; false where a face is not a number.
+inline bool can_hold_points(const CaptureBox& box) {
+  return std::islessequal(box.lower[0], box.upper[0]) && std::islessequal(box.lower[1], box.upper[1]) &&
+         std::islessequal(box.lower[2], box.upper[2]);
+}
 
 /// The pairs found, box by box: indices of the points inside box b are node[first[b]] ... node[first[b + 1] -
 /// 1], ascending.

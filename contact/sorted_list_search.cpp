@@ -17,17 +17,34 @@ bool is_number(const Vector3<double>& point) {
 
 }  // namespace
 
+double comparisons_by_pairs(int bodies, int nodes_per_body) {
+  const double both = 2.0 * nodes_per_body;
+  return static_cast<double>(bodies) * bodies * both * std::log2(both);
+}
+
+double comparisons_of_global_search(int bodies, int nodes_per_body) {
+  const double all = static_cast<double>(bodies) * nodes_per_body;
+  return all * std::log2(all);
+}
+
+/// The order of the last search is nearly that of this one, and sorts in about half the time of an arbitrary
+/// one.
 void SortedListSearch::sort(std::span<const Vector3<double>> points, int axis) {
   std::vector<int>& order = order_[axis];
   std::vector<int>& rank = rank_[axis];
-  order.clear();
-  rank.assign(points.size(), -1);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (is_number(points[i])) order.push_back(static_cast<int>(i));
+  const auto all_numbers = static_cast<std::size_t>(std::count_if(points.begin(), points.end(), is_number));
+  if (rank.size() != points.size() || order.size() != points.size() || all_numbers != points.size()) {
+    rank.resize(points.size());
+    order.clear();
+    order.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (is_number(points[i])) order.push_back(static_cast<int>(i));
+  }
   std::sort(order.begin(), order.end(), [&](int a, int b) {
     return coordinate(points[static_cast<std::size_t>(a)], axis) <
            coordinate(points[static_cast<std::size_t>(b)], axis);
   });
+  if (order.size() != points.size()) std::fill(rank.begin(), rank.end(), -1);
   for (std::size_t i = 0; i < order.size(); ++i)
     rank[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
 }
@@ -49,6 +66,7 @@ SortedListSearch::Slab SortedListSearch::slab(int axis, std::span<const Vector3<
 
 void SortedListSearch::find_in_box(std::span<const Vector3<double>> points, std::span<const CaptureBox> boxes,
                                    std::size_t box, PairPiece& piece) const {
+  if (!can_hold_points(boxes[box])) return;
   Slab slabs[3];
   int shortest = 0;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,9 +1,9 @@
 #pragma once
 /// The search of Heinstein et al. (1993), after Swegle: for each axis the points' indices in ascending order
-/// and each point's rank in that order, and one scratch list: 7 n integers. Two binary searches an axis give
-/// the slab of a box; the points of the shortest slab are tested by their ranks on the other two axes. A slab
-/// of a large scene holds many points, so that the cost grows faster than n log n: this is the counted
-/// reference.
+/// and each point's rank in that order; with the points found for a box, 7 n integers. Two binary searches an
+/// axis give the slab of a box; the points of the shortest slab are tested by their ranks on the other two
+/// axes. A slab of a large scene holds many points, so that the cost grows faster than n log n: this is the
+/// counted reference.
 
 #include <cstdint>
 #include <span>
@@ -13,6 +13,10 @@
 #include "contact/search.hpp"
 
 namespace brio {
+
+/// Comparisons as the paper estimates them: every body searched against every other, and all at once.
+double comparisons_by_pairs(int bodies, int nodes_per_body);
+double comparisons_of_global_search(int bodies, int nodes_per_body);
 
 class SortedListSearch {
  public:
@@ -34,7 +38,6 @@ class SortedListSearch {
 
   std::vector<int> order_[3];  ///< point indices by ascending coordinate, without points that are not numbers
   std::vector<int> rank_[3];   ///< position of a point in order_; -1 where left out
-  std::vector<int> scratch_;
   std::vector<PairPiece> pieces_;
 };
 

@@ -1,11 +1,12 @@
 #pragma once
-/// Eight-node hexahedron with one integration point (Flanagan & Belytschko 1981).
+/// Eight-node hexahedron with one integration point: what a deck says of it. Its mathematics is in
+/// hex8_kernel.hpp.
 
-#include <array>
 #include <string_view>
 #include <tuple>
 
-#include "elements/motion.hpp"
+#include "elements/objective_rate.hpp"
+#include "elements/solid.hpp"
 #include "src/base/fields.hpp"
 
 namespace brio {
@@ -15,39 +16,26 @@ struct Hex8 {
   static constexpr int nodes = 8;
   static constexpr bool rotations = false;
   template <class Law>
-  static constexpr bool accepts = true;
-  static constexpr int points() { return 1; }
-  static constexpr auto fields() { return std::tuple{}; }
+  static constexpr bool accepts = is_solid_law<Law>;
 
-  template <class T, class Law>
-  struct Header {
-    T mass;
-  };
-  template <class T, class Law>
-  struct Point {
-    SymmetricTensor<T> stress;
-    [[no_unique_address]] typename Law::template History<T> history;
-  };
+  ObjectiveRate objective_rate = ObjectiveRate::green_naghdi;
+  double hourglass_stiffness = 0.05;
+  double hourglass_viscosity = 0;
+  double linear_bulk_viscosity = 0.06;
+  double quadratic_bulk_viscosity = 1.2;
 
-  template <class T, class Law>
-  NodalMass<T> initialize(const NodalMotion<T, 8>& motion, const Law& law, Header<T, Law>& header,
-                          Point<T, Law>*) const {
-    header.mass = T(law.density) * motion.position[0][6] * motion.position[1][6] * motion.position[2][6];
-    return {header.mass * 0.125, T(0.0)};
-  }
-  template <class T, class Law>
-  Increment<T> force(const NodalMotion<T, 8>& motion, T step, const Law& law, Header<T, Law>& header,
-                     Point<T, Law>* point, NodalForces<T, 8>& forces) const {
-    const SymmetricTensor<T> d = isotropic(step * motion.velocity[0][1]);
-    law.update(d, point->stress, point->history);
-    for (int i = 0; i < 3; ++i)
-      for (int n = 0; n < 8; ++n) forces.force[i][n] = point->stress.xx;
-    return {T(0.0), T(0.0), T(0.0), header.mass};
-  }
-  template <class Law>
-  ElementSample sample(const NodalMotion<double, 8>&, const Law&, const Header<double, Law>&,
-                       const Point<double, Law>* point) const {
-    return {.stress = point->stress};
+  static constexpr auto fields() {
+    return std::tuple{
+        optional("objective_rate", &Hex8::objective_rate, any_number, "how stress follows rotation"),
+        optional("hourglass_stiffness", &Hex8::hourglass_stiffness, fraction,
+                 "elastic hourglass control, share of the bending stiffness modulus, -"),
+        optional("hourglass_viscosity", &Hex8::hourglass_viscosity, fraction,
+                 "viscous hourglass control, share of critical damping, -"),
+        optional("linear_bulk_viscosity", &Hex8::linear_bulk_viscosity, non_negative,
+                 "bulk viscosity b1, share of critical damping of dilatation, -"),
+        optional("quadratic_bulk_viscosity", &Hex8::quadratic_bulk_viscosity, non_negative,
+                 "bulk viscosity b2, for shocks, in compression only, -"),
+    };
   }
 };
 

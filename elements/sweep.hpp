@@ -2,6 +2,7 @@
 /// The one loop over elements. An element kind provides
 ///
 ///     static constexpr std::string_view name;
+///     using Settings = ...;                                  // if the deck's struct is another: Kind is made from it
 ///     static constexpr int nodes;  static constexpr bool rotations;
 ///     template <class Law> static constexpr bool accepts;
 ///     int points() const;                                    // material points an element
@@ -26,6 +27,16 @@
 #include "elements/gather.hpp"
 
 namespace brio {
+
+/// The kernel of a block: the deck's element itself, or a variant of it chosen by its settings.
+template <class Kind>
+Kind kernel_of(const Element& element) {
+  if constexpr (requires { typename Kind::Settings; }) {
+    return Kind{std::get<typename Kind::Settings>(element)};
+  } else {
+    return std::get<Kind>(element);
+  }
+}
 
 template <class Kind, class Law, Floating Real>
 struct PackLayout {
@@ -113,7 +124,7 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   using Layout = PackLayout<Kind, Law, Real>;
   constexpr int width = lane_count<Real>;
   // Copies that nothing else can alias, so that what depends on parameters alone leaves the loop.
-  const Kind kind = std::get<Kind>(block.element);
+  const Kind kind = kernel_of<Kind>(block.element);
   const Law law = std::get<Law>(block.material);
   LaneSum<Real> internal_energy, hourglass_energy, viscous_energy;
   SweepResult result;
@@ -158,7 +169,7 @@ void initialize_block(Block& block, Nodes& nodes) {
   using T = Lanes<Real>;
   using Layout = PackLayout<Kind, Law, Real>;
   constexpr int width = lane_count<Real>;
-  const Kind& kind = std::get<Kind>(block.element);
+  const Kind kind = kernel_of<Kind>(block.element);
   const Law& law = std::get<Law>(block.material);
   for (std::size_t pack = 0; pack < block.pack_count; ++pack) {
     const int* connectivity = block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
@@ -194,7 +205,7 @@ template <class Kind, class Law, Floating Real>
 ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t e) {
   using Layout = PackLayout<Kind, Law, Real>;
   constexpr int width = lane_count<Real>;
-  const Kind& kind = std::get<Kind>(block.element);
+  const Kind kind = kernel_of<Kind>(block.element);
   const std::byte* pack = block.state.data() + (e / width) * block.pack_bytes;
   const int lane = static_cast<int>(e % width);
   typename Kind::template Header<double, Law> header;
@@ -219,7 +230,7 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
 
 template <class Kind, class Law, Floating Real>
 void set_kernel(Block& block) {
-  block.pack_bytes = PackLayout<Kind, Law, Real>::bytes(std::get<Kind>(block.element));
+  block.pack_bytes = PackLayout<Kind, Law, Real>::bytes(kernel_of<Kind>(block.element));
   block.kernel = {sweep_chunk<Kind, Law, Real>, initialize_block<Kind, Law, Real>, sample_element<Kind, Law, Real>};
 }
 
@@ -235,6 +246,10 @@ void choose_kernel_of(Block& block) {
           } else {
             set_kernel<Kind, Law, float>(block);
           }
+        } else {
+          throw std::invalid_argument("material model '" + std::string(Law::name) +
+                                      "' cannot be used by element '" + std::string(Kind::name) +
+                                      "' with these settings");
         }
       },
       block.material);

@@ -5,10 +5,11 @@
 
 #include "materials/elastic.hpp"
 #include "materials/elastic_plastic.hpp"
+#include "materials/power_law_hardening.hpp"
 
 namespace brio {
 
-using Material = std::variant<Elastic, ElasticPlastic>;
+using Material = std::variant<Elastic, ElasticPlastic, PowerLawHardening>;
 
 inline double density(const Material& material) {
   return std::visit([](const auto& law) { return law.density; }, material);

@@ -1,7 +1,11 @@
 #pragma once
 /// What a deck says. These structs are also the parameters that run: there is no parallel set.
+///
+/// A rule that binds several entries of a struct is its `fault()`: what is wrong and what is accepted, or
+/// nothing.
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +23,15 @@ namespace brio {
 
 using Triple = std::array<double, 3>;
 
+/// Nodes and elements are counted by int.
+constexpr std::string_view fault_of_size(std::int64_t a, std::int64_t b, std::int64_t c) {
+  constexpr std::int64_t largest = std::int64_t{1} << 27;
+  const bool fits = a <= largest && b <= largest && c <= largest && a * b <= largest && a * b * c <= largest;
+  return fits ? std::string_view{} : "the mesh is too fine; at most 134217728 elements are accepted a part";
+}
+
+constexpr bool is_zero(const Triple& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+
 // ---- mesh generators
 // -----------------------------------------------------------------------------------------
 
@@ -32,6 +45,7 @@ struct BoxMesh {
     return std::tuple{required("size", &BoxMesh::size, positive, "edge lengths along x, y, z"),
                       required("elements", &BoxMesh::elements, at_least_one, "elements along x, y, z")};
   }
+  constexpr std::string_view fault() const { return fault_of_size(elements[0], elements[1], elements[2]); }
 };
 
 /// Shells in the plane z = 0, centred on the origin. Sets: xmin xmax ymin ymax boundary all.
@@ -43,6 +57,7 @@ struct PlateMesh {
     return std::tuple{required("size", &PlateMesh::size, positive, "edge lengths along x, y"),
                       required("elements", &PlateMesh::elements, at_least_one, "elements along x, y")};
   }
+  constexpr std::string_view fault() const { return fault_of_size(elements[0], elements[1], 1); }
 };
 
 /// Shells on a cylinder about the z axis, from z = 0 to the height. Sets: bottom top all.
@@ -55,7 +70,11 @@ struct CylinderMesh {
     return std::tuple{
         required("radius", &CylinderMesh::radius, positive, "radius of the middle surface"),
         required("height", &CylinderMesh::height, positive, "length along z"),
-        required("elements", &CylinderMesh::elements, Range{.lower = 1}, "elements around, along z")};
+        required("elements", &CylinderMesh::elements, at_least_one, "elements around (at least 3), along z")};
+  }
+  constexpr std::string_view fault() const {
+    if (elements[0] < 3) return "the cylinder does not close; at least 3 elements around are accepted";
+    return fault_of_size(elements[0], elements[1], 1);
   }
 };
 
@@ -72,7 +91,13 @@ struct TubeMesh {
                       required("outer_radius", &TubeMesh::outer_radius, positive, "radius of the outside"),
                       required("height", &TubeMesh::height, positive, "length along z"),
                       required("elements", &TubeMesh::elements, at_least_one,
-                               "elements around, along z, through the wall")};
+                               "elements around (at least 3), along z, through the wall")};
+  }
+  constexpr std::string_view fault() const {
+    if (outer_radius <= inner_radius)
+      return "the wall has no thickness; outer_radius must exceed inner_radius";
+    if (elements[0] < 3) return "the tube does not close; at least 3 elements around are accepted";
+    return fault_of_size(elements[0], elements[1], elements[2]);
   }
 };
 
@@ -82,11 +107,19 @@ struct RodMesh {
   double radius = 0;
   double length = 0;
   std::array<int, 2> elements{};
+  bool keep_volume = false;
   static constexpr auto fields() {
-    return std::tuple{required("radius", &RodMesh::radius, positive, "radius"),
-                      required("length", &RodMesh::length, positive, "length along z"),
-                      required("elements", &RodMesh::elements, at_least_one,
-                               "elements across the diameter (even), along z")};
+    return std::tuple{
+        required("radius", &RodMesh::radius, positive, "radius"),
+        required("length", &RodMesh::length, positive, "length along z"),
+        required("elements", &RodMesh::elements, at_least_one,
+                 "elements across the diameter (even), along z"),
+        optional("keep_volume", &RodMesh::keep_volume, any_number,
+                 "set the outer nodes out so far that the facets enclose the volume of the round rod")};
+  }
+  constexpr std::string_view fault() const {
+    if (elements[0] % 2 != 0) return "the number of elements across the diameter is odd; it must be even";
+    return fault_of_size(elements[0], elements[0], elements[1]);
   }
 };
 
@@ -103,6 +136,9 @@ struct Rotation {
     return std::tuple{
         required("axis", &Rotation::axis, any_number, "direction of the axis through the origin"),
         required("degrees", &Rotation::degrees, any_number, "angle, right-handed")};
+  }
+  constexpr std::string_view fault() const {
+    return is_zero(axis) ? "the axis has no direction; at least one component must differ from 0" : "";
   }
 };
 
@@ -122,6 +158,12 @@ struct Part {
   Placement placement;
   Element element;
   std::string material;
+  static constexpr auto fields() {
+    return std::tuple{required("mesh", &Part::mesh, any_number, "shape and number of elements"),
+                      optional("placement", &Part::placement, any_number, "where the shape is put"),
+                      required("element", &Part::element, any_number, "kind of element"),
+                      required("material", &Part::material, any_number, "name of one of the materials")};
+  }
 };
 
 // ---- where: sets
@@ -129,6 +171,7 @@ struct Part {
 
 /// Nodes of a named set (`part.set`), or of all parts (or one) inside a region.
 struct BoxRegion {
+  static constexpr std::string_view name = "box";
   Triple lower{};
   Triple upper{};
   static constexpr auto fields() {
@@ -136,8 +179,13 @@ struct BoxRegion {
         required("lower", &BoxRegion::lower, any_number, "corner with the least coordinates"),
         required("upper", &BoxRegion::upper, any_number, "corner with the largest coordinates")};
   }
+  constexpr std::string_view fault() const {
+    const bool ordered = lower[0] <= upper[0] && lower[1] <= upper[1] && lower[2] <= upper[2];
+    return ordered ? "" : "the box is inside out; no component of lower may exceed that of upper";
+  }
 };
 struct PlaneRegion {
+  static constexpr std::string_view name = "plane";
   Triple point{};
   Triple normal{};
   double tolerance = 0;
@@ -147,8 +195,12 @@ struct PlaneRegion {
         required("normal", &PlaneRegion::normal, any_number, "normal of the plane"),
         required("tolerance", &PlaneRegion::tolerance, non_negative, "distance within which nodes belong")};
   }
+  constexpr std::string_view fault() const {
+    return is_zero(normal) ? "the normal has no direction; at least one component must differ from 0" : "";
+  }
 };
 struct SphereRegion {
+  static constexpr std::string_view name = "sphere";
   Triple centre{};
   double radius = 0;
   static constexpr auto fields() {
@@ -157,9 +209,10 @@ struct SphereRegion {
   }
 };
 /// In a deck: `set: can.bottom`, or `set: {box: {...}, part: can}`.
+using Region = std::variant<std::monostate, BoxRegion, PlaneRegion, SphereRegion>;
 struct NodeSelection {
   std::string set;  ///< "part.set" or "part"
-  std::variant<std::monostate, BoxRegion, PlaneRegion, SphereRegion> region;
+  Region region;
   std::string part;  ///< limits a region; empty: all parts
 };
 
@@ -194,6 +247,12 @@ struct InitialCondition {
   NodeSelection where;
   Triple velocity{};
   std::optional<Spin> spin;
+  static constexpr auto fields() {
+    return std::tuple{
+        optional("velocity", &InitialCondition::velocity, any_number,
+                 "velocity at the start, length per time"),
+        optional("spin", &InitialCondition::spin, any_number, "turning at the start, added to the velocity")};
+  }
 };
 
 enum class MotionKind { displacement, velocity, acceleration };
@@ -224,6 +283,9 @@ struct RigidWall {
                       optional("velocity", &RigidWall::velocity, any_number, "velocity of the wall"),
                       optional("friction", &RigidWall::friction, non_negative, "Coulomb coefficient, -")};
   }
+  constexpr std::string_view fault() const {
+    return is_zero(normal) ? "the normal has no direction; at least one component must differ from 0" : "";
+  }
 };
 
 using BoundaryCondition = std::variant<PrescribedMotion, RigidWall>;
@@ -233,19 +295,38 @@ using BoundaryCondition = std::variant<PrescribedMotion, RigidWall>;
 
 /// `gravity: [0, 0, -9.81]`, on everything.
 struct Gravity {
+  static constexpr std::string_view name = "gravity";
   Triple acceleration{};
   Curve factor{{{0, 1}}};
+  static constexpr auto fields() {
+    return std::tuple{required("gravity", &Gravity::acceleration, any_number,
+                               "acceleration of everything, length per time^2"),
+                      optional("factor", &Gravity::factor, any_number, "multiplies it, -")};
+  }
 };
 /// `force: [x, y, z]` on every node of a set, times `factor` (a curve).
 struct NodalForce {
+  static constexpr std::string_view name = "force";
   NodeSelection where;
   Triple force{};
   Curve factor{{{0, 1}}};
+  static constexpr auto fields() {
+    return std::tuple{required("set", &NodalForce::where, any_number, "nodes that are pushed"),
+                      required("force", &NodalForce::force, any_number, "on each of the nodes"),
+                      optional("factor", &NodalForce::factor, any_number, "multiplies it, -")};
+  }
 };
 /// `pressure: CURVE` on a named side set, pushing against the outward normal; follows the surface.
 struct Pressure {
+  static constexpr std::string_view name = "pressure";
   std::string side_set;  ///< "part.set"
   Curve pressure;
+  static constexpr auto fields() {
+    return std::tuple{
+        required("side_set", &Pressure::side_set, any_number, "sides of elements that are pushed, part.set"),
+        required("pressure", &Pressure::pressure, any_number,
+                 "against the outward normal; follows the surface")};
+  }
 };
 
 using Load = std::variant<Gravity, NodalForce, Pressure>;
@@ -285,6 +366,9 @@ struct FieldOutput {
                                "time between dumps; default: a twentieth of the end time"),
                       optional("times", &FieldOutput::times, non_negative, "times of dumps instead")};
   }
+  std::string_view fault() const {
+    return every && !times.empty() ? "both 'every' and 'times' are given; one of them is accepted" : "";
+  }
 };
 struct HistoryOutput {
   std::optional<double> every;
@@ -317,7 +401,8 @@ struct NumericsSection {
 struct Deck {
   std::string file;  ///< as given on the command line
   std::string title;
-  std::string text;  ///< the deck as run, with overrides, as YAML
+  std::vector<std::pair<std::string, std::string>> units;  ///< labels only: nothing is converted
+  std::string text;                                        ///< the deck as run, with overrides, as YAML
   std::vector<std::pair<std::string, Material>> materials;
   std::vector<Part> parts;
   std::vector<InitialCondition> initial_conditions;
@@ -327,6 +412,21 @@ struct Deck {
   TimeSection time;
   OutputSection output;
   NumericsSection numerics;
+  static constexpr auto fields() {
+    return std::tuple{
+        optional("title", &Deck::title, any_number, "one line, for people"),
+        optional("units", &Deck::units, any_number, "labels such as {length: mm}; nothing is converted"),
+        required("materials", &Deck::materials, any_number, "a map of names to laws"),
+        required("parts", &Deck::parts, any_number, "a map of names to parts"),
+        optional("initial_conditions", &Deck::initial_conditions, any_number, "velocities at the start"),
+        optional("boundary_conditions", &Deck::boundary_conditions, any_number,
+                 "motions that are prescribed"),
+        optional("loads", &Deck::loads, any_number, "forces from outside"),
+        optional("contact", &Deck::contact, any_number, "what may touch; absent: nothing is searched"),
+        required("time", &Deck::time, any_number, "how long and in which steps"),
+        optional("output", &Deck::output, any_number, "what is written, and when"),
+        optional("numerics", &Deck::numerics, any_number, "how the computer does it")};
+  }
 };
 
 }  // namespace brio

@@ -79,6 +79,13 @@ BRIO_INLINE Tensor<T> operator*(const Tensor<T>& a, const Tensor<T>& b) {
   return c;
 }
 template <class T>
+BRIO_INLINE Tensor<T> operator*(T s, const Tensor<T>& a) {
+  Tensor<T> c;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) c.m[i][j] = s * a.m[i][j];
+  return c;
+}
+template <class T>
 BRIO_INLINE Tensor<T> identity() {
   Tensor<T> one;
   for (int i = 0; i < 3; ++i)

@@ -41,3 +41,19 @@ TEST(Impact, TwoEqualBlocksExchangeTheirVelocities) {
     const Vector3d angular = model.angular_momentum();
     const double dt = 2e-4;
     for (int i = 0; i < 4000; ++i) model.step(dt);
+    EXPECT_LT((model.momentum() - momentum).norm(), 1e-12 * momentum.norm());
+    EXPECT_LT((model.angular_momentum() - angular).norm(), 1e-11 * momentum.norm() * 5);
+    const auto end_speed = [&](bool lower) {
+      const bool first_piece = lower == lower_first;
+      return first_piece ? model.mean_velocity(0, b)[2] : model.mean_velocity(b, model.count())[2];
+    };
+    EXPECT_LT(end_speed(true), -0.85);
+    EXPECT_GT(end_speed(false), -0.15);
+    const double plastic_first_touch = 0.04;  // of lumped contact masses, proportional to the mesh size
+    EXPECT_LT(model.scene.totals.largest_normal_work, 1e-3 * energy);
+    EXPECT_GT(model.scene.totals.normal_work, -plastic_first_touch * energy);
+  }
+}
+
+}  // namespace
+}  // namespace brio::testing

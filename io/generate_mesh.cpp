@@ -1,0 +1,164 @@
+#include "io/generate_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "io/section_mesh.hpp"
+
+namespace brio {
+
+namespace {
+
+std::vector<ElementSide> every_shell(const Mesh& mesh) {
+  std::vector<ElementSide> sides;
+  for (int e = 0; e < static_cast<int>(mesh.element_count()); ++e) sides.push_back({e, 0});
+  return sides;
+}
+
+std::vector<int> every_node(const Mesh& mesh) {
+  std::vector<int> nodes(mesh.position.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return nodes;
+}
+
+Mesh mesh_of(const BoxMesh& box) {
+  const auto& [nx, ny, nz] = box.elements;
+  Mesh mesh = pull_along_z(rectangle_section({box.size[0], box.size[1]}, {nx, ny}), -box.size[2] / 2,
+                           box.size[2], nz);
+  // Above and below by the same number, whatever the rounding of the steps between.
+  const std::size_t level = mesh.position.size() / static_cast<std::size_t>(nz + 1);
+  for (std::size_t n = 0; n < mesh.position.size(); ++n) {
+    const double k = static_cast<double>(n / level);
+    mesh.position[n][2] = box.size[2] * (2 * k - nz) / (2.0 * nz);
+  }
+  mesh.side_sets["zmin"] = mesh.side_sets["bottom"];
+  mesh.side_sets["zmax"] = mesh.side_sets["top"];
+  mesh.node_sets["zmin"] = mesh.node_sets["bottom"];
+  mesh.node_sets["zmax"] = mesh.node_sets["top"];
+  return mesh;
+}
+
+Mesh mesh_of(const PlateMesh& plate) {
+  const Section section = rectangle_section(plate.size, plate.elements);
+  Mesh mesh;
+  mesh.nodes_per_element = 4;
+  for (const Point2& p : section.point) mesh.position.push_back({p[0], p[1], 0});
+  for (const auto& quad : section.quad)
+    mesh.connectivity.insert(mesh.connectivity.end(), quad.begin(), quad.end());
+  mesh.side_sets["all"] = every_shell(mesh);
+  std::vector<int>& boundary = mesh.node_sets["boundary"];
+  for (const auto& [name, edges] : section.edges) {
+    std::vector<int>& set = mesh.node_sets[name];
+    for (const auto& [quad, edge] : edges)
+      for (const int corner : {edge, (edge + 1) % 4})
+        set.push_back(section.quad[static_cast<std::size_t>(quad)][static_cast<std::size_t>(corner)]);
+    boundary.insert(boundary.end(), set.begin(), set.end());
+  }
+  for (auto& [name, set] : mesh.node_sets) {
+    std::sort(set.begin(), set.end());
+    set.erase(std::unique(set.begin(), set.end()), set.end());
+  }
+  mesh.node_sets["all"] = every_node(mesh);
+  return mesh;
+}
+
+Mesh mesh_of(const CylinderMesh& cylinder) {
+  const auto [around, along] = cylinder.elements;
+  Mesh mesh;
+  mesh.nodes_per_element = 4;
+  for (int k = 0; k <= along; ++k)
+    for (int j = 0; j < around; ++j) {
+      const double angle = 2 * std::numbers::pi * j / around;
+      mesh.position.push_back({cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
+                               cylinder.height * k / along});
+    }
+  for (int k = 0; k < along; ++k)
+    for (int j = 0; j < around; ++j) {
+      const int next = (j + 1) % around;
+      for (const int node :
+           {j + around * k, next + around * k, next + around * (k + 1), j + around * (k + 1)})
+        mesh.connectivity.push_back(node);
+    }
+  for (int j = 0; j < around; ++j) {
+    mesh.node_sets["bottom"].push_back(j);
+    mesh.node_sets["top"].push_back(j + around * along);
+  }
+  mesh.node_sets["all"] = every_node(mesh);
+  mesh.side_sets["all"] = every_shell(mesh);
+  return mesh;
+}
+
+Mesh mesh_of(const TubeMesh& tube) {
+  const auto [around, along, through] = tube.elements;
+  return pull_along_z(ring_section(tube.inner_radius, tube.outer_radius, around, through), 0, tube.height,
+                      along);
+}
+
+Mesh mesh_of(const RodMesh& rod) {
+  const auto [across, along] = rod.elements;
+  return pull_along_z(disc_section(rod.radius, across, rod.keep_volume), 0, rod.length, along);
+}
+
+/// Cosine and sine of an angle in degrees; exact for quarter turns.
+std::array<double, 2> cosine_and_sine(double degrees) {
+  const double turn = std::remainder(degrees, 360);
+  if (turn == 0) return {1, 0};
+  if (std::abs(turn) == 180) return {-1, 0};
+  if (std::abs(turn) == 90) return {0, std::copysign(1, turn)};
+  const double radians = turn * std::numbers::pi / 180;
+  return {std::cos(radians), std::sin(radians)};
+}
+
+/// Rodrigues' formula.
+Triple rotate(const Rotation& rotation, const Triple& p) {
+  const double length = std::hypot(rotation.axis[0], rotation.axis[1], rotation.axis[2]);
+  const Triple k{rotation.axis[0] / length, rotation.axis[1] / length, rotation.axis[2] / length};
+  const auto [c, s] = cosine_and_sine(rotation.degrees);
+  const double along = (k[0] * p[0] + k[1] * p[1] + k[2] * p[2]) * (1 - c);
+  return {c * p[0] + s * (k[1] * p[2] - k[2] * p[1]) + along * k[0],
+          c * p[1] + s * (k[2] * p[0] - k[0] * p[2]) + along * k[1],
+          c * p[2] + s * (k[0] * p[1] - k[1] * p[0]) + along * k[2]};
+}
+
+// Names of the sets, without making the mesh.
+using Names = std::vector<std::string_view>;
+Names node_names(const BoxMesh&) {
+  return {"all", "bottom", "top", "xmax", "xmin", "ymax", "ymin", "zmax", "zmin"};
+}
+Names node_names(const PlateMesh&) { return {"all", "boundary", "xmax", "xmin", "ymax", "ymin"}; }
+Names node_names(const CylinderMesh&) { return {"all", "bottom", "top"}; }
+Names node_names(const TubeMesh&) { return {"all", "bottom", "inside", "outside", "top"}; }
+Names node_names(const RodMesh&) { return {"all", "bottom", "outside", "top"}; }
+
+}  // namespace
+
+Triple place(const Placement& placement, const Triple& point) {
+  Triple p = placement.rotate ? rotate(*placement.rotate, point) : point;
+  for (std::size_t i = 0; i < 3; ++i) p[i] += placement.translate[i];
+  return p;
+}
+
+Mesh generate_mesh(const MeshSource& source, const Placement& placement) {
+  Mesh mesh = std::visit([](const auto& shape) { return mesh_of(shape); }, source);
+  for (auto& position : mesh.position) position = place(placement, position);
+  return mesh;
+}
+
+int nodes_per_element(const MeshSource& source) {
+  const bool shell =
+      std::holds_alternative<PlateMesh>(source) || std::holds_alternative<CylinderMesh>(source);
+  return shell ? 4 : 8;
+}
+
+std::vector<std::string_view> node_set_names(const MeshSource& source) {
+  return std::visit([](const auto& shape) { return node_names(shape); }, source);
+}
+
+std::vector<std::string_view> side_set_names(const MeshSource& source) {
+  if (nodes_per_element(source) == 4) return {"all"};
+  return node_set_names(source);
+}
+
+}  // namespace brio

@@ -1,0 +1,187 @@
+#include "io/generate_mesh.hpp"
+#include "io/read_fields.hpp"
+
+namespace brio {
+
+namespace {
+
+/// Components that a boundary condition can name, in the order of their axes.
+constexpr std::array<std::string_view, 6> component_words{"x", "y", "z", "rx", "ry", "rz"};
+/// Keys of a prescribed motion.
+constexpr std::array<std::pair<std::string_view, MotionKind>, 3> motion_keys{
+    {{"displacement", MotionKind::displacement},
+     {"velocity", MotionKind::velocity},
+     {"acceleration", MotionKind::acceleration}}};
+
+using SetNames = std::vector<std::string_view> (*)(const MeshSource&);
+
+/// Checks `part.set`, or `part` alone.
+void check_set(const YamlNode& node, const Slot& slot, SetNames names_of_sets) {
+  const std::size_t dot = node.text.find('.');
+  const Part& part = slot.known.part(node, std::string_view(node.text).substr(0, dot));
+  if (dot == std::string::npos) return;
+  const std::string_view set = std::string_view(node.text).substr(dot + 1);
+  const std::vector<std::string_view> names = names_of_sets(part.mesh);
+  if (std::find(names.begin(), names.end(), set) == names.end())
+    throw DeckError(node.place, "part '" + part.name + "' has no set '" + std::string(set) + "'; " +
+                                    accepted_words(set, names));
+}
+
+int axis_of(const YamlNode& node, const std::string& word) {
+  const auto found = std::find(component_words.begin(), component_words.end(), word);
+  if (found == component_words.end())
+    throw DeckError(node.place, "'" + word + "' is not a component of a motion; " +
+                                    accepted_words(word, {component_words.begin(), component_words.end()}));
+  return static_cast<int>(found - component_words.begin());
+}
+
+/// Prescribed rotations need nodes that can turn.
+void check_component(const YamlNode& node, const Slot& slot, const NodeSelection& where, int axis) {
+  if (axis < 3 || where.set.empty()) return;
+  const Part& part = slot.known.part(node, where.set.substr(0, where.set.find('.')));
+  if (!has_rotations(part.element))
+    throw DeckError(node.place, "the nodes of '" + part.name + "' do not turn: its elements are '" +
+                                    std::string(name_of(part.element)) + "'; accepted: x, y, z");
+}
+
+void add_component(const YamlNode& node, const Slot& slot, PrescribedMotion& motion, const std::string& word,
+                   Curve curve) {
+  const int axis = axis_of(node, word);
+  for (const PrescribedComponent& other : motion.components)
+    if (other.axis == axis)
+      throw DeckError(node.place, "component '" + word + "' is given twice; once is accepted");
+  check_component(node, slot, motion.where, axis);
+  motion.components.push_back({axis, std::move(curve)});
+}
+
+void read_motion(const YamlNode& node, const Slot& slot, PrescribedMotion& motion) {
+  std::vector<std::string_view> accepted{"set", "fix"};
+  for (const auto& [key, kind] : motion_keys) accepted.push_back(key);
+  check_keys(node, accepted);
+  const YamlEntry* given = nullptr;
+  for (const YamlEntry& entry : node.entries) {
+    if (entry.key == "set") continue;
+    if (given != nullptr)
+      throw DeckError(entry.place,
+                      "both '" + given->key + "' and '" + entry.key + "'; one is accepted an entry");
+    given = &entry;
+  }
+  const YamlEntry* set = node.find("set");
+  if (set == nullptr)
+    throw DeckError(node.place, "the boundary condition has no 'set'; part.set or a region is required");
+  read_value(*set->value, Slot{"set", any_number, slot.known}, motion.where);
+  if (given == nullptr)
+    throw DeckError(node.place, "nothing is prescribed; accepted: fix, displacement, velocity, acceleration");
+  if (given->key == "fix") {
+    const Slot fix{"fix", any_number, slot.known};
+    if (!given->value->is_sequence() || given->value->items.empty())
+      refuse(*given->value, fix, "a list of components such as [x, y, z, rx, ry, rz]");
+    motion.kind = MotionKind::velocity;
+    for (const auto& item : given->value->items)
+      add_component(*item, fix, motion, item->text, Curve{{{0, 0}}});
+    return;
+  }
+  for (const auto& [key, kind] : motion_keys)
+    if (given->key == key) motion.kind = kind;
+  const Slot components{given->key, any_number, slot.known};
+  if (!given->value->is_map() || given->value->entries.empty())
+    refuse(*given->value, components, "a map of components, such as {x: 10} or {x: [[0, 0], [1e-3, 10]]}");
+  for (const YamlEntry& entry : given->value->entries) {
+    Curve curve;
+    read_value(*entry.value, Slot{entry.key, any_number, slot.known}, curve);
+    add_component(*entry.value, components, motion, entry.key, std::move(curve));
+  }
+}
+
+void read_part_names(const YamlNode& node, const Slot& slot, std::vector<std::string>& names) {
+  if (!node.is_sequence()) refuse(node, slot, "a list of parts");
+  for (const auto& item : node.items) {
+    std::string& name = names.emplace_back();
+    read_value(*item, slot, name);
+    slot.known.part(*item, name);
+  }
+}
+
+}  // namespace
+
+void read_value(const YamlNode& node, const Slot& slot, NodeSelection& selection) {
+  if (node.is_scalar()) {
+    check_set(node, slot, node_set_names);
+    selection.set = node.text;
+    return;
+  }
+  if (!node.is_map()) refuse(node, slot, "part.set, or a region such as {box: {lower: [...], upper: [...]}}");
+  read_single_key_choice(node, slot, selection.region, {"part"});
+  if (const YamlEntry* part = node.find("part")) {
+    read_value(*part->value, Slot{"part", any_number, slot.known}, selection.part);
+    slot.known.part(*part->value, selection.part);
+  }
+}
+
+void read_value(const YamlNode& node, const Slot& slot, Curve& curve) {
+  if (node.is_scalar()) {
+    double constant = 0;
+    read_value(node, slot, constant);
+    curve.points = {{0, constant}};
+    return;
+  }
+  if (!node.is_sequence() || node.items.empty()) refuse(node, slot, "a number or a list of [time, value]");
+  curve.points.clear();
+  for (const auto& item : node.items) {
+    std::array<double, 2>& point = curve.points.emplace_back();
+    read_value(*item, slot, point);
+    if (curve.points.size() > 1 && point[0] <= curve.points[curve.points.size() - 2][0])
+      throw DeckError(item->place, "the times of '" + std::string(slot.key) +
+                                       "' do not grow; each must be later than the one before");
+  }
+}
+
+void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition) {
+  read_fields(node, slot, condition, {"part", "set"});
+  const YamlEntry* part = node.find("part");
+  const YamlEntry* set = node.find("set");
+  if ((part == nullptr) == (set == nullptr))
+    throw DeckError(node.place, "an initial condition names either 'part' or 'set'");
+  if (node.find("velocity") == nullptr && node.find("spin") == nullptr)
+    throw DeckError(node.place, "nothing is given at the start; accepted: velocity, spin");
+  if (set != nullptr) {
+    read_value(*set->value, Slot{"set", any_number, slot.known}, condition.where);
+  } else {
+    read_value(*part->value, Slot{"part", any_number, slot.known}, condition.where.set);
+    slot.known.part(*part->value, condition.where.set);
+  }
+}
+
+void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition) {
+  require_map(node, slot);
+  if (const YamlEntry* wall = node.find(RigidWall::name)) {
+    check_keys(node, {RigidWall::name});
+    read_value(*wall->value, Slot{RigidWall::name, any_number, slot.known}, condition.emplace<RigidWall>());
+    return;
+  }
+  read_motion(node, slot, condition.emplace<PrescribedMotion>());
+}
+
+void read_value(const YamlNode& node, const Slot& slot, Load& load) {
+  require_map(node, slot);
+  for (const std::string_view name : names_of(load)) {
+    if (node.find(name) == nullptr) continue;
+    choose_alternative(load, name, [&](auto& chosen) { read_fields(node, slot, chosen); });
+    if (const YamlEntry* sides = node.find("side_set")) check_set(*sides->value, slot, side_set_names);
+    return;
+  }
+  throw DeckError(node.place, "nothing is said about the load; " + accepted_words("", names_of(load)));
+}
+
+void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact) {
+  read_fields(node, slot, contact.options, {"surfaces", "exclude"});
+  const YamlEntry* surfaces = node.find("surfaces");
+  if (surfaces == nullptr)
+    throw DeckError(node.place, "'contact' has no 'surfaces'; accepted: all, or a list of parts");
+  if (!surfaces->value->is_scalar() || surfaces->value->text != "all")
+    read_part_names(*surfaces->value, Slot{"surfaces", any_number, slot.known}, contact.surfaces);
+  if (const YamlEntry* exclude = node.find("exclude"))
+    read_part_names(*exclude->value, Slot{"exclude", any_number, slot.known}, contact.exclude);
+}
+
+}  // namespace brio

@@ -1,0 +1,67 @@
+#include "io/generate_mesh.hpp"
+#include "io/read_fields.hpp"
+
+namespace brio {
+
+namespace {
+
+/// Kinds of element that have as many nodes as the mesh gives them.
+std::vector<std::string_view> elements_with_nodes(int count) {
+  std::vector<std::string_view> names;
+  const auto add = [&]<class... Kind>(const std::variant<Kind...>&) {
+    ((Kind::nodes == count ? names.push_back(Kind::name) : void()), ...);
+  };
+  add(Element{});
+  return names;
+}
+
+/// Laws that have the update which the element needs.
+std::vector<std::string_view> laws_accepted_by(const Element& element) {
+  std::vector<std::string_view> names;
+  const auto add = [&]<class... Law>(const std::variant<Law...>&) {
+    ((accepts(element, Material(Law{})) ? names.push_back(Law::name) : void()), ...);
+  };
+  add(Material{});
+  return names;
+}
+
+}  // namespace
+
+void read_value(const YamlNode& node, const Slot& slot, Material& material) {
+  read_named_choice(node, slot, "model", material);
+}
+
+void read_value(const YamlNode& node, const Slot& slot, Element& element) {
+  if (!node.is_scalar()) {
+    read_named_choice(node, slot, "type", element);
+    return;
+  }
+  // A word alone stands for a map that holds nothing else.
+  YamlNode map;
+  map.kind = YamlNode::Kind::map;
+  map.place = node.place;
+  map.entries.push_back({"type", node.place, std::make_shared<const YamlNode>(node)});
+  read_named_choice(map, slot, "type", element);
+}
+
+void read_value(const YamlNode& node, const Slot& slot, MeshSource& mesh) {
+  read_single_key_choice(node, slot, mesh);
+}
+
+void read_value(const YamlNode& node, const Slot& slot, Part& part) {
+  read_fields(node, slot, part);
+  const Material& material = slot.known.material(*node.find("material")->value);
+  const Place& place = node.find("element")->value->place;
+  const std::string kind(name_of(part.element));
+  if (nodes_per_element(part.element) != nodes_per_element(part.mesh)) {
+    const std::string shape(std::visit([](const auto& source) { return source.name; }, part.mesh));
+    throw DeckError(place, "the mesh '" + shape + "' cannot be made of '" + kind + "' elements; " +
+                               accepted_words("", elements_with_nodes(nodes_per_element(part.mesh))));
+  }
+  if (!accepts(part.element, material))
+    throw DeckError(place, "the element '" + kind + "' cannot use the material model '" +
+                               std::string(name_of(material)) + "' of '" + part.material + "'; " +
+                               accepted_words("", laws_accepted_by(part.element)));
+}
+
+}  // namespace brio

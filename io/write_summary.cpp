@@ -1,0 +1,70 @@
+#include "io/write_summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "io/text_file.hpp"
+
+namespace brio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json counts(const Summary::ElementCounts& elements) {
+  return {{"hex8", elements.hex8},
+          {"shell4", elements.shell4},
+          {"beam2", elements.beam2},
+          {"particle", elements.particle}};
+}
+
+Json energies(const Summary::Energies& energy) {
+  return {{"kinetic", energy.kinetic},         {"internal", energy.internal},
+          {"hourglass", energy.hourglass},     {"viscous", energy.viscous},
+          {"contact", energy.contact},         {"friction", energy.friction},
+          {"external", energy.external},       {"deleted", energy.deleted},
+          {"total_start", energy.total_start}, {"error_relative", energy.error_relative}};
+}
+
+Json contact_counts(const Summary::ContactCounts& contact) {
+  return {{"searches", contact.searches},
+          {"comparisons", contact.comparisons},
+          {"candidate_pairs", contact.candidate_pairs},
+          {"active_max", contact.active_max},
+          {"penetration_max", contact.penetration_max},
+          {"missed", contact.missed}};
+}
+
+Json wall_times(const Summary::WallTimes& wall) {
+  Json stages = Json::object();
+  for (const auto& [stage, seconds] : wall.by_stage) stages[stage] = seconds;
+  return {{"total", wall.total}, {"by_stage", stages}};
+}
+
+}  // namespace
+
+std::string summary_json(const Summary& summary) {
+  const Json json{{"version", summary.version},
+                  {"deck", summary.deck},
+                  {"status", summary.status},
+                  {"exit_code", summary.exit_code},
+                  {"steps", summary.steps},
+                  {"time", summary.time},
+                  {"dt", {{"min", summary.dt.min}, {"max", summary.dt.max}, {"last", summary.dt.last}}},
+                  {"nodes", summary.nodes},
+                  {"elements", counts(summary.elements)},
+                  {"deleted", counts(summary.deleted)},
+                  {"energy", energies(summary.energy)},
+                  {"momentum", {{"linear", summary.momentum.linear}, {"angular", summary.momentum.angular}}},
+                  {"contact", contact_counts(summary.contact)},
+                  {"wall_s", wall_times(summary.wall_s)},
+                  {"element_updates_per_s", summary.element_updates_per_s},
+                  {"peak_memory_mb", summary.peak_memory_mb},
+                  {"threads", summary.threads},
+                  {"active_features", summary.active_features}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const std::filesystem::path& path, const Summary& summary) {
+  replace_text_file(path, {summary_json(summary)});
+}
+
+}  // namespace brio

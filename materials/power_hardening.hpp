@@ -1,0 +1,174 @@
+#pragma once
+/// yield_stress + constant <p - luders_strain>^exponent, whose slope is infinite where hardening sets in, and
+/// where a falling line meets it.
+///
+/// With u = p - luders_strain the crossing beyond the plateau solves
+///
+///     stiffness u + constant u^exponent = C,     u > 0, C > 0.
+///
+/// The left side rises and is concave in u: Halley's method from a near point takes few steps, kept within a
+/// bracket. In log(u) the logarithm of the left side is convex with a slope between the exponent and 1: a
+/// start from the smaller of the two asymptotes comes down on the root without fail, however steep the curve.
+
+#include <array>
+#include <limits>
+
+#include "materials/hardening.hpp"
+#include "src/base/fields.hpp"
+#include "src/base/lane_math.hpp"
+
+namespace brio {
+
+inline constexpr Range hardening_exponent_range{.lower = 0, .upper = 1, .lower_open = true};
+
+struct PowerHardening {
+  double yield_stress;
+  double constant;       ///< >= 0, stress
+  double exponent;       ///< in (0, 1]
+  double luders_strain;  ///< >= 0
+
+  double initial_yield_stress() const { return yield_stress; }
+
+  template <class T>
+  BRIO_INLINE HardeningPoint<T> at(T plastic_strain) const {
+    const T beyond = max(plastic_strain - T(luders_strain), 0.0);
+    return {plastic_strain, T(yield_stress) + T(constant) * pow(beyond, exponent)};
+  }
+
+  template <class T>
+  BRIO_INLINE HardeningPoint<T> meet(HardeningPoint<T> near, T effective_stress, T stiffness) const {
+    const T near_u = near.plastic_strain - T(luders_strain);
+    Crossing<T> crossing;
+    crossing.stiffness = stiffness;
+    crossing.base = max(near_u, 0.0);
+    crossing.base_rise = near.stress - T(yield_stress);
+    crossing.excess = (effective_stress - near.stress) + stiffness * min(near_u, 0.0);
+    const T height = crossing.excess + stiffness * crossing.base + crossing.base_rise;  // C
+    const auto hardens = height > T(0.0);
+    const T plateau = near.plastic_strain + (effective_stress - T(yield_stress)) / stiffness;
+    if (!any(hardens)) return {plateau, T(yield_stress)};
+
+    crossing.excess = where(hardens, crossing.excess, 0.0);
+    T step = first_guess(crossing, where(hardens, height, stiffness));
+    const Rise<T> rise = solve(crossing, step);
+    // The strain that is stored is rounded; the stress is that of the stored strain.
+    const T strain = where(near_u > T(0.0), near.plastic_strain, luders_strain) + step;
+    const T correction = max(strain - T(luders_strain), 0.0) - rise.u;
+    T stress = T(yield_stress) + rise.value +
+               correction * rise.slope * (1.0 + T(0.5 * (exponent - 1)) * correction * rise.inverse_u);
+    if (!all((abs(correction) <= near_enough<T> * rise.u) | !hardens)) stress = at(strain).stress;
+    return {where(hardens, strain, plateau), where(hardens, stress, yield_stress)};
+  }
+
+ private:
+  /// stiffness d + constant (base + d)^exponent - base_rise = excess, for the step d from a base on the
+  /// curve.
+  template <class T>
+  struct Crossing {
+    T stiffness;
+    T base;       ///< u >= 0 of the base
+    T base_rise;  ///< constant base^exponent
+    T excess;     ///< of the line over the curve at the base
+  };
+  /// constant u^exponent and its first derivative at u.
+  template <class T>
+  struct Rise {
+    T u, inverse_u, value, slope;
+  };
+
+  /// Relative distance in u over which the cubic remainder of a Taylor series is below round-off.
+  template <class T>
+  static constexpr double near_enough = sizeof(RealOf<T>) == 8 ? 4e-6 : 2e-3;
+  /// Plastic strain beyond the plateau that counts as none while a crossing is looked for: derivatives stay
+  /// finite.
+  template <class T>
+  static constexpr double least = sizeof(RealOf<T>) == 8 ? 1e-200 : 1e-25;
+  /// Distance, relative to the base, within which the binomial series gives the power to round-off.
+  static constexpr double series_reach = 1.0 / 32;
+  static constexpr std::size_t series_terms = 10;
+  static constexpr int most_iterations = 100;
+
+  template <class T>
+  BRIO_INLINE Rise<T> rise_at(T u, T value) const {
+    const T inverse_u = 1.0 / u;
+    return {u, inverse_u, value, T(exponent) * value * inverse_u};
+  }
+
+  /// (1 + x)^exponent for small x.
+  template <class T>
+  BRIO_INLINE T binomial_series(T x) const {
+    std::array<double, series_terms> coefficient;
+    double product = 1;
+    for (std::size_t k = 0; k < series_terms; ++k) {
+      coefficient[k] = product;
+      product *= (exponent - static_cast<double>(k)) / static_cast<double>(k + 1);
+    }
+    T sum(coefficient[series_terms - 1]);
+    for (std::size_t k = series_terms - 1; k-- > 0;) sum = sum * x + T(coefficient[k]);
+    return sum;
+  }
+
+  /// Halley's step towards a rise larger by `missing`, at most twice Newton's.
+  template <class T>
+  BRIO_INLINE T halley_step(T missing, T stiffness, const Rise<T>& rise) const {
+    const T inverse = 1.0 / (stiffness + rise.slope);
+    const T newton = missing * inverse;
+    const T bend = T(0.5 * (exponent - 1)) * rise.inverse_u * (rise.slope * inverse);
+    return newton / max(1.0 + newton * bend, 0.5);
+  }
+
+  template <class T>
+  BRIO_INLINE T first_guess(const Crossing<T>& crossing, T height) const {
+    const Rise<T> rise = rise_at(max(crossing.base, least<T>), crossing.base_rise);
+    const T step = halley_step(crossing.excess, crossing.stiffness, rise);
+    const auto leaves = step > 0.5 * crossing.base;
+    if (!(constant > 0) || !any(leaves)) return step;
+    return where(leaves, max(exp(log_of_crossing(crossing.stiffness, height)) - crossing.base, 0.0), step);
+  }
+
+  /// log(u), from the right within a few percent of u.
+  template <class T>
+  BRIO_INLINE T log_of_crossing(T stiffness, T height) const {
+    T w = min(log(height / stiffness), T(1 / exponent) * log(height * T(1 / constant)));
+    w = max(w, std::log(least<T>));
+    for (int iteration = 0; iteration < 3; ++iteration) {
+      const T linear = stiffness * exp(w);
+      const T power = T(constant) * exp(T(exponent) * w);
+      const T sum = linear + power;
+      // 2 (sum - C) / (sum + C) stands below log(sum / C), so that the root is not overshot.
+      w -= 2.0 * (sum - height) / (sum + height) * sum / (linear + T(exponent) * power);
+    }
+    return w;
+  }
+
+  /// Takes the step to the root, but for a change that a Taylor series from the rise returned covers.
+  template <class T>
+  BRIO_INLINE Rise<T> solve(const Crossing<T>& crossing, T& step) const {
+    const T whole = crossing.excess / crossing.stiffness;
+    T low = min(whole, 0.0);
+    T high = max(whole, 0.0);
+    step = min(max(step, low), high);
+    const T inverse_base = 1.0 / max(crossing.base, least<T>);
+    Rise<T> rise;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      const T u = max(crossing.base + step, least<T>);
+      const T relative = step * inverse_base;
+      if (all(abs(relative) <= T(series_reach))) {
+        rise = rise_at(u, crossing.base_rise * binomial_series(relative));
+      } else {
+        rise = rise_at(u, T(constant) * pow(u, exponent));
+      }
+      const T missing = crossing.excess - crossing.stiffness * step - (rise.value - crossing.base_rise);
+      low = where(missing > T(0.0), step, low);
+      high = where(missing > T(0.0), high, step);
+      T next = step + halley_step(missing, crossing.stiffness, rise);
+      next = where((next >= low) & (next <= high), next, 0.5 * (low + high));
+      const T moved = abs(next - step);
+      step = next;
+      if (all(moved <= near_enough<T> * u)) break;
+    }
+    return rise;
+  }
+};
+
+}  // namespace brio

@@ -1,0 +1,69 @@
+#pragma once
+/// J2 plasticity with power-law hardening and a Lueders plateau (Stone, Wellman & Krieg, SAND90-0153).
+
+#include <string_view>
+#include <tuple>
+
+#include "materials/plastic_flow.hpp"
+#include "materials/power_hardening.hpp"
+
+namespace brio {
+
+struct PowerLawHardening {
+  static constexpr std::string_view name = "power_law_hardening";
+  double density = 0;
+  double youngs_modulus = 0;
+  double poissons_ratio = 0;
+  double yield_stress = 0;
+  double hardening_constant = 0;
+  double hardening_exponent = 1;
+  double luders_strain = 0;
+
+  static constexpr auto fields() {
+    return std::tuple{
+        required("density", &PowerLawHardening::density, positive, "mass per reference volume"),
+        required("youngs_modulus", &PowerLawHardening::youngs_modulus, positive, "Young's modulus, stress"),
+        required("poissons_ratio", &PowerLawHardening::poissons_ratio, poissons_ratio_range,
+                 "Poisson's ratio, -"),
+        required("yield_stress", &PowerLawHardening::yield_stress, positive, "uniaxial yield stress"),
+        required("hardening_constant", &PowerLawHardening::hardening_constant, non_negative,
+                 "A in yield_stress + A <plastic strain - luders_strain>^hardening_exponent, stress"),
+        required("hardening_exponent", &PowerLawHardening::hardening_exponent, hardening_exponent_range,
+                 "exponent of the plastic strain, -"),
+        optional("luders_strain", &PowerLawHardening::luders_strain, non_negative,
+                 "plastic strain at which hardening sets in, -"),
+    };
+  }
+
+  template <class T>
+  struct History {
+    T equivalent_plastic_strain;
+  };
+
+  ElasticConstants elastic() const { return {youngs_modulus, poissons_ratio}; }
+  PowerHardening hardening() const {
+    return {yield_stress, hardening_constant, hardening_exponent, luders_strain};
+  }
+  double kinematic_modulus() const { return 0; }
+
+  template <class T>
+  ElasticModuli<T> moduli(const History<T>&) const {
+    return elastic().template moduli<T>();
+  }
+
+  template <class T>
+  BRIO_INLINE void update(const SymmetricTensor<T>& strain_increment, SymmetricTensor<T>& stress,
+                          History<T>& history) const {
+    plastic_update(*this, strain_increment, stress, history);
+  }
+
+  template <class T>
+  BRIO_INLINE void update_plane_stress(const ShellTensor<T>& strain_increment, double shear_factor,
+                                       ShellTensor<T>& stress, History<T>& history,
+                                       T& thickness_strain_increment) const {
+    plastic_update_plane_stress(*this, strain_increment, shear_factor, stress, history,
+                                thickness_strain_increment);
+  }
+};
+
+}  // namespace brio

@@ -1,0 +1,301 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "io/generate_mesh.hpp"
+
+namespace brio {
+namespace {
+
+using std::numbers::pi;
+
+Triple minus(const Triple& a, const Triple& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Triple cross_product(const Triple& a, const Triple& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double inner(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+std::array<Triple, 8> corners_of(const Mesh& mesh, std::size_t e) {
+  std::array<Triple, 8> corners{};
+  const auto count = static_cast<std::size_t>(mesh.nodes_per_element);
+  for (std::size_t n = 0; n < count; ++n)
+    corners[n] = mesh.position[static_cast<std::size_t>(mesh.connectivity[e * count + n])];
+  return corners;
+}
+
+/// Jacobian of the trilinear map at a corner: triple product of the edges that leave it.
+double corner_jacobian(const std::array<Triple, 8>& x, std::size_t corner) {
+  // Neighbours along the three local axes, right-handed.
+  static constexpr std::size_t next[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                             {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  const auto edge = [&](std::size_t i) { return minus(x[next[corner][i]], x[corner]); };
+  return inner(edge(0), cross_product(edge(1), edge(2)));
+}
+double scaled_jacobian(const std::array<Triple, 8>& x, std::size_t corner) {
+  static constexpr std::size_t next[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                             {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  double lengths = 1;
+  for (const std::size_t n : next[corner])
+    lengths *= std::sqrt(inner(minus(x[n], x[corner]), minus(x[n], x[corner])));
+  return corner_jacobian(x, corner) / lengths;
+}
+
+double smallest_corner_jacobian(const Mesh& mesh) {
+  double smallest = HUGE_VAL;
+  for (std::size_t e = 0; e < mesh.element_count(); ++e)
+    for (std::size_t corner = 0; corner < 8; ++corner)
+      smallest = std::min(smallest, corner_jacobian(corners_of(mesh, e), corner));
+  return smallest;
+}
+
+/// Area vector of a quadrilateral: half the product of its diagonals.
+Triple area_vector(const Triple& a, const Triple& b, const Triple& c, const Triple& d) {
+  const Triple twice = cross_product(minus(c, a), minus(d, b));
+  return {twice[0] / 2, twice[1] / 2, twice[2] / 2};
+}
+
+std::array<Triple, 4> corners_of(const Mesh& mesh, const ElementSide& side) {
+  const auto x = corners_of(mesh, static_cast<std::size_t>(side.element));
+  if (mesh.nodes_per_element == 4) return {x[0], x[1], x[2], x[3]};
+  std::array<Triple, 4> corners{};
+  for (std::size_t n = 0; n < 4; ++n)
+    corners[n] = x[static_cast<std::size_t>(sides_of_hex[static_cast<std::size_t>(side.side)][n])];
+  return corners;
+}
+
+/// Sum of the areas of a side set whose sides are plane.
+double area(const Mesh& mesh, const std::string& set) {
+  double sum = 0;
+  for (const ElementSide& side : mesh.side_sets.at(set)) {
+    const auto [a, b, c, d] = corners_of(mesh, side);
+    const Triple s = area_vector(a, b, c, d);
+    sum += std::sqrt(inner(s, s));
+  }
+  return sum;
+}
+
+/// Volume within the surface `all`, by the divergence theorem; exact where sides are plane.
+double enclosed_volume(const Mesh& mesh) {
+  double volume = 0;
+  for (const ElementSide& side : mesh.side_sets.at("all")) {
+    const auto [a, b, c, d] = corners_of(mesh, side);
+    const Triple middle{(a[0] + b[0] + c[0] + d[0]) / 4, (a[1] + b[1] + c[1] + d[1]) / 4,
+                        (a[2] + b[2] + c[2] + d[2]) / 4};
+    volume += inner(middle, area_vector(a, b, c, d)) / 3;
+  }
+  return volume;
+}
+
+/// Sides that belong to one element only, by their corners.
+std::size_t free_side_count(const Mesh& mesh) {
+  std::map<std::set<int>, int> owners;
+  for (std::size_t e = 0; e < mesh.element_count(); ++e)
+    for (const auto& side : sides_of_hex) {
+      std::set<int> corners;
+      for (const int corner : side)
+        corners.insert(mesh.connectivity[8 * e + static_cast<std::size_t>(corner)]);
+      ++owners[corners];
+    }
+  return static_cast<std::size_t>(
+      std::count_if(owners.begin(), owners.end(), [](const auto& side) { return side.second == 1; }));
+}
+
+/// Vertices minus edges plus faces of the surface `all`.
+int euler_characteristic(const Mesh& mesh) {
+  std::set<int> vertices;
+  std::map<std::set<int>, int> edges;
+  for (const auto& [element, side] : mesh.side_sets.at("all")) {
+    std::array<int, 4> corner{};
+    for (std::size_t n = 0; n < 4; ++n) {
+      const auto local = mesh.nodes_per_element == 4
+                             ? n
+                             : static_cast<std::size_t>(sides_of_hex[static_cast<std::size_t>(side)][n]);
+      corner[n] = mesh.connectivity[static_cast<std::size_t>(element * mesh.nodes_per_element) + local];
+    }
+    for (std::size_t n = 0; n < 4; ++n) {
+      vertices.insert(corner[n]);
+      ++edges[{corner[n], corner[(n + 1) % 4]}];
+    }
+  }
+  for (const auto& [edge, count] : edges)
+    EXPECT_TRUE(count == 2 || mesh.nodes_per_element == 4) << "the surface of a solid has no rim";
+  return static_cast<int>(vertices.size()) - static_cast<int>(edges.size()) +
+         static_cast<int>(mesh.side_sets.at("all").size());
+}
+
+Mesh mesh_of(const MeshSource& source) { return generate_mesh(source, {}); }
+
+TEST(GenerateMesh, BoxFillsItsSize) {
+  const Mesh box = mesh_of(BoxMesh{{22, 11, 2.5}, {22, 11, 3}});
+  EXPECT_EQ(box.element_count(), 22U * 11 * 3);
+  EXPECT_EQ(box.position.size(), 23U * 12 * 4);
+  EXPECT_GT(smallest_corner_jacobian(box), 0.83);
+  EXPECT_NEAR(enclosed_volume(box), 22 * 11 * 2.5, 1e-10);
+  EXPECT_EQ(euler_characteristic(box), 2);
+  EXPECT_EQ(free_side_count(box), box.side_sets.at("all").size());
+  EXPECT_NEAR(area(box, "xmax"), 11 * 2.5, 1e-12);
+  EXPECT_NEAR(area(box, "ymin"), 22 * 2.5, 1e-12);
+  EXPECT_NEAR(area(box, "top"), 22 * 11, 1e-12);
+  EXPECT_EQ(box.node_sets.at("xmin").size(), 12U * 4);
+  EXPECT_EQ(box.node_sets.at("ymax").size(), 23U * 4);
+  EXPECT_EQ(box.node_sets.at("bottom").size(), 23U * 12);
+  EXPECT_EQ(box.node_sets.at("zmin"), box.node_sets.at("bottom"));
+  for (const int n : box.node_sets.at("top")) EXPECT_EQ(box.position[static_cast<std::size_t>(n)][2], 1.25);
+  for (const int n : box.node_sets.at("xmin")) EXPECT_EQ(box.position[static_cast<std::size_t>(n)][0], -11);
+}
+
+TEST(GenerateMesh, SideSetsLookOutwards) {
+  const Mesh box = mesh_of(BoxMesh{{1, 2, 3}, {2, 3, 4}});
+  const std::map<std::string, Triple> outwards{{"xmin", {-1, 0, 0}}, {"xmax", {1, 0, 0}},
+                                               {"ymin", {0, -1, 0}}, {"ymax", {0, 1, 0}},
+                                               {"zmin", {0, 0, -1}}, {"zmax", {0, 0, 1}}};
+  for (const auto& [name, normal] : outwards)
+    for (const ElementSide& side : box.side_sets.at(name)) {
+      const auto [a, b, c, d] = corners_of(box, side);
+      const Triple s = area_vector(a, b, c, d);
+      EXPECT_NEAR(inner(s, normal), std::sqrt(inner(s, s)), 1e-14) << name;
+    }
+}
+
+TEST(GenerateMesh, PlateIsFlatAndLooksUp) {
+  const Mesh plate = mesh_of(PlateMesh{{4, 2}, {8, 3}});
+  EXPECT_EQ(plate.nodes_per_element, 4);
+  EXPECT_EQ(plate.element_count(), 24U);
+  EXPECT_EQ(plate.position.size(), 36U);
+  EXPECT_NEAR(area(plate, "all"), 8, 1e-14);
+  EXPECT_EQ(euler_characteristic(plate), 1);
+  EXPECT_EQ(plate.node_sets.at("boundary").size(), 2U * (8 + 3));
+  EXPECT_EQ(plate.node_sets.at("xmax").size(), 4U);
+  EXPECT_EQ(plate.node_sets.at("ymin").size(), 9U);
+  for (const ElementSide& side : plate.side_sets.at("all")) {
+    const auto [a, b, c, d] = corners_of(plate, side);
+    EXPECT_GT(area_vector(a, b, c, d)[2], 0);
+  }
+}
+
+TEST(GenerateMesh, CylinderIsClosedAroundAndOpenAtItsEnds) {
+  const int around = 96, along = 60;
+  const Mesh can = mesh_of(CylinderMesh{5.125, 15, {around, along}});
+  EXPECT_EQ(can.position.size(), 96U * 61);
+  EXPECT_EQ(can.element_count(), 96U * 60);
+  EXPECT_EQ(euler_characteristic(can), 0) << "an annulus";
+  EXPECT_EQ(can.node_sets.at("bottom").size(), 96U);
+  EXPECT_EQ(can.node_sets.at("top").size(), 96U);
+  // The facets of a regular polygon with the radius to its corners.
+  EXPECT_NEAR(area(can, "all"), around * 2 * 5.125 * std::sin(pi / around) * 15, 1e-9);
+  for (const int n : can.node_sets.at("top")) EXPECT_EQ(can.position[static_cast<std::size_t>(n)][2], 15);
+  for (const Triple& x : can.position) EXPECT_NEAR(std::hypot(x[0], x[1]), 5.125, 1e-14);
+  for (const ElementSide& side : can.side_sets.at("all")) {
+    const auto [a, b, c, d] = corners_of(can, side);
+    EXPECT_GT(inner(area_vector(a, b, c, d), {a[0] + b[0], a[1] + b[1], 0}), 0) << "looks outwards";
+  }
+}
+
+TEST(GenerateMesh, TubeIsARing) {
+  const int around = 24;
+  const Mesh tube = mesh_of(TubeMesh{5, 5.25, 15, {around, 10, 3}});
+  EXPECT_EQ(tube.position.size(), 24U * 11 * 4);
+  EXPECT_EQ(tube.element_count(), 24U * 10 * 3);
+  EXPECT_GT(smallest_corner_jacobian(tube), 0);
+  EXPECT_EQ(euler_characteristic(tube), 0) << "a torus";
+  EXPECT_EQ(free_side_count(tube), tube.side_sets.at("all").size());
+  const double polygon = around / 2.0 * std::sin(2 * pi / around);
+  EXPECT_NEAR(enclosed_volume(tube), polygon * (5.25 * 5.25 - 25) * 15, 1e-10);
+  EXPECT_NEAR(area(tube, "inside"), around * 2 * 5 * std::sin(pi / around) * 15, 1e-10);
+  EXPECT_EQ(tube.node_sets.at("outside").size(), 24U * 11);
+  EXPECT_EQ(tube.node_sets.at("bottom").size(), 24U * 4);
+  for (const int n : tube.node_sets.at("inside")) {
+    const Triple& x = tube.position[static_cast<std::size_t>(n)];
+    EXPECT_NEAR(std::hypot(x[0], x[1]), 5, 1e-14);
+  }
+}
+
+TEST(GenerateMesh, RodIsFilledWithGoodElements) {
+  for (const int across : {2, 4, 6, 8, 10, 12, 16, 24}) {
+    const Mesh rod = mesh_of(RodMesh{3.2, 32.4, {across, 5}});
+    const int around = 4 * (across - 2 * (across / 4));
+    EXPECT_EQ(euler_characteristic(rod), 2) << across;
+    EXPECT_EQ(free_side_count(rod), rod.side_sets.at("all").size());
+    EXPECT_EQ(rod.node_sets.at("outside").size(), static_cast<std::size_t>(around * 6));
+    EXPECT_NEAR(enclosed_volume(rod), around / 2.0 * std::sin(2 * pi / around) * 3.2 * 3.2 * 32.4, 1e-9);
+    double worst = 1;
+    for (std::size_t e = 0; e < rod.element_count(); ++e)
+      for (std::size_t corner = 0; corner < 8; ++corner)
+        worst = std::min(worst, scaled_jacobian(corners_of(rod, e), corner));
+    // Of the coarsest, the corner of each quarter disc is the only one off: 135 degrees.
+    EXPECT_GT(worst, across == 2 ? std::sqrt(0.5) - 1e-12 : 0.75) << across;
+  }
+}
+
+TEST(GenerateMesh, RodKeepsTheVolumeOfTheRoundOneWhenAsked) {
+  for (const int across : {2, 8, 12}) {
+    const Mesh rod = mesh_of(RodMesh{3.2, 32.4, {across, 3}, true});
+    EXPECT_NEAR(enclosed_volume(rod) / (pi * 3.2 * 3.2 * 32.4), 1, 1e-14) << across;
+  }
+}
+
+TEST(GenerateMesh, ElementsAcrossTheDiameterAreCounted) {
+  const Mesh rod = mesh_of(RodMesh{1, 1, {8, 1}});
+  // Nodes of the bottom on the x axis: one more than elements across.
+  const auto& bottom = rod.node_sets.at("bottom");
+  EXPECT_EQ(
+      std::count_if(bottom.begin(), bottom.end(),
+                    [&](int n) { return std::abs(rod.position[static_cast<std::size_t>(n)][1]) < 1e-12; }),
+      9);
+}
+
+TEST(GenerateMesh, NamesOfSetsAreThoseOfTheMesh) {
+  const std::array<MeshSource, 5> sources{BoxMesh{{1, 1, 1}, {2, 2, 2}}, PlateMesh{{1, 1}, {2, 2}},
+                                          CylinderMesh{1, 1, {4, 2}}, TubeMesh{1, 2, 1, {4, 2, 2}},
+                                          RodMesh{1, 1, {4, 2}}};
+  const auto names = [](const auto& sets) {
+    std::vector<std::string_view> keys;
+    for (const auto& [key, members] : sets) keys.push_back(key);
+    return keys;
+  };
+  for (const MeshSource& source : sources) {
+    const Mesh mesh = mesh_of(source);
+    EXPECT_EQ(names(mesh.node_sets), node_set_names(source));
+    EXPECT_EQ(names(mesh.side_sets), side_set_names(source));
+    EXPECT_EQ(mesh.nodes_per_element, nodes_per_element(source));
+    EXPECT_EQ(mesh.node_sets.at("all").size(), mesh.position.size());
+    for (const auto& [name, nodes] : mesh.node_sets) {
+      EXPECT_TRUE(std::adjacent_find(nodes.begin(), nodes.end(), std::greater_equal<>()) == nodes.end())
+          << name;
+      EXPECT_FALSE(nodes.empty());
+    }
+  }
+}
+
+TEST(Placement, TurnsThenMoves) {
+  const Placement placement{Rotation{{0, 0, 2}, 90}, {10, 0, 0}};
+  EXPECT_EQ(place(placement, {1, 0, 5}), (Triple{10, 1, 5}));
+  const Placement tilted{Rotation{{0, 1, 0}, 10}, {0, 0, 19}};
+  const Triple p = place(tilted, {1, 2, 0});
+  EXPECT_NEAR(p[0], std::cos(10 * pi / 180), 1e-15);
+  EXPECT_EQ(p[1], 2);
+  EXPECT_NEAR(p[2], 19 - std::sin(10 * pi / 180), 1e-14);
+}
+
+TEST(Placement, ThirdTurnAboutTheDiagonalSwapsTheAxes) {
+  const Triple p = place({Rotation{{1, 1, 1}, 120}, {}}, {1, 2, 3});
+  EXPECT_NEAR(p[0], 3, 1e-14);
+  EXPECT_NEAR(p[1], 1, 1e-14);
+  EXPECT_NEAR(p[2], 2, 1e-14);
+}
+
+TEST(Placement, LeavesVolumeAndSetsAlone) {
+  const BoxMesh box{{1, 2, 3}, {2, 3, 4}};
+  const Mesh here = mesh_of(box);
+  const Mesh there = generate_mesh(box, {Rotation{{1, -2, 0.5}, 33}, {100, -50, 7}});
+  EXPECT_EQ(here.connectivity, there.connectivity);
+  EXPECT_EQ(here.node_sets, there.node_sets);
+  EXPECT_NEAR(smallest_corner_jacobian(there), smallest_corner_jacobian(here), 1e-12);
+}
+
+}  // namespace
+}  // namespace brio

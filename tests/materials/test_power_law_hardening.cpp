@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_dec_float.hpp>
+
+#include "materials/power_law_hardening.hpp"
+#include "tests/materials/paths.hpp"
+
+namespace brio {
+namespace {
+
+using Exact = boost::multiprecision::cpp_dec_float_50;
+
+constexpr double young = 200e9;
+constexpr double poisson = 0.3;
+
+Exact exact_yield_stress(const PowerHardening& law, const Exact& strain) {
+  const Exact beyond = strain - Exact(law.luders_strain);
+  if (beyond <= 0) return Exact(law.yield_stress);
+  return Exact(law.yield_stress) + Exact(law.constant) * pow(beyond, Exact(law.exponent));
+}
+
+/// dp of: effective_stress - stiffness dp = yield stress(start + dp). Bisection in the logarithm of the
+/// strain u beyond the plateau, which may span many decades, and then Newton's method.
+Exact exact_increment(const PowerHardening& law, double start, double effective_stress, double stiffness) {
+  const Exact over_plateau = Exact(effective_stress) - Exact(law.yield_stress);
+  const Exact base = Exact(law.luders_strain) - Exact(start);
+  const Exact height = over_plateau - Exact(stiffness) * base;
+  if (height <= 0) return over_plateau / Exact(stiffness);
+  const auto missing = [&](const Exact& u) -> Exact {
+    return height - Exact(stiffness) * u - Exact(law.constant) * pow(u, Exact(law.exponent));
+  };
+  Exact low("1e-2000"), high = height / Exact(stiffness);
+  for (int k = 0; k < 60; ++k) {
+    const Exact middle = sqrt(low * high);
+    (missing(middle) > 0 ? low : high) = middle;
+  }
+  Exact u = low;
+  for (int k = 0; k < 4; ++k) {
+    const Exact slope =
+        Exact(stiffness) + Exact(law.exponent) * Exact(law.constant) * pow(u, Exact(law.exponent) - 1);
+    u += missing(u) / slope;
+  }
+  return base + u;
+}
+
+double spacing(double x) { return std::nextafter(std::abs(x), HUGE_VAL) - std::abs(x); }
+
+struct Case {
+  PowerHardening law;
+  double start, effective_stress, stiffness;
+};
+
+Case random_case(RandomPath& random) {
+  const double exponents[] = {0.05, 0.1, 0.294, 0.5, 0.9, 1.0, random.uniform(0.05, 1)};
+  const double ludersen[] = {0, 0, 0.005, 0.02, random.uniform(0, 0.1)};
+  Case c;
+  c.law = {350e6, random.uniform(0, 1) < 0.05 ? 0 : 350e6 * std::pow(10.0, random.uniform(-4, 3)),
+           exponents[static_cast<int>(random.uniform(0, 7))],
+           ludersen[static_cast<int>(random.uniform(0, 5))]};
+  const double luders = c.law.luders_strain;
+  const double beyond = std::pow(10.0, random.uniform(-18, 1));
+  const double starts[] = {0,
+                           luders,
+                           std::nextafter(luders, 0),
+                           std::nextafter(luders, 1),
+                           luders + beyond,
+                           luders + beyond,
+                           luders * random.uniform(0, 1)};
+  c.start = starts[static_cast<int>(random.uniform(0, 7))];
+  c.stiffness = 3 * young / 2.6;
+  const double yield = c.law.at(c.start).stress;
+  c.effective_stress = yield * (1 + std::pow(10.0, random.uniform(-16, 4)));
+  return c;
+}
+
+void expect_fifty_digits(unsigned seed, int cases) {
+  RandomPath random(seed);
+  for (int k = 0; k < cases; ++k) {
+    const Case c = random_case(random);
+    const HardeningPoint<double> end = c.law.meet(c.law.at(c.start), c.effective_stress, c.stiffness);
+    ASSERT_TRUE(std::isfinite(end.plastic_strain) && std::isfinite(end.stress));
+    const Exact yield = exact_yield_stress(c.law, Exact(end.plastic_strain));
+    const double stress_error = static_cast<double>(abs(Exact(end.stress) / yield - 1));
+    ASSERT_LE(stress_error, 1e-12) << k;
+    const Exact increment = exact_increment(c.law, c.start, c.effective_stress, c.stiffness);
+    // The yield stress at the start is a rounded number: what that does to the increment is no error of the
+    // solution.
+    const double allowed = 2 * spacing(end.plastic_strain) + 4 * spacing(c.effective_stress) / c.stiffness;
+    const double strain_error =
+        static_cast<double>(abs(Exact(end.plastic_strain) - Exact(c.start) - increment));
+    ASSERT_LE(strain_error, allowed + 1e-12 * static_cast<double>(increment))
+        << k << " n " << c.law.exponent << " A " << c.law.constant << " start " << c.start << " luders "
+        << c.law.luders_strain << " q " << c.effective_stress;
+  }
+}
+
+TEST(PowerHardening, MeetsTheFallingLineToRoundOffOfFiftyDigits) { expect_fifty_digits(11, 300); }
+TEST(PowerHardeningSlow, MeetsTheFallingLineToRoundOffOfFiftyDigits) { expect_fifty_digits(17, 6000); }
+
+TEST(PowerHardening, LanesAgreeWithPlainNumbers) {
+  RandomPath random(12);
+  for (int round = 0; round < 1000; ++round) {
+    Case c = random_case(random);
+    Lanes<double> start, stress;
+    double starts[8], stresses[8];
+    for (int lane = 0; lane < 8; ++lane) {
+      const Case other = random_case(random);
+      starts[lane] = other.start;
+      const double ratio = other.effective_stress / other.law.at(other.start).stress;
+      stresses[lane] = c.law.at(other.start).stress * (lane == 3 ? 1.0 : ratio);
+      start.set(lane, starts[lane]);
+      stress.set(lane, stresses[lane]);
+    }
+    const auto end = c.law.meet(c.law.at(start), stress, Lanes<double>(c.stiffness));
+    for (int lane = 0; lane < 8; ++lane) {
+      const auto expected = c.law.meet(c.law.at(starts[lane]), stresses[lane], c.stiffness);
+      ASSERT_NEAR(end.plastic_strain[lane], expected.plastic_strain,
+                  4 * spacing(expected.plastic_strain) + 1e-12 * (expected.plastic_strain - starts[lane]) +
+                      8 * spacing(stresses[lane]) / c.stiffness);
+      const Exact yield = exact_yield_stress(c.law, Exact(end.plastic_strain[lane]));
+      ASSERT_LE(static_cast<double>(abs(Exact(end.stress[lane]) / yield - 1)), 1e-12);
+    }
+  }
+}
+
+TEST(PowerHardening, SinglePrecisionFollowsDouble) {
+  RandomPath random(13);
+  for (int k = 0; k < 20000; ++k) {
+    const Case c = random_case(random);
+    using T = Lanes<float>;
+    const auto start = static_cast<float>(c.start);
+    const float yield = c.law.at(T(c.start)).stress[0];
+    const float stress = yield * static_cast<float>(1 + std::pow(10.0, random.uniform(-7, 4)));
+    const auto lanes = c.law.meet(c.law.at(T(c.start)), T(static_cast<double>(stress)), T(c.stiffness));
+    const HardeningPoint<float> end{lanes.plastic_strain[0], lanes.stress[0]};
+    ASSERT_TRUE(std::isfinite(end.plastic_strain) && std::isfinite(end.stress));
+    ASSERT_NEAR(end.stress / c.law.at(T(static_cast<double>(end.plastic_strain))).stress[0], 1, 4e-6);
+    const auto exact =
+        c.law.meet(c.law.at(static_cast<double>(start)), static_cast<double>(stress), c.stiffness);
+    const double spacing_of_strain = std::nextafter(end.plastic_strain, HUGE_VALF) - end.plastic_strain;
+    const double spacing_of_stress = std::nextafter(stress, HUGE_VALF) - stress;
+    ASSERT_NEAR(static_cast<double>(end.plastic_strain), exact.plastic_strain,
+                4 * spacing_of_strain + 8 * spacing_of_stress / c.stiffness +
+                    1e-5 * (exact.plastic_strain - c.start));
+  }
+}
+
+}  // namespace
+}  // namespace brio

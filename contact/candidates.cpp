@@ -103,7 +103,7 @@ double influence(const Surface& surface, const ContactOptions& options, const Ca
   const auto f = static_cast<std::size_t>(face);
   const double edge = candidates.edge[f];
   return 0.5 * options.shell_thickness_scale * surface.thickness[f] +
-         (surface.face[f].shell ? band_share : std::max(band_share, depth_share)) * edge;
+         (surface.face[f].shell ? band_share : std::max(band_share, candidates.depth_share)) * edge;
 }
 
 Spread velocity_spread(const Surface& surface, const Nodes& nodes) {

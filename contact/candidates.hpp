@@ -16,7 +16,7 @@ namespace brio {
 /// Distance beyond the touching distance at which a face still matters to a node, over the face's shortest
 /// edge: constraints reach 0.02 outside; old overlaps are followed down to half an edge inside.
 inline constexpr double band_share = 0.02;
-inline constexpr double depth_share = 0.5;
+inline constexpr double followed_depth_share = 0.5;
 /// Constraints are formed ahead of touching, over what the present approach speed would cover: other impulses
 /// of the same step may double it.
 inline constexpr double approach_share = 2;
@@ -35,6 +35,7 @@ struct Candidates {
   std::vector<int> face;     ///< faces that occur, ascending
   std::vector<double> edge;  ///< shortest edge of each face, at the last search
   double smallest_edge = 0;  ///< of all
+  double depth_share = followed_depth_share;
   double mean_edge = 0;
 
   std::vector<Vector3<double>> point;  ///< slave positions at the last search

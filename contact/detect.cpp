@@ -203,7 +203,7 @@ class NodeCheck {
     const Vector3d push = direction(near, normal);
     if (!faces_towards(push)) return;
     if (distance < -tolerance) {
-      if (!piece_.near[first].inside || -distance > depth_share * edge(near.face)) return;
+      if (!piece_.near[first].inside || -distance > scene_.candidates.depth_share * edge(near.face)) return;
       const bool tracked = was_tracked(near.face, push);
       const bool self = face(near.face).body == scene_.surface.body[static_cast<std::size_t>(slave_)];
       if (!tracked && (self || first != i)) return;

@@ -122,6 +122,10 @@ class SpringModel {
                        .connectivity = piece.connectivity,
                        .thickness = piece.thickness});
     scene = make_contact_scene(options, parts, nodes);
+    rest();
+  }
+  /// Take the present positions as those without strain.
+  void rest() {
     for (Spring& spring : springs_) spring.length = (x(spring.a) - x(spring.b)).norm();
   }
 

@@ -1,0 +1,165 @@
+#include "contact/overlap.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "contact/exclusion.hpp"
+#include "contact/face_geometry.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Overlaps are searched down to this many edges; a body that reaches deeper has nodes in between.
+constexpr double searched_depth_share = 1.5;
+/// What is left may be this share of an edge: rounding.
+constexpr double resolved_share = 1e-9;
+constexpr int most_rounds = 200;
+constexpr int sweeps_a_round = 50;
+
+/// Length that an overlap is measured against.
+double scale_of(const ContactScene& scene, const Contact& contact) {
+  const auto f = static_cast<std::size_t>(contact.face);
+  const double edge = scene.candidates.edge[f];
+  const double touching = touching_distance(scene.surface, scene.options, contact.face, contact.slave);
+  return touching > 0 ? std::min(edge, touching) : edge;
+}
+
+int part_of(const Surface& surface, int slave) {
+  return surface.face[static_cast<std::size_t>(surface.faces_of.of(slave).front())].part;
+}
+
+void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
+  constexpr Spread at_rest{{0, 0, 0}, {0, 0, 0}};
+  scene.candidates.growth[0] = -1;
+  refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, at_rest, 0, team);
+  scene.last.swap(scene.contacts);
+  detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, at_rest, 0, scene.last, team,
+         scene.contacts);
+}
+
+// Pairs of one part that overlap from the start are how the part was drawn: corners, seams, flanges.
+bool exclude_within_parts(ContactScene& scene) {
+  std::vector<std::pair<int, int>> found;
+  for (const Contact& contact : scene.contacts)
+    if (contact.gap < 0 && contact.body == scene.surface.body[static_cast<std::size_t>(contact.slave)])
+      found.emplace_back(contact.slave, contact.face);
+  if (found.empty()) return false;
+  std::sort(found.begin(), found.end());
+  auto next = found.begin();
+  Lists grown;
+  grown.first.push_back(0);
+  for (int s = 0; s < static_cast<int>(scene.surface.slaves()); ++s) {
+    const auto known = scene.excluded.of(s);
+    const auto begin = grown.item.insert(grown.item.end(), known.begin(), known.end()) - grown.item.begin();
+    for (; next != found.end() && next->first == s; ++next) grown.item.push_back(next->second);
+    std::sort(grown.item.begin() + begin, grown.item.end());
+    grown.first.push_back(static_cast<int>(grown.item.size()));
+  }
+  scene.excluded = std::move(grown);
+  return true;
+}
+
+[[noreturn]] void refuse(const ContactScene& scene, const Nodes& nodes, const Contact& contact,
+                         const char* why) {
+  const Surface& surface = scene.surface;
+  const int node = surface.node[static_cast<std::size_t>(contact.slave)];
+  const Vector3d x = position(nodes, node);
+  std::ostringstream text;
+  text << "contact: part '" << surface.part_name[static_cast<std::size_t>(part_of(surface, contact.slave))]
+       << "' overlaps part '"
+       << surface
+              .part_name[static_cast<std::size_t>(surface.face[static_cast<std::size_t>(contact.face)].part)]
+       << "' by " << -contact.gap << " at (" << x[0] << ", " << x[1] << ", " << x[2] << "), " << why;
+  throw std::invalid_argument(text.str());
+}
+
+void record(const ContactScene& scene, const Contact& contact, std::vector<InitialOverlap>& report) {
+  const Surface& surface = scene.surface;
+  const std::string& node_part = surface.part_name[static_cast<std::size_t>(part_of(surface, contact.slave))];
+  const std::string& face_part =
+      surface.part_name[static_cast<std::size_t>(surface.face[static_cast<std::size_t>(contact.face)].part)];
+  auto entry = std::find_if(report.begin(), report.end(), [&](const InitialOverlap& overlap) {
+    return overlap.node_part == node_part && overlap.face_part == face_part;
+  });
+  if (entry == report.end())
+    entry = report.insert(report.end(), {.node_part = node_part, .face_part = face_part});
+  entry->depth = std::max(entry->depth, -contact.gap);
+  ++entry->nodes;
+}
+
+// Displacements take the place of velocities, and every node weighs the same.
+void move_apart(ContactScene& scene, Nodes& nodes) {
+  const Surface& surface = scene.surface;
+  for (std::size_t s = 0; s < surface.slaves(); ++s)
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto node = static_cast<std::size_t>(surface.node[s]);
+      const bool held = !nodes.prescribed.empty() && (nodes.prescribed[node] >> axis & 1) != 0;
+      scene.motion[s].velocity[axis] = 0;
+      scene.motion[s].inverse_mass[axis] = held ? 0 : 1;
+    }
+  ContactOptions whole = scene.options;
+  whole.friction = 0;
+  whole.passes = sweeps_a_round;
+  whole.overlap_recovery = 1;
+  whole.overlap_recovery_cap = std::numeric_limits<double>::max();
+  solve(scene.solver, whole, scene.candidates.smallest_edge, 1, scene.contacts, scene.motion);
+  for (std::size_t s = 0; s < surface.slaves(); ++s)
+    for (int axis = 0; axis < 3; ++axis)
+      nodes.record[static_cast<std::size_t>(surface.node[s])].position[axis] +=
+          scene.motion[s].velocity[axis];
+}
+
+const Contact* deepest_unresolved(const ContactScene& scene) {
+  const Contact* worst = nullptr;
+  for (const Contact& contact : scene.contacts)
+    if (contact.gap < -resolved_share * scale_of(scene, contact) &&
+        (worst == nullptr || contact.gap < worst->gap))
+      worst = &contact;
+  return worst;
+}
+
+}  // namespace
+
+std::vector<InitialOverlap> remove_initial_overlap(ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
+  std::vector<InitialOverlap> report;
+  if (scene.surface.face.empty()) return report;
+  scene.candidates.depth_share = searched_depth_share;
+  find_contacts(scene, nodes, team);
+  while (exclude_within_parts(scene)) find_contacts(scene, nodes, team);
+  for (const Contact& contact : scene.contacts) {
+    if (contact.gap >= -resolved_share * scale_of(scene, contact)) continue;
+    if (-contact.gap > scene.options.initial_overlap_limit * scale_of(scene, contact))
+      refuse(scene, nodes, contact, "deeper than initial_overlap_limit allows");
+    record(scene, contact, report);
+  }
+  if (!report.empty()) {
+    std::vector<Vector3d> start;
+    for (int node : scene.surface.node) start.push_back(position(nodes, node));
+    for (int round = 0; deepest_unresolved(scene) != nullptr; ++round) {
+      if (round == most_rounds)
+        refuse(scene, nodes, *deepest_unresolved(scene), "which moving nodes does not remove");
+      move_apart(scene, nodes);
+      find_contacts(scene, nodes, team);
+    }
+    for (std::size_t s = 0; s < start.size(); ++s) {
+      const double moved = (position(nodes, scene.surface.node[s]) - start[s]).norm();
+      const std::string& part =
+          scene.surface.part_name[static_cast<std::size_t>(part_of(scene.surface, static_cast<int>(s)))];
+      for (InitialOverlap& overlap : report)
+        if (overlap.node_part == part || overlap.face_part == part)
+          overlap.moved = std::max(overlap.moved, moved);
+    }
+  }
+  scene.candidates.depth_share = followed_depth_share;
+  scene.candidates.growth[0] = -1;
+  scene.contacts.clear();
+  scene.last.clear();
+  return report;
+}
+
+}  // namespace brio

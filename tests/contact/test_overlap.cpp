@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include "contact/overlap.hpp"
+#include "tests/contact/spring_model.hpp"
+
+namespace brio::testing {
+namespace {
+
+// Two blocks of unit cells, the upper one sunk in by `depth`, turned a little so that nodes meet faces.
+void overlap_blocks(SpringModel& model, double depth, double limit) {
+  model.add_box({3, 3, 3}, {3, 3, 3}, 1, shifted({0, 0, 0}));
+  model.add_box({2, 2, 2}, {2, 2, 2}, 1, [&](const Vector3d& x) -> Vector3d {
+    return Eigen::AngleAxisd(0.3, Vector3d::UnitZ()) * x + Vector3d(0.8, 0.4, 3 - depth);
+  });
+  ContactOptions options;
+  options.initial_overlap_limit = limit;
+  model.start(options);
+}
+
+TEST(InitialOverlap, IsRemovedWithoutStrainOrMotion) {
+  ThreadTeam team(1);
+  for (const double depth : {1e-12, 1e-3, 0.15, 0.5}) {
+    SpringModel model;
+    overlap_blocks(model, depth, 0.6);
+    const auto report = remove_initial_overlap(model.scene, model.nodes, team);
+    if (depth > 1e-9) {
+      ASSERT_FALSE(report.empty()) << depth;
+      EXPECT_NEAR(report.front().depth, depth, 1e-9);
+      EXPECT_LT(report.front().moved, 1.001 * depth);
+    }
+    model.rest();
+    for (int i = 0; i < 50; ++i) model.step(1e-3);
+    EXPECT_LT(model.scene.totals.deepest_overlap, 1e-8);
+    EXPECT_LT(model.kinetic_energy() + model.spring_energy(), 1e-14) << depth;
+  }
+}
+
+TEST(InitialOverlap, BeyondTheLimitNamesPartsAndDepth) {
+  ThreadTeam team(1);
+  SpringModel model;
+  overlap_blocks(model, 0.5, 0.2);
+  try {
+    remove_initial_overlap(model.scene, model.nodes, team);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("part 0"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("part 1"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("0.5"), std::string::npos) << error.what();
+  }
+}
+
+TEST(InitialOverlap, SheetsTooCloseAreMovedToTheirThickness) {
+  ThreadTeam team(1);
+  SpringModel model;
+  model.add_sheet({4, 4}, {4, 4}, 0.1, 1, shifted({0, 0, 0}));
+  const int upper = model.add_sheet({5, 5}, {3, 3}, 0.1, 1, shifted({0.3, 0.2, 0.09}));
+  model.start({});
+  const auto report = remove_initial_overlap(model.scene, model.nodes, team);
+  ASSERT_FALSE(report.empty());
+  EXPECT_NEAR(report.front().depth, 0.01, 1e-12);
+  EXPECT_NEAR(model.centre(upper, model.count())[2] - model.centre(0, upper)[2], 0.1, 0.02);
+}
+
+TEST(InitialOverlap, HeldPartStaysWhereItIs) {
+  ThreadTeam team(1);
+  SpringModel model;
+  overlap_blocks(model, 0.1, 0.2);
+  model.hold(0, 64);
+  remove_initial_overlap(model.scene, model.nodes, team);
+  EXPECT_EQ(model.x(63), Vector3d(3, 3, 3));
+  double lowest = 10;
+  for (int n = 64; n < model.count(); ++n) lowest = std::min(lowest, model.x(n)[2]);
+  EXPECT_NEAR(lowest, 3, 1e-8);
+}
+
+}  // namespace
+}  // namespace brio::testing

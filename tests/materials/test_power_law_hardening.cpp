@@ -30,7 +30,7 @@ Exact exact_increment(const PowerHardening& law, double start, double effective_
   const auto missing = [&](const Exact& u) -> Exact {
     return height - Exact(stiffness) * u - Exact(law.constant) * pow(u, Exact(law.exponent));
   };
-  Exact low("1e-2000"), high = height / Exact(stiffness);
+  Exact low("1e-30000"), high = height / Exact(stiffness);
   for (int k = 0; k < 60; ++k) {
     const Exact middle = sqrt(low * high);
     (missing(middle) > 0 ? low : high) = middle;

@@ -1,17 +1,10 @@
+#include "io/condition_words.hpp"
 #include "io/generate_mesh.hpp"
 #include "io/read_fields.hpp"
 
 namespace brio {
 
 namespace {
-
-/// Components that a boundary condition can name, in the order of their axes.
-constexpr std::array<std::string_view, 6> component_words{"x", "y", "z", "rx", "ry", "rz"};
-/// Keys of a prescribed motion.
-constexpr std::array<std::pair<std::string_view, MotionKind>, 3> motion_keys{
-    {{"displacement", MotionKind::displacement},
-     {"velocity", MotionKind::velocity},
-     {"acceleration", MotionKind::acceleration}}};
 
 using SetNames = std::vector<std::string_view> (*)(const MeshSource&);
 

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/condition_words.hpp"
+
 namespace brio {
 
 namespace {
@@ -65,8 +67,7 @@ void require_map(const YamlNode& node, const Slot& slot) {
 }
 
 void check_name(const YamlEntry& entry, std::string_view kind) {
-  constexpr std::string_view accepted = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  if (!entry.key.empty() && entry.key.find_first_not_of(accepted) == std::string::npos) return;
+  if (!entry.key.empty() && entry.key.find_first_not_of(name_letters) == std::string::npos) return;
   throw DeckError(entry.place, "'" + entry.key + "' cannot be a name in '" + std::string(kind) +
                                    "'; accepted are letters, digits, _ and -");
 }

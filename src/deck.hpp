@@ -39,6 +39,7 @@ constexpr bool is_zero(const Triple& v) { return v[0] == 0 && v[1] == 0 && v[2] 
 /// all.
 struct BoxMesh {
   static constexpr std::string_view name = "box";
+  static constexpr std::string_view meaning = "hexahedra filling a box centred on the origin";
   Triple size{};
   std::array<int, 3> elements{};
   static constexpr auto fields() {
@@ -51,6 +52,7 @@ struct BoxMesh {
 /// Shells in the plane z = 0, centred on the origin. Sets: xmin xmax ymin ymax boundary all.
 struct PlateMesh {
   static constexpr std::string_view name = "plate";
+  static constexpr std::string_view meaning = "shells in the plane z = 0, centred on the origin";
   std::array<double, 2> size{};
   std::array<int, 2> elements{};
   static constexpr auto fields() {
@@ -63,6 +65,8 @@ struct PlateMesh {
 /// Shells on a cylinder about the z axis, from z = 0 to the height. Sets: bottom top all.
 struct CylinderMesh {
   static constexpr std::string_view name = "cylinder";
+  static constexpr std::string_view meaning =
+      "shells on a cylinder about the z axis, from z = 0 to the height";
   double radius = 0;
   double height = 0;
   std::array<int, 2> elements{};
@@ -82,6 +86,8 @@ struct CylinderMesh {
 /// outside all.
 struct TubeMesh {
   static constexpr std::string_view name = "tube";
+  static constexpr std::string_view meaning =
+      "hexahedra in the wall of a tube about the z axis, from z = 0 to the height";
   double inner_radius = 0;
   double outer_radius = 0;
   double height = 0;
@@ -104,6 +110,8 @@ struct TubeMesh {
 /// Hexahedra filling a round rod along z, from z = 0 to the length. Sets: bottom top outside all.
 struct RodMesh {
   static constexpr std::string_view name = "rod";
+  static constexpr std::string_view meaning =
+      "hexahedra filling a round rod along z, from z = 0 to the length";
   double radius = 0;
   double length = 0;
   std::array<int, 2> elements{};
@@ -172,6 +180,7 @@ struct Part {
 /// Nodes of a named set (`part.set`), or of all parts (or one) inside a region.
 struct BoxRegion {
   static constexpr std::string_view name = "box";
+  static constexpr std::string_view meaning = "inside a box";
   Triple lower{};
   Triple upper{};
   static constexpr auto fields() {
@@ -186,6 +195,7 @@ struct BoxRegion {
 };
 struct PlaneRegion {
   static constexpr std::string_view name = "plane";
+  static constexpr std::string_view meaning = "near a plane";
   Triple point{};
   Triple normal{};
   double tolerance = 0;
@@ -201,6 +211,7 @@ struct PlaneRegion {
 };
 struct SphereRegion {
   static constexpr std::string_view name = "sphere";
+  static constexpr std::string_view meaning = "inside a sphere";
   Triple centre{};
   double radius = 0;
   static constexpr auto fields() {
@@ -273,6 +284,7 @@ struct PrescribedMotion {
 /// Nodes cannot pass the plane; it may move at a given velocity.
 struct RigidWall {
   static constexpr std::string_view name = "rigid_wall";
+  static constexpr std::string_view meaning = "a plane that nodes cannot pass";
   Triple point{};
   Triple normal{};
   Triple velocity{};
@@ -296,6 +308,7 @@ using BoundaryCondition = std::variant<PrescribedMotion, RigidWall>;
 /// `gravity: [0, 0, -9.81]`, on everything.
 struct Gravity {
   static constexpr std::string_view name = "gravity";
+  static constexpr std::string_view meaning = "acceleration of everything";
   Triple acceleration{};
   Curve factor{{{0, 1}}};
   static constexpr auto fields() {
@@ -307,6 +320,7 @@ struct Gravity {
 /// `force: [x, y, z]` on every node of a set, times `factor` (a curve).
 struct NodalForce {
   static constexpr std::string_view name = "force";
+  static constexpr std::string_view meaning = "the same force on every node of a set";
   NodeSelection where;
   Triple force{};
   Curve factor{{{0, 1}}};
@@ -319,6 +333,7 @@ struct NodalForce {
 /// `pressure: CURVE` on a named side set, pushing against the outward normal; follows the surface.
 struct Pressure {
   static constexpr std::string_view name = "pressure";
+  static constexpr std::string_view meaning = "pressure on sides of elements";
   std::string side_set;  ///< "part.set"
   Curve pressure;
   static constexpr auto fields() {

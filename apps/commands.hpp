@@ -1,0 +1,17 @@
+#pragma once
+/// The subcommands of `brio`. Each adds itself to the command line and, if it is chosen, runs while the
+/// command line is parsed and leaves its exit code.
+
+#include <CLI/CLI.hpp>
+
+namespace brio {
+
+/// Exit codes that scripts rely on.
+inline constexpr int exit_good = 0;
+inline constexpr int exit_bad_input = 2;          ///< bad command, deck or mesh: nothing was computed
+inline constexpr int exit_numerical_failure = 3;  ///< the last good state was written
+inline constexpr int exit_file_failure = 4;       ///< what was written before stays readable
+
+void add_schema_command(CLI::App& program, int& exit_code);
+
+}  // namespace brio

@@ -1,6 +1,7 @@
 #include "contact/scene.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
@@ -47,23 +48,35 @@ void sum_impulses(ContactScene& scene) {
   }
 }
 
-// Predicted and corrected velocities agree where contact did not act, so only nodes with impulses count.
-void book(ContactScene& scene) {
+void book_work(ContactScene& scene, const Nodes& nodes) {
+  ContactStep& step = scene.step;
+  for (std::size_t s = 0; s < scene.surface.slaves(); ++s) {
+    const ContactMotion& motion = scene.motion[s];
+    const Vector3d before(nodes.velocity_before[static_cast<std::size_t>(scene.surface.node[s])].component);
+    const Vector3d after(motion.velocity);
+    step.normal_work_before += scene.normal_impulse[s].dot(before);
+    step.normal_work_after += scene.normal_impulse[s].dot(after);
+    step.friction_work_before += scene.friction_impulse[s].dot(before);
+    step.friction_work_after += scene.friction_impulse[s].dot(after);
+    Vector3d reaction = Vector3d::Zero();
+    for (int axis = 0; axis < 3; ++axis)
+      if (motion.inverse_mass[axis] == 0)
+        reaction[axis] = -scene.normal_impulse[s][axis] - scene.friction_impulse[s][axis];
+    step.support_work_before += reaction.dot(before);
+    step.support_work_after += reaction.dot(after);
+    step.support_impulse += reaction;
+    step.support_moment += position(nodes, scene.surface.node[s]).cross(reaction);
+  }
+}
+
+void book(ContactScene& scene, const Nodes& nodes) {
   ContactStep& step = scene.step;
   step.contacts = static_cast<int>(scene.contacts.size());
   for (const Contact& contact : scene.contacts) {
     step.deepest_overlap = std::max(step.deepest_overlap, -contact.gap);
     if (contact.impulse > 0) ++step.active;
   }
-  for (std::size_t s = 0; s < scene.surface.slaves(); ++s) {
-    const double* v = scene.motion[s].velocity;
-    const Vector3d after(v[0], v[1], v[2]);
-    step.normal_work_before += scene.normal_impulse[s].dot(scene.velocity_before[s]);
-    step.normal_work_after += scene.normal_impulse[s].dot(after);
-    step.friction_work_before += scene.friction_impulse[s].dot(scene.velocity_before[s]);
-    step.friction_work_after += scene.friction_impulse[s].dot(after);
-    scene.velocity_before[s] = after;
-  }
+  if (step.active > 0) book_work(scene, nodes);
   ContactTotals& totals = scene.totals;
   ++totals.steps;
   totals.contacts += static_cast<std::uint64_t>(step.contacts);
@@ -86,14 +99,13 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   scene.candidates = Candidates(options.search);
   const std::size_t slaves = scene.surface.slaves();
   scene.motion.resize(slaves);
-  scene.velocity_before.resize(slaves);
   scene.normal_impulse.resize(slaves, Vector3d::Zero());
   scene.friction_impulse.resize(slaves, Vector3d::Zero());
-  for (std::size_t s = 0; s < slaves; ++s) scene.velocity_before[s] = velocity(nodes, scene.surface.node[s]);
   return scene;
 }
 
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team) {
+  assert(nodes.velocity_before.size() == nodes.size());
   scene.step = ContactStep{};
   if (scene.surface.face.empty()) return;
   const Spread velocities = velocity_spread(scene.surface, nodes);
@@ -109,7 +121,7 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team) {
   scene.step.residual = scene.solver.residual;
   if (!scene.contacts.empty()) store_velocities(scene, nodes, team);
   sum_impulses(scene);
-  book(scene);
+  book(scene, nodes);
   scene.last_dt = dt;
 }
 

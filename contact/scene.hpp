@@ -36,6 +36,11 @@ struct ContactStep {
   int passes = 0;
   double residual = 0;  ///< relative velocity changed in the last pass
   bool searched = false;
+  /// Reactions of the supports: what they do to keep prescribed components of motion as they are.
+  double support_work_before = 0;
+  double support_work_after = 0;
+  Eigen::Vector3d support_impulse = Eigen::Vector3d::Zero();
+  Eigen::Vector3d support_moment = Eigen::Vector3d::Zero();  ///< about the origin
 
   double normal_work() const { return 0.5 * (normal_work_before + normal_work_after); }
   double friction_work() const { return 0.5 * (friction_work_before + friction_work_after); }
@@ -64,9 +69,8 @@ struct ContactScene {
   std::vector<Contact> last;      ///< of the step before, while one is resolved
   double last_dt = 0;
 
-  std::vector<ContactMotion> motion;             ///< of each slave node
-  std::vector<Eigen::Vector3d> velocity_before;  ///< of each slave node, at the half step before
-  std::vector<Eigen::Vector3d> normal_impulse;   ///< of each slave node, in the last step
+  std::vector<ContactMotion> motion;            ///< of each slave node
+  std::vector<Eigen::Vector3d> normal_impulse;  ///< of each slave node, in the last step
   std::vector<Eigen::Vector3d> friction_impulse;
 
   ContactStep step;

@@ -106,6 +106,7 @@ class SpringModel {
   void start(const ContactOptions& options) {
     nodes = Nodes(position_.size(), false);
     nodes.prescribed = AlignedBuffer<std::uint8_t>(position_.size());
+    nodes.velocity_before = AlignedBuffer<NodeVector>(position_.size());
     for (std::size_t n = 0; n < position_.size(); ++n) {
       for (int axis = 0; axis < 3; ++axis) {
         nodes.record[n].position[axis] = position_[n][axis];
@@ -214,6 +215,7 @@ class SpringModel {
     for (std::size_t n = 0; n < nodes.size(); ++n)
       for (int axis = 0; axis < 3; ++axis) {
         NodeRecord& record = nodes.record[n];
+        nodes.velocity_before[n].component[axis] = record.velocity[axis];
         if (nodes.free_inverse_mass(n, axis) == 0) continue;
         record.velocity[axis] += dt * (force[n][axis] * record.inverse_mass + gravity[axis]);
         record.velocity[axis] *= 1 - dt * damping;

@@ -26,19 +26,58 @@ struct CaptureBox {
   double lower[3];
   double upper[3];
 
-  bool contains(const Vector3<double>& point) const {
-    return point.x >= lower[0] && point.x <= upper[0] && point.y >= lower[1] && point.y <= upper[1] &&
-           point.z >= lower[2] && point.z <= upper[2];
+  /// False where lower > upper or a face is not a number: nothing is in such a box.
+  bool holds_anything() const { return overlaps(*this); }
+
+  /// Whether two boxes, each of which holds something, share a point.
+  bool overlaps(const CaptureBox& other) const {
+    return std::islessequal(other.lower[0], upper[0]) && std::isgreaterequal(other.upper[0], lower[0]) &&
+           std::islessequal(other.lower[1], upper[1]) && std::isgreaterequal(other.upper[1], lower[1]) &&
+           std::islessequal(other.lower[2], upper[2]) && std::isgreaterequal(other.upper[2], lower[2]);
   }
 };
 
-/// Whether the box has an inside; false where a face is not a number.
-inline bool can_hold_points(const CaptureBox& box) {
-  return std::islessequal(box.lower[0], box.upper[0]) && std::islessequal(box.lower[1], box.upper[1]) &&
-         std::islessequal(box.lower[2], box.upper[2]);
-}
+/// What is looked for in the boxes: points, or nodes each of which may be anywhere in a closed box of its
+/// own; such a node is paired with the boxes that share a point with its own. A view: the array must outlive
+/// the search.
+class SearchNodes {
+ public:
+  SearchNodes(std::span<const Vector3<double>> points)
+      : first_(reinterpret_cast<const double*>(points.data())),
+        count_(points.size()),
+        stride_(3),
+        to_upper_(0) {
+    static_assert(sizeof(Vector3<double>) == 3 * sizeof(double));
+  }
+  SearchNodes(std::span<const CaptureBox> ranges)
+      : first_(reinterpret_cast<const double*>(ranges.data())),
+        count_(ranges.size()),
+        stride_(6),
+        to_upper_(3) {
+    static_assert(sizeof(CaptureBox) == 6 * sizeof(double));
+  }
+  SearchNodes(const std::vector<Vector3<double>>& points) : SearchNodes(std::span(points)) {}
+  SearchNodes(const std::vector<CaptureBox>& ranges) : SearchNodes(std::span(ranges)) {}
 
-/// The pairs found, box by box: indices of the points inside box b are node[first[b]] ... node[first[b + 1] -
+  std::size_t size() const { return count_; }
+  bool are_points() const { return to_upper_ == 0; }
+  double lower(std::size_t node, int axis) const {
+    return first_[node * stride_ + static_cast<std::size_t>(axis)];
+  }
+  double upper(std::size_t node, int axis) const {
+    return first_[node * stride_ + to_upper_ + static_cast<std::size_t>(axis)];
+  }
+  CaptureBox range(std::size_t node) const {
+    return {{lower(node, 0), lower(node, 1), lower(node, 2)},
+            {upper(node, 0), upper(node, 1), upper(node, 2)}};
+  }
+
+ private:
+  const double* first_;
+  std::size_t count_, stride_, to_upper_;
+};
+
+/// The pairs found, box by box: indices of the nodes in box b are node[first[b]] ... node[first[b + 1] -
 /// 1], ascending.
 struct CandidatePairs {
   std::vector<int> first;  ///< boxes + 1 entries

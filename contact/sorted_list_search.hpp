@@ -20,24 +20,26 @@ double comparisons_of_global_search(int bodies, int nodes_per_body);
 
 class SortedListSearch {
  public:
-  /// Replace `pairs` by all (box, point) pairs with the point inside the box, and add the work to `counts`.
-  /// The same for any number of threads; allocates nothing once as many points, boxes and pairs have been
-  /// seen. \throws std::length_error when the pairs cannot be numbered by an int.
-  void find(std::span<const Vector3<double>> points, std::span<const CaptureBox> boxes, ThreadTeam& team,
+  /// Replace `pairs` by all (box, node) pairs with the node inside the box, and add the work to `counts`. The
+  /// same for any number of threads; allocates nothing once as many nodes, boxes and pairs have been seen.
+  ///
+  /// \throws std::length_error when the pairs cannot be numbered by an int.
+  void find(const SearchNodes& nodes, std::span<const CaptureBox> boxes, ThreadTeam& team,
             CandidatePairs& pairs, SearchCounts& counts);
 
  private:
   struct Slab {
     int begin, end;  ///< positions in order_
   };
-  void sort(std::span<const Vector3<double>> points, int axis);
-  Slab slab(int axis, std::span<const Vector3<double>> points, double lower, double upper,
-            std::uint64_t& comparisons) const;
-  void find_in_box(std::span<const Vector3<double>> points, std::span<const CaptureBox> boxes,
-                   std::size_t box, PairPiece& piece) const;
+  void sort(const SearchNodes& nodes, int axis);
+  Slab slab(int axis, const SearchNodes& nodes, double lower, double upper, std::uint64_t& comparisons) const;
+  void find_in_box(const SearchNodes& nodes, std::span<const CaptureBox> boxes, std::size_t box,
+                   PairPiece& piece) const;
 
-  std::vector<int> order_[3];  ///< point indices by ascending coordinate, without points that are not numbers
-  std::vector<int> rank_[3];   ///< position of a point in order_; -1 where left out
+  std::vector<int> left_in_;     ///< nodes that are somewhere: their coordinates are numbers
+  std::vector<int> order_[3];    ///< these nodes by ascending (lower) coordinate
+  std::vector<int> rank_[3];     ///< position of a node in order_
+  double width_[3] = {0, 0, 0};  ///< a bound of the nodes' ranges, by which the slabs are grown; 0 for points
   std::vector<PairPiece> pieces_;
 };
 

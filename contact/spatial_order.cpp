@@ -31,6 +31,8 @@ constexpr std::uint32_t key_of(Entry entry) { return static_cast<std::uint32_t>(
 
 bool is_number(const Vector3<double>& p) { return !std::isnan(p.x) && !std::isnan(p.y) && !std::isnan(p.z); }
 
+CaptureBox at(const Vector3<double>& p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
+
 /// Two zeros after each of ten bits.
 constexpr std::uint32_t spread(std::uint32_t x) {
   x = (x | (x << 16)) & 0x030000ffu;
@@ -90,15 +92,29 @@ Bounds::Bounds() {
   }
 }
 
-void Bounds::include(const Vector3<double>& point) {
-  include(CaptureBox{{point.x, point.y, point.z}, {point.x, point.y, point.z}});
-}
-
 void Bounds::include(const CaptureBox& box) {
   for (int axis = 0; axis < 3; ++axis) {
     lower[axis] = std::isless(box.lower[axis], lower[axis]) ? box.lower[axis] : lower[axis];
     upper[axis] = std::isgreater(box.upper[axis], upper[axis]) ? box.upper[axis] : upper[axis];
   }
+}
+
+void lay_centres(const SearchNodes& boxes, const CaptureBox& within, ThreadTeam& team,
+                 std::vector<Vector3<double>>& centres) {
+  constexpr double far = std::numeric_limits<double>::max() / 4;
+  constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+  centres.resize(boxes.size());
+  team.for_ranges(boxes.size(), smallest_slice, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const CaptureBox box = boxes.range(b);
+      double centre[3] = {not_a_number, not_a_number, not_a_number};
+      if (box.holds_anything() && box.overlaps(within))
+        for (int axis = 0; axis < 3; ++axis)
+          centre[axis] = 0.5 * std::clamp(std::max(box.lower[axis], within.lower[axis]), -far, far) +
+                         0.5 * std::clamp(std::min(box.upper[axis], within.upper[axis]), -far, far);
+      centres[b] = {centre[0], centre[1], centre[2]};
+    }
+  });
 }
 
 void SpatialOrder::sort(std::span<const Vector3<double>> positions, ThreadTeam& team) {
@@ -110,13 +126,13 @@ void SpatialOrder::sort(std::span<const Vector3<double>> positions, ThreadTeam& 
   team.for_each(slices, [&](std::size_t s) {
     Bounds bounds;
     const std::size_t end = std::min(count, (s + 1) * smallest_slice);
-    for (std::size_t i = s * smallest_slice; i < end; ++i) bounds.include(positions[i]);
+    for (std::size_t i = s * smallest_slice; i < end; ++i) bounds.include(at(positions[i]));
     slice_bounds_[s] = bounds;
   });
-  bounds_ = Bounds();
-  for (const Bounds& slice : slice_bounds_) bounds_.include(slice);
+  Bounds bounds;
+  for (const Bounds& slice : slice_bounds_) bounds.include(slice);
 
-  const Cells cells(bounds_);
+  const Cells cells(bounds);
   team.for_ranges(count, smallest_slice, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t key = is_number(positions[i]) ? cells.key(positions[i]) : no_cell;
@@ -172,7 +188,7 @@ void SpatialOrder::refine_crowded_cells(std::span<const Vector3<double>> positio
 void SpatialOrder::refine(std::span<const Vector3<double>> positions, std::size_t begin, std::size_t end) {
   Bounds bounds;
   for (std::size_t i = begin; i < end; ++i)
-    bounds.include(positions[static_cast<std::uint32_t>(entries_[i])]);
+    bounds.include(at(positions[static_cast<std::uint32_t>(entries_[i])]));
   const Cells cells(bounds);
   bool divided = false;
   for (std::size_t i = begin; i < end; ++i) {

@@ -13,9 +13,13 @@ namespace brio {
 /// Smallest box around what was included; contains nothing at first. What is not a number is passed over.
 struct Bounds : CaptureBox {
   Bounds();
-  void include(const Vector3<double>& point);
   void include(const CaptureBox& box);
 };
+
+/// Centres of what the boxes share with `within`: not a number where they share nothing, and of infinite
+/// boxes somewhere inside.
+void lay_centres(const SearchNodes& boxes, const CaptureBox& within, ThreadTeam& team,
+                 std::vector<Vector3<double>>& centres);
 
 class SpatialOrder {
  public:
@@ -25,7 +29,6 @@ class SpatialOrder {
   /// stand in ascending order.
   void sort(std::span<const Vector3<double>> positions, ThreadTeam& team);
 
-  const Bounds& bounds() const { return bounds_; }  ///< of all positions; what is not a number is passed over
   std::size_t size() const { return size_; }
   int operator[](std::size_t place) const { return static_cast<int>(entries_[place] & 0xffffffffu); }
 
@@ -34,7 +37,6 @@ class SpatialOrder {
   void refine(std::span<const Vector3<double>> positions, std::size_t begin, std::size_t end);
   void refine_crowded_cells(std::span<const Vector3<double>> positions, std::size_t begin, std::size_t end);
 
-  Bounds bounds_;
   std::size_t size_ = 0;
   std::vector<std::uint64_t> entries_;  ///< key of the curve in the upper half, index in the lower
   std::vector<std::uint64_t> scratch_;

@@ -1,7 +1,9 @@
-// Measures the global contact search: each strategy on surfaces of several shapes, whole search (order, build, query,
-// pairs in order) and the work it took. Times are the best and the median of several repetitions, interleaved.
+// Measures the global contact search: each strategy on surfaces of several shapes, whole search (order,
+// build, query, pairs in order) and the work it took. Times are the best and the median of several
+// repetitions, interleaved.
 //
-//     bench_search [--csv] [--threads N] [--repetitions N] [SCENE...]      scenes: wall crumpled debris; append 1M
+//     bench_search [--csv] [--threads N] [--repetitions N] [SCENE...]      scenes: wall crumpled debris;
+//     append 1M
 
 #include <fmt/core.h>
 
@@ -31,7 +33,8 @@ struct FacedSurface {
 /// The six sides of a box of edge^3 elements of unit size; each side has nodes of its own.
 void add_brick(FacedSurface& surface, const Position& corner, int edge, double turn) {
   const auto place = [&](double a, double b, double c) {
-    return corner + Position{std::cos(turn) * a - std::sin(turn) * b, std::sin(turn) * a + std::cos(turn) * b, c};
+    return corner +
+           Position{std::cos(turn) * a - std::sin(turn) * b, std::sin(turn) * a + std::cos(turn) * b, c};
   };
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2;
@@ -108,14 +111,17 @@ FacedSurface surface_of(std::string_view scene) {
   if (scene == "crumpled1M") return crumpled(1000);
   if (scene == "debris") return debris(20, 60);
   if (scene == "debris1M") return debris(200, 60);
-  throw std::invalid_argument(fmt::format("no scene '{}'; there are wall, crumpled, debris, and each with 1M", scene));
+  throw std::invalid_argument(
+      fmt::format("no scene '{}'; there are wall, crumpled, debris, and each with 1M", scene));
 }
 
 std::vector<CaptureBox> capture_boxes(const FacedSurface& surface, double reach) {
   std::vector<CaptureBox> boxes;
   boxes.reserve(surface.face.size());
   for (const auto& face : surface.face) {
-    const auto corner = [&](int k) { return surface.node[static_cast<std::size_t>(face[static_cast<std::size_t>(k)])]; };
+    const auto corner = [&](int k) {
+      return surface.node[static_cast<std::size_t>(face[static_cast<std::size_t>(k)])];
+    };
     CaptureBox box{{corner(0).x, corner(0).y, corner(0).z}, {corner(0).x, corner(0).y, corner(0).z}};
     for (int k = 1; k < 4; ++k) {
       const double x[3] = {corner(k).x, corner(k).y, corner(k).z};
@@ -140,8 +146,8 @@ struct Measurement {
 };
 
 template <class Search>
-void repeat(Search& search, const FacedSurface& surface, const std::vector<CaptureBox>& boxes, ThreadTeam& team,
-            Measurement& measurement) {
+void repeat(Search& search, const FacedSurface& surface, const std::vector<CaptureBox>& boxes,
+            ThreadTeam& team, Measurement& measurement) {
   measurement.counts = {};
   const auto start = std::chrono::steady_clock::now();
   search.find(surface.node, boxes, team, measurement.pairs, measurement.counts);
@@ -201,8 +207,8 @@ int run(int count, char** arguments) {
   if (csv) {
     fmt::print("scene,strategy,threads,nodes,faces,best_ms,median_ms,pairs,comparisons\n");
   } else {
-    fmt::print("{:<11} {:<12} {:>7} {:>8} {:>8} {:>10} {:>10} {:>9} {:>13}\n", "scene", "strategy", "threads", "nodes",
-               "faces", "best ms", "median ms", "pairs", "comparisons");
+    fmt::print("{:<11} {:<12} {:>7} {:>8} {:>8} {:>10} {:>10} {:>9} {:>13}\n", "scene", "strategy", "threads",
+               "nodes", "faces", "best ms", "median ms", "pairs", "comparisons");
   }
   for (const std::string& scene : scenes) measure(scene, threads, repetitions, csv);
   return EXIT_SUCCESS;

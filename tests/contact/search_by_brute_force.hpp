@@ -1,5 +1,5 @@
 #pragma once
-/// Every point against every box: what the searches are held against.
+/// Every node against every box: what the searches are held against.
 
 #include <span>
 #include <vector>
@@ -8,13 +8,15 @@
 
 namespace brio {
 
-inline CandidatePairs search_by_brute_force(std::span<const Vector3<double>> points,
-                                            std::span<const CaptureBox> boxes) {
+inline CandidatePairs search_by_brute_force(const SearchNodes& nodes, std::span<const CaptureBox> boxes) {
   CandidatePairs pairs;
   pairs.first.push_back(0);
   for (const CaptureBox& box : boxes) {
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (box.contains(points[i])) pairs.node.push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const CaptureBox range = nodes.range(i);
+      if (box.holds_anything() && range.holds_anything() && box.overlaps(range))
+        pairs.node.push_back(static_cast<int>(i));
+    }
     pairs.first.push_back(static_cast<int>(pairs.node.size()));
   }
   return pairs;

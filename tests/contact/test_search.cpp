@@ -36,6 +36,21 @@ TYPED_TEST(EveryStrategy, FindsThePairsOfBruteForce) {
     }
 }
 
+TYPED_TEST(EveryStrategy, FindsNodesThatMayBeAnywhereInABox) {
+  for (unsigned seed : {11u, 12u})
+    for (const SearchScene& scene : SceneMaker(seed).all()) {
+      // The boxes of a scene of the same kind stand for the nodes; some are infinite, inverted or not
+      // numbers.
+      const std::vector<CaptureBox> nodes(scene.boxes.rbegin(), scene.boxes.rend());
+      const CandidatePairs expected = search_by_brute_force(nodes, scene.boxes);
+      ASSERT_GT(expected.size(), 0u) << scene.name;
+      ThreadTeam team;
+      this->search.find(nodes, scene.boxes, team, this->pairs, this->counts);
+      EXPECT_EQ(this->pairs.first, expected.first) << scene.name;
+      EXPECT_EQ(this->pairs.node, expected.node) << scene.name;
+    }
+}
+
 TYPED_TEST(EveryStrategy, FindsTheSameWithTheSameWorkForAnyNumberOfThreads) {
   const SearchScene scene =
       SceneMaker(4).uniform_cloud(20000, 9000);  // enough for several tasks of each kind

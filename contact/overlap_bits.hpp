@@ -1,5 +1,5 @@
 #pragma once
-/// Tests of eight points or boxes at once that answer with one bit each.
+/// Tests of eight boxes or points, which are boxes without extent, at once that answer with one bit each.
 
 #include "contact/search.hpp"
 #include "src/base/lanes.hpp"
@@ -83,11 +83,5 @@ BRIO_INLINE int append_selected(int* target, const int* source, unsigned bits) {
 }
 
 #endif
-
-/// Bit i is set where the point (coordinate[0][i], coordinate[1][i], coordinate[2][i]) lies in the closed
-/// box.
-BRIO_INLINE unsigned inside_bits(const double* const coordinate[3], const BoxLanes& box) {
-  return overlap_bits(coordinate, coordinate, box);
-}
 
 }  // namespace brio

@@ -22,6 +22,8 @@ struct Path {
   Vector3d at(double time) const { return start + time * displacement; }
 };
 
+Path operator-(const Path& a, const Path& b) { return {a.start - b.start, a.displacement - b.displacement}; }
+
 // Node and face relative to the face's first vertex and its motion: every difference of given numbers is
 // formed once and is right to one rounding, so neither the origin nor a common velocity is ever seen.
 struct LocalPair {
@@ -62,7 +64,6 @@ struct Triangle {
 struct Cubic {
   std::array<double, 4> coefficients;
   double error;
-  double area;  // bounds twice the area of the triangle over the step
 
   // Blossom: multiaffine form of the cubic.
   double blossom(double a, double b, double c) const {
@@ -97,81 +98,103 @@ Cubic coplanarity(const Triangle& triangle) {
   cubic.coefficients = {u0.dot(n0), (u1.dot(n0) + 2 * u0.dot(n1)) / 3, (2 * u1.dot(n1) + u0.dot(n2)) / 3,
                         u1.dot(n2)};
   cubic.error = cubic_roundings * unit_roundoff * triangle.scale * triangle.size * triangle.size;
-  cubic.area = std::sqrt(std::max({n0.squaredNorm(), n1.squaredNorm(), n2.squaredNorm()})) +
-               cubic_roundings * unit_roundoff * triangle.size * triangle.size;
   return cubic;
 }
 
-struct Interval {
-  double from;
-  double to;
-  bool empty() const { return !(from <= to); }
+// Roundings of scale in the distance of a vertex along a unit direction: at most 7 for each component of node
+// - vertex at a time (differences, mean of four, product and sum), 4 more for the scalar product, times the
+// sum of the direction's components, at most sqrt(3), and 8 for solving and for the rounding of a time: 28.
+constexpr double direction_roundings = 32;
+// The same for the part that grows with the turn of the direction.
+constexpr double turning_roundings = 48;
+// A touch is accepted within so many; what is promised adds the rounding of the accepted distance itself.
+constexpr double touch_roundings = 96;
+constexpr double promised_roundings = 128;
+
+// What is seen from the node at a time: the vertices, and how they move until the end of the step.
+struct Sight {
+  std::array<Vector3d, 3> vertices;
+  std::array<Vector3d, 3> motions;
+  TrianglePoint closest;
 };
 
-// Part of the interval outside of which the cubic is off zero by more than `band`: where the convex hull of
-// its control polygon meets the band (Bezier clipping: Sederberg and Nishita 1990).
-Interval clipped(const Cubic& cubic, double band, Interval interval) {
-  const std::array<double, 4> c = cubic.on(interval.from, interval.to);
-  double first = 2;
-  double last = -1;
-  const auto keep = [&](double x) {
-    first = std::min(first, x);
-    last = std::max(last, x);
+// A direction from the node that turns linearly: `towards` + elapsed `turning`; `towards` is a unit vector
+// and `turning` at right angles to it.
+struct Direction {
+  Vector3d towards;
+  Vector3d turning;
+};
+
+Direction without_turn(const Direction& direction) { return {direction.towards, Vector3d::Zero()}; }
+
+// Direction along which a feature separates the triangle best from the node, if it is the closest: it follows
+// the turn of the normal in the interior and of the edge on an edge. No direction (zero) if the feature has
+// no extent.
+Direction separating_direction(const Sight& sight, Feature feature, int index) {
+  const auto k = static_cast<std::size_t>(index);
+  const std::size_t next = (k + 1) % 3;
+  const Direction none{Vector3d::Zero(), Vector3d::Zero()};
+  if (feature == Feature::vertex) return {sight.vertices[k].normalized(), Vector3d::Zero()};
+  const Vector3d edge = sight.vertices[next] - sight.vertices[k];
+  const Vector3d edge_motion = sight.motions[next] - sight.motions[k];
+  if (feature == Feature::edge) {
+    const double length_squared = edge.squaredNorm();
+    if (!(length_squared > 0)) return none;
+    const Vector3d& offset = sight.closest.offset;
+    const Vector3d across = (offset - edge * (edge.dot(offset) / length_squared)).normalized();
+    return {across, edge * (-across.dot(edge_motion) / length_squared)};
+  }
+  const double length = sight.closest.area_vector.norm();
+  if (!(length > 0)) return none;
+  const Vector3d other = sight.vertices[2] - sight.vertices[0];
+  const Vector3d other_motion = sight.motions[2] - sight.motions[0];
+  const double sign = sight.closest.area_vector.dot(sight.closest.offset) < 0 ? -1 : 1;
+  const Vector3d normal = sight.closest.area_vector * (sign / length);
+  const Vector3d change = (edge_motion.cross(other) + edge.cross(other_motion)) * (sign / length);
+  return {normal, change - normal * normal.dot(change)};
+}
+
+// For how long c + b x + a x^2 stays positive from x = 0 on.
+double positive_until(double a, double b, double c) {
+  if (!(c > 0)) return 0;
+  const double discriminant = b * b - 4 * a * c;
+  if (discriminant < 0) return std::numeric_limits<double>::infinity();  // then a > 0
+  const double root = std::sqrt(discriminant);
+  if (b >= 0) return a < 0 ? (b + root) / (-2 * a) : std::numeric_limits<double>::infinity();
+  return 2 * c / (root - b);
+}
+
+// For how long all vertices stay farther than reach along the direction.
+double separated_for(const Triangle& triangle, const Sight& sight, const Direction& direction) {
+  const double rounding = unit_roundoff * triangle.scale;
+  const double nearest = triangle.reach + direction_roundings * rounding;
+  const double turn = direction.turning.norm();
+  // Beyond half a right angle the direction is useless, and its length 1 + (turn elapsed)^2 / 2 too rough.
+  double elapsed = turn > 0 ? 1 / turn : std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double c = direction.towards.dot(sight.vertices[k]) - nearest;
+    const double b = direction.towards.dot(sight.motions[k]) + direction.turning.dot(sight.vertices[k]) -
+                     turning_roundings * rounding * turn;
+    const double a = direction.turning.dot(sight.motions[k]) - 0.5 * nearest * turn * turn;
+    elapsed = std::min(elapsed, positive_until(a, b, c));
+  }
+  return elapsed;
+}
+
+// For how long some direction is known to separate the triangle from the node; 0 if none is.
+double separated_for(const Triangle& triangle, const Sight& sight) {
+  const auto along = [&](Feature feature, int index) {
+    const Direction direction = separating_direction(sight, feature, index);
+    return std::max(separated_for(triangle, sight, direction),
+                    separated_for(triangle, sight, without_turn(direction)));
   };
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double x = static_cast<double>(i) / 3;
-    if (std::abs(c[i]) <= band) keep(x);
-    for (std::size_t j = i + 1; j < 4; ++j) {
-      for (const double level : {-band, band}) {
-        if ((c[i] < level) == (c[j] < level)) continue;
-        keep(x + static_cast<double>(j - i) / 3 * ((level - c[i]) / (c[j] - c[i])));
-      }
-    }
-  }
-  if (first > last) return {1, 0};
-  constexpr double margin = 16 * unit_roundoff;
-  const double width = interval.to - interval.from;
-  if (first > margin)
-    first -= margin;
-  else
-    first = 0;
-  const double from = first > 0 ? interval.from + first * width : interval.from;
-  const double to = last + margin < 1 ? interval.from + (last + margin) * width : interval.to;
-  return {from, std::min(to, interval.to)};
-}
-
-// Direction from the node along which the closest feature separates it best from the triangle.
-Vector3d separating_direction(const TrianglePoint& closest, const std::array<Vector3d, 3>& vertices) {
-  if (closest.feature == Feature::interior) {
-    const Vector3d normal = closest.area_vector.normalized();
-    return normal.dot(closest.offset) < 0 ? Vector3d(-normal) : normal;
-  }
-  if (closest.feature == Feature::vertex) return closest.offset.normalized();
-  const auto k = static_cast<std::size_t>(closest.index);
-  const Vector3d edge = vertices[(k + 1) % 3] - vertices[k];
-  const Vector3d across = closest.offset - edge * (edge.dot(closest.offset) / edge.squaredNorm());
-  return across.normalized();
-}
-
-// Roundings of scale in the distance of a vertex along a unit direction: 8 per component of node - vertex at
-// a time and of the product, times the sum of the direction's components, at most sqrt(3).
-constexpr double direction_roundings = 24;
-// A touch is accepted within so many; `touch_tolerance` adds the rounding of the accepted distance itself.
-constexpr double touch_roundings = 96;
-constexpr double reported_roundings = 128;
-
-// Latest time until which all vertices stay beyond reach along the direction, from `time` on; `time` itself
-// if not even then.
-double separated_until(const Triangle& triangle, const Vector3d& direction, double time) {
-  const double error = direction_roundings * unit_roundoff * triangle.scale;
-  double until = std::numeric_limits<double>::infinity();
-  for (const Path& vertex : triangle.vertices) {
-    const double beyond = direction.dot(vertex.start - triangle.node.start) - triangle.reach - error;
-    const double approach = -direction.dot(vertex.displacement - triangle.node.displacement);
-    if (!(beyond - time * approach > 0)) return time;
-    if (approach > 0) until = std::min(until, beyond / approach);
-  }
-  return std::max(until, time);
+  double elapsed = along(sight.closest.feature, sight.closest.index);
+  if (elapsed > 0) return elapsed;
+  // Where two features meet, rounding may name the wrong one.
+  elapsed = along(Feature::interior, 0);
+  for (int k = 0; k < 3; ++k)
+    elapsed = std::max({elapsed, along(Feature::edge, k), along(Feature::vertex, k)});
+  return elapsed;
 }
 
 struct Touch {
@@ -179,46 +202,33 @@ struct Touch {
   TrianglePoint closest;
 };
 
-// First touch of a sub-triangle not later than `limit`.
-std::optional<Touch> first_touch(const Triangle& triangle, const Cubic& cubic, double limit) {
-  double speed = 0;
-  for (const Path& vertex : triangle.vertices)
-    speed = std::max(speed, largest(vertex.displacement - triangle.node.displacement));
-  const double touching = triangle.reach + touch_roundings * unit_roundoff * triangle.scale;
-  const double shortest = 8 * unit_roundoff * triangle.scale;  // moved in less time than this: no move
-  const double band = cubic.error + triangle.reach * cubic.area;
+// So many certificates are tried within the promised tolerance; each as many more double it. Only motion that
+// keeps within rounding of a turning edge for long needs more.
+constexpr int patience = 256;
 
-  std::array<double, 64> ends;  // of the intervals still to be searched, the next one last
-  std::size_t open = 0;
-  ends[open++] = limit;
-  double from = 0;
-  while (open > 0) {
-    const Interval interval = clipped(cubic, band, {from, ends[open - 1]});
-    if (interval.empty()) {
-      from = ends[--open];
-      continue;
-    }
-    std::array<Vector3d, 3> vertices;
-    for (std::size_t k = 0; k < 3; ++k) vertices[k] = triangle.vertices[k].at(interval.from);
-    const TrianglePoint closest = closest_point_on_triangle(triangle.node.at(interval.from), vertices);
-    if (closest.squared_distance <= touching * touching) return Touch{interval.from, closest};
-    const double until = separated_until(triangle, separating_direction(closest, vertices), interval.from);
-    if (until > interval.from && until >= interval.to) {
-      from = std::max(until, ends[--open]);
-      while (open > 0 && ends[open - 1] <= from) --open;
-      if (open == 0) break;
-      continue;
-    }
-    const double rest = interval.to - until;
-    const bool indivisible = rest * speed <= shortest;
-    if (indivisible && until == interval.from) return Touch{interval.from, closest};  // in doubt, contact
-    const double width = ends[open - 1] - from;
-    from = until;
-    ends[open - 1] = interval.to;
-    if (!indivisible && rest > 0.5 * width) ends[open++] = from + 0.5 * rest;
-    assert(open < ends.size());
+// First touch of a sub-triangle not later than `limit`: the time moves forward for as long as a direction
+// separates.
+std::optional<Touch> first_touch(const Triangle& triangle, double limit) {
+  double tolerance = touch_roundings * unit_roundoff * triangle.scale;
+  Sight sight;
+  std::array<Path, 3> paths;
+  for (std::size_t k = 0; k < 3; ++k) {
+    paths[k] = triangle.vertices[k] - triangle.node;
+    sight.motions[k] = paths[k].displacement;
   }
-  return std::nullopt;
+  double time = 0;
+  for (int count = 1;; ++count) {
+    for (std::size_t k = 0; k < 3; ++k) sight.vertices[k] = paths[k].at(time);
+    sight.closest = closest_point_on_triangle(Vector3d::Zero(), sight.vertices);
+    const double touching = triangle.reach + tolerance;
+    if (sight.closest.squared_distance <= touching * touching) return Touch{time, sight.closest};
+    const double elapsed = separated_for(triangle, sight);
+    const double until = time + elapsed * (1 - 8 * unit_roundoff);
+    if (until > limit) return std::nullopt;
+    if (!(until > time)) return Touch{time, sight.closest};  // no certificate: in doubt, contact
+    time = until;
+    if (count % patience == 0) tolerance *= 2;
+  }
 }
 
 // The side from which the cubic came to its value at `time`: the last of its coefficients on [0, time] that
@@ -233,7 +243,7 @@ int side_before(const Cubic& cubic, double time) {
 }  // namespace
 
 double touch_tolerance(const MovingNode& node, const MovingFace& face, double reach) {
-  return reported_roundings * unit_roundoff * local_pair(node, face, reach).scale;
+  return promised_roundings * unit_roundoff * local_pair(node, face, reach).scale;
 }
 
 std::optional<VelocityContact> velocity_check(const MovingNode& node, const MovingFace& face, double reach) {
@@ -251,7 +261,7 @@ std::optional<VelocityContact> velocity_check(const MovingNode& node, const Movi
                       reach};
     if (single) triangle.vertices = {pair.vertices[0], pair.vertices[1], pair.vertices[2]};
     const Cubic cubic = coplanarity(triangle);
-    const std::optional<Touch> touch = first_touch(triangle, cubic, contact ? contact->time : 1.0);
+    const std::optional<Touch> touch = first_touch(triangle, contact ? contact->time : 1.0);
     if (!touch || (contact && touch->time >= contact->time)) continue;
     const Vector3d face_area =
         accurate_cross(pair.vertices[2].at(touch->time) - pair.vertices[0].at(touch->time),

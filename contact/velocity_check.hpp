@@ -14,11 +14,13 @@
 ///   1.5e-14 of the distances and displacements involved, relative to the face, wherever the origin is and
 ///   however fast node and face move together.
 ///
-/// How: an interval of time is discarded only by a certificate that holds for rounded arithmetic (a direction
-/// along which all vertices stay beyond the node all the while, or a coplanarity cubic whose Bernstein
-/// coefficients stay off zero by more than their rounding); a contact is accepted only by a point of the face
-/// near enough to the node. Each certificate moves the earliest possible time forward. Coplanar motion,
-/// double roots and slivers are not special.
+/// How: time moves forward for as long as a certificate that holds for rounded arithmetic separates node and
+/// triangle: a direction, turning with the normal of the face or with its edge, along which every vertex
+/// stays beyond the node (conservative advancement, Mirtich 1996, with directions that turn; it converges
+/// like Newton's method on the gap). It ends when no time is left, or at a point of the triangle near enough
+/// to the node. No polynomial is solved for, so coplanar motion, double roots and slivers are not special.
+/// Motion that keeps within 1e-12 or so of a face while it turns may need more than 256 certificates: then
+/// the tolerance doubles for each 256 more, so that the work is bounded.
 ///
 /// Thickness: `reach` is half the thickness of the shell plus the radius of the node. The node meets the
 /// mid-surface grown by `reach` on both sides and rounded at edges and corners, so growth opens no gap at a

@@ -1,0 +1,360 @@
+#include "tests/contact/exact_judge.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brio::exact {
+
+namespace {
+
+using Vector = std::array<Integer, 3>;
+using PolynomialVector = std::array<Polynomial, 3>;
+
+Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Integer dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+PolynomialVector operator-(const PolynomialVector& a, const PolynomialVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Polynomial dot(const PolynomialVector& a, const PolynomialVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// All coordinates as integers: multiples of 2^unit, and four of those for the centroid's sake.
+class Scaled {
+ public:
+  Scaled(const MovingNode& node, const MovingFace& face) {
+    note(node.start);
+    note(node.displacement);
+    for (std::size_t k = 0; k < 4; ++k) {
+      note(face.start[k]);
+      note(face.displacement[k]);
+    }
+    unit_ = std::min(unit_, 0);
+  }
+  void note(double value) {
+    if (value == 0) return;
+    int exponent = 0;
+    std::frexp(value, &exponent);
+    unit_ = std::min(unit_, exponent - 53);
+  }
+  Integer operator()(double value) const {
+    int exponent = 0;
+    const double mantissa = std::frexp(value, &exponent);
+    Integer integer;
+    mpz_set_d(integer.get_mpz_t(), std::ldexp(mantissa, 53));
+    if (integer == 0) return integer;
+    mpz_mul_2exp(integer.get_mpz_t(), integer.get_mpz_t(), static_cast<unsigned>(exponent - 53 - unit_ + 2));
+    return integer;
+  }
+  Vector operator()(const Eigen::Vector3d& v) const { return {(*this)(v[0]), (*this)(v[1]), (*this)(v[2])}; }
+
+ private:
+  void note(const Eigen::Vector3d& v) {
+    for (int k = 0; k < 3; ++k) note(v[k]);
+  }
+  int unit_ = 0;
+};
+
+struct Path {
+  Vector start;
+  Vector displacement;
+};
+
+Path operator-(const Path& a, const Path& b) { return {a.start - b.start, a.displacement - b.displacement}; }
+
+PolynomialVector polynomial(const Path& path) {
+  PolynomialVector result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = Polynomial(path.start[k], path.displacement[k]);
+  return result;
+}
+
+// Times 2^exponent of the time.
+Vector at(const Path& path, const Dyadic& time) {
+  Vector result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    mpz_mul_2exp(result[k].get_mpz_t(), path.start[k].get_mpz_t(), time.exponent);
+    result[k] += path.displacement[k] * time.numerator;
+  }
+  return result;
+}
+
+// The sub-triangles of the face as seen from the node.
+std::vector<std::array<Path, 3>> triangles(const MovingNode& node, const MovingFace& face,
+                                           const Scaled& scaled) {
+  const Path origin{scaled(node.start), scaled(node.displacement)};
+  std::array<Path, 4> vertices;
+  Path centroid{{0, 0, 0}, {0, 0, 0}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    vertices[k] = Path{scaled(face.start[k]), scaled(face.displacement[k])} - origin;
+    for (std::size_t i = 0; i < 3; ++i) {
+      centroid.start[i] += vertices[k].start[i];
+      centroid.displacement[i] += vertices[k].displacement[i];
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {  // divisible: every integer is a multiple of four
+    centroid.start[i] /= 4;
+    centroid.displacement[i] /= 4;
+  }
+  if (face.start[3] == face.start[2] && face.displacement[3] == face.displacement[2])
+    return {{vertices[0], vertices[1], vertices[2]}};
+  return {{centroid, vertices[0], vertices[1]},
+          {centroid, vertices[1], vertices[2]},
+          {centroid, vertices[2], vertices[3]},
+          {centroid, vertices[3], vertices[0]}};
+}
+
+// The polynomials in time by whose signs a touch is decided.
+class Predicates {
+ public:
+  explicit Predicates(const std::array<Path, 3>& triangle)
+      : to_{polynomial(triangle[0]), polynomial(triangle[1]), polynomial(triangle[2])},
+        area_(cross(to_[1] - to_[0], to_[2] - to_[0])),
+        volume_(dot(to_[0], area_)) {}
+
+  const Polynomial& volume() const { return volume_; }
+
+  bool touch(Number& time) const {
+    if (sign_at(volume_, time) != 0) return false;
+    for (const Polynomial& component : area_)
+      if (sign_at(component, time) != 0) return inside(time);
+    return on_a_segment(time);
+  }
+
+  // Polynomials among whose roots, besides 0, is the first touch of a triangle that stays in a plane with the
+  // node: the set of times of touch is closed, and at its first time some predicate vanishes.
+  std::vector<Polynomial> turning_points() const {
+    std::vector<Polynomial> result;
+    for (const Polynomial& component : area_) {
+      if (component.is_zero()) continue;
+      result.push_back(component);
+      for (std::size_t k = 0; k < 3; ++k) result.push_back(dot(area_, off_line(k)));
+      return result;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const Polynomial& component : off_line(k)) result.push_back(component);
+      result.push_back(dot(to_[k], to_[(k + 1) % 3]));
+    }
+    return result;
+  }
+
+ private:
+  PolynomialVector off_line(std::size_t k) const { return cross(to_[k], to_[(k + 1) % 3]); }
+
+  bool inside(Number& time) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (sign_at(dot(area_, off_line(k)), time) < 0) return false;
+    return true;
+  }
+
+  bool on_a_segment(Number& time) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const PolynomialVector off = off_line(k);
+      const bool on_line =
+          std::all_of(off.begin(), off.end(), [&](const Polynomial& p) { return sign_at(p, time) == 0; });
+      if (on_line && sign_at(dot(to_[k], to_[(k + 1) % 3]), time) <= 0) return true;
+    }
+    return false;
+  }
+
+  std::array<PolynomialVector, 3> to_;
+  PolynomialVector area_;
+  Polynomial volume_;
+};
+
+bool earlier(Number a, Number b) {
+  constexpr unsigned enough = 120;  // bits; equal within them is equal here
+  while (!a.dyadic && a.exponent < enough) a.refine();
+  while (!b.dyadic && b.exponent < enough) b.refine();
+  const unsigned exponent = std::max(a.exponent, b.exponent);
+  Integer first, second;
+  mpz_mul_2exp(first.get_mpz_t(), a.high.get_mpz_t(), exponent - a.exponent);
+  mpz_mul_2exp(second.get_mpz_t(), b.high.get_mpz_t(), exponent - b.exponent);
+  return first < second;
+}
+
+void offer(std::optional<Number>& best, const Number& candidate) {
+  if (!best || earlier(candidate, *best)) best = candidate;
+}
+
+std::optional<Number> first_contact(const std::array<Path, 3>& triangle) {
+  const Predicates predicates(triangle);
+  if (!predicates.volume().is_zero()) {
+    for (Number& time : roots(predicates.volume()))
+      if (predicates.touch(time)) return time;
+    return std::nullopt;
+  }
+  Number start = number({0, 0});
+  if (predicates.touch(start)) return start;
+  std::optional<Number> first;
+  for (const Polynomial& p : predicates.turning_points()) {
+    if (p.is_zero()) continue;
+    for (Number& time : roots(p)) {
+      if (!predicates.touch(time)) continue;
+      offer(first, time);
+      break;
+    }
+  }
+  return first;
+}
+
+// A filter with proven bounds, in extended precision (64 bits): true only if the exact volume of node and
+// triangle keeps one sign over the step, or the triangle stays on one side of a coordinate plane through the
+// node. Differences of doubles are formed in extended precision with error 2^-64 relative, so a component of
+// a vertex is wrong by at most 2^-64 x 8 m, m the largest component; a triple product sums 6 terms of 3
+// factors below m x 2 m x 2 m: error below 2^-64 x 6 x 4 m^3 x (3 x 8 + 12); 2^-64 x 2000 m^3 bounds it with
+// the combinations by thirds.
+class ExtendedFilter {
+ public:
+  ExtendedFilter(const MovingNode& node, const MovingFace& face) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      for (int i = 0; i < 3; ++i) {
+        const auto c = static_cast<std::size_t>(i);
+        start_[k][c] = static_cast<long double>(face.start[k][i]) - node.start[i];
+        const long double displacement =
+            static_cast<long double>(face.displacement[k][i]) - node.displacement[i];
+        end_[k][c] = start_[k][c] + displacement;
+        largest_ = std::max(largest_, std::abs(start_[k][c]) + std::abs(displacement));
+      }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      start_[4][c] = (start_[0][c] + start_[1][c] + start_[2][c] + start_[3][c]) / 4;
+      end_[4][c] = (end_[0][c] + end_[1][c] + end_[2][c] + end_[3][c]) / 4;
+    }
+  }
+
+  bool apart(const std::array<std::size_t, 3>& corners) const {
+    const long double margin = 0x1p-60L * largest_;
+    for (std::size_t c = 0; c < 3; ++c) {
+      int above = 0;
+      int below = 0;
+      for (const std::size_t k : corners) {
+        above += start_[k][c] > margin && end_[k][c] > margin;
+        below += start_[k][c] < -margin && end_[k][c] < -margin;
+      }
+      if (above == 3 || below == 3) return true;
+    }
+    const auto [a, b, c] = corners;
+    const V &a0 = start_[a], &b0 = start_[b], &c0 = start_[c], &a1 = end_[a], &b1 = end_[b], &c1 = end_[c];
+    const long double v[4] = {
+        volume(a0, b0, c0), volume(a1, b0, c0) + volume(a0, b1, c0) + volume(a0, b0, c1),
+        volume(a1, b1, c0) + volume(a1, b0, c1) + volume(a0, b1, c1), volume(a1, b1, c1)};
+    const long double error = 2000 * 0x1p-64L * largest_ * largest_ * largest_;
+    return (v[0] > error && v[1] > error && v[2] > error && v[3] > error) ||
+           (v[0] < -error && v[1] < -error && v[2] < -error && v[3] < -error);
+  }
+
+ private:
+  using V = std::array<long double, 3>;
+  static long double volume(const V& a, const V& b, const V& c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  std::array<V, 5> start_, end_;
+  long double largest_ = 0;
+};
+
+bool triangle_within(const std::array<Path, 3>& triangle, const Dyadic& time,
+                     const Integer& distance_squared) {
+  const std::array<Vector, 3> to = {at(triangle[0], time), at(triangle[1], time), at(triangle[2], time)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (dot(to[k], to[k]) <= distance_squared) return true;
+    const Vector& next = to[(k + 1) % 3];
+    const Vector edge = next - to[k];
+    if (dot(to[k], edge) > 0 || dot(next, edge) < 0) continue;
+    const Vector moment = cross(to[k], edge);
+    if (dot(moment, moment) <= distance_squared * dot(edge, edge)) return true;
+  }
+  const Vector area = cross(to[1] - to[0], to[2] - to[0]);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (dot(area, cross(to[k], to[(k + 1) % 3])) < 0) return false;
+  const Integer area_squared = dot(area, area);
+  const Integer volume = dot(area, to[0]);
+  return area_squared > 0 && volume * volume <= distance_squared * area_squared;
+}
+
+Integer square_of_scaled_distance(const Scaled& scaled, double distance, const Dyadic& time) {
+  Integer length = scaled(distance);
+  mpz_mul_2exp(length.get_mpz_t(), length.get_mpz_t(), time.exponent);
+  return length * length;
+}
+
+}  // namespace
+
+Dyadic dyadic(double value) {
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  Dyadic result;
+  mpz_set_d(result.numerator.get_mpz_t(), std::ldexp(mantissa, 53));
+  result.exponent = 0;
+  if (result.numerator == 0) return result;
+  const auto zeros = static_cast<int>(mpz_scan1(result.numerator.get_mpz_t(), 0));
+  mpz_fdiv_q_2exp(result.numerator.get_mpz_t(), result.numerator.get_mpz_t(), static_cast<unsigned>(zeros));
+  const int power = exponent - 53 + zeros;
+  if (power > 0)
+    mpz_mul_2exp(result.numerator.get_mpz_t(), result.numerator.get_mpz_t(), static_cast<unsigned>(power));
+  if (power < 0) result.exponent = static_cast<unsigned>(-power);
+  return result;
+}
+
+std::optional<Number> first_contact(const MovingNode& node, const MovingFace& face) {
+  const bool single = face.start[3] == face.start[2] && face.displacement[3] == face.displacement[2];
+  const ExtendedFilter filter(node, face);
+  std::vector<std::array<Path, 3>> parts;
+  std::optional<Number> first;
+  for (std::size_t k = 0; k < (single ? 1U : 4U); ++k) {
+    if (filter.apart(single ? std::array<std::size_t, 3>{0, 1, 2}
+                            : std::array<std::size_t, 3>{4, k, (k + 1) % 4}))
+      continue;
+    if (parts.empty()) parts = triangles(node, face, Scaled(node, face));
+    const std::optional<Number> here = first_contact(parts[k]);
+    if (here) offer(first, *here);
+  }
+  return first;
+}
+
+bool within(const MovingNode& node, const MovingFace& face, double time, double distance) {
+  Scaled scaled(node, face);
+  scaled.note(distance);
+  const Dyadic moment = dyadic(time);
+  const Integer limit = square_of_scaled_distance(scaled, distance, moment);
+  const auto parts = triangles(node, face, scaled);
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const std::array<Path, 3>& part) { return triangle_within(part, moment, limit); });
+}
+
+bool point_within(const MovingNode& node, const MovingFace& face, const std::array<double, 4>& weights,
+                  double time, double distance) {
+  Scaled scaled(node, face);
+  scaled.note(distance);
+  const Dyadic moment = dyadic(time);
+  const Path origin{scaled(node.start), scaled(node.displacement)};
+  Vector sum{0, 0, 0};  // times 2^1074, which makes every weight an integer
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Vector to = at(Path{scaled(face.start[k]), scaled(face.displacement[k])} - origin, moment);
+    const Dyadic weight = dyadic(weights[k]);
+    Integer scaled_weight;
+    mpz_mul_2exp(scaled_weight.get_mpz_t(), weight.numerator.get_mpz_t(), 1074 - weight.exponent);
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += scaled_weight * to[i];
+  }
+  Integer limit = square_of_scaled_distance(scaled, distance, moment);
+  mpz_mul_2exp(limit.get_mpz_t(), limit.get_mpz_t(), 2 * 1074);
+  return dot(sum, sum) <= limit;
+}
+
+int side_at(const MovingNode& node, const MovingFace& face, int sub_triangle, double time) {
+  const auto parts = triangles(node, face, Scaled(node, face));
+  const Dyadic moment = dyadic(time);
+  const std::array<Path, 3>& part = parts[static_cast<std::size_t>(sub_triangle)];
+  const Vector to = at(part[0], moment);
+  const Vector area = cross(at(part[1], moment) - to, at(part[2], moment) - to);
+  return -sgn(dot(to, area));
+}
+
+}  // namespace brio::exact

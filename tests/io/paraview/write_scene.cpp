@@ -1,0 +1,57 @@
+/// Writes the small scene of the result tests and, beside it, what a reader must find in it, as JSON.
+/// Usage: write_scene FOLDER
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "io/write_results.hpp"
+#include "tests/io/result_scene.hpp"
+
+namespace {
+
+nlohmann::json expected_fields(const std::vector<brio::FieldArray>& fields) {
+  nlohmann::json result = nlohmann::json::object();
+  for (const brio::FieldArray& field : fields) {
+    result[field.name] = {{"components", field.components}, {"values", field.values}};
+  }
+  return result;
+}
+
+nlohmann::json expected_dump(const brio::Snapshot& snapshot) {
+  return {{"time", snapshot.time},
+          {"points", snapshot.points},
+          {"types", snapshot.topology.cell_type},
+          {"connectivity", snapshot.topology.connectivity},
+          {"offset", snapshot.topology.offset},
+          {"point_fields", expected_fields(snapshot.point_fields)},
+          {"cell_fields", expected_fields(snapshot.cell_fields)},
+          {"global_fields", expected_fields(snapshot.global_fields)}};
+}
+
+void write_scene(const std::filesystem::path& folder) {
+  brio::ResultWriter writer(folder, "scene", {}, {"time"});
+  nlohmann::json dumps = nlohmann::json::array();
+  const std::vector<int> deleted_cells{0, 0, 1, 1, 3, 3, 7};
+  for (std::size_t dump = 0; dump < deleted_cells.size(); ++dump) {
+    const brio::Snapshot snapshot = brio::test::mixed_snapshot(static_cast<int>(dump), deleted_cells[dump]);
+    writer.write(snapshot);
+    dumps.push_back(expected_dump(snapshot));
+  }
+  std::ofstream(folder / "expected.json") << dumps;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  try {
+    write_scene(argv[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -101,22 +101,26 @@ int rank(const Piece& piece) {
   return is_node ? 256 - piece.bytes[level_at] : 257;
 }
 
+/// Each write of these leaves a file that reads as before.
+void apply_waiting(TransactionFile& file) {
+  std::sort(file.waiting.begin(), file.waiting.end(), [](const Piece& a, const Piece& b) {
+    return rank(a) != rank(b) ? rank(a) < rank(b) : a.address < b.address;
+  });
+  file.committed = file.end_of_file;  // once the superblock knows the new length, the file must keep it
+  for (const Piece& piece : file.waiting) {
+    if (!write_all(file, piece.address, piece.bytes.data(), piece.bytes.size())) return;
+  }
+  file.waiting.clear();
+  if (file.end_of_file > file.end_of_allocation) set_length(file, file.end_of_allocation);
+  file.committed = file.end_of_file;
+}
+
 void commit(TransactionFile& file) {
   if (file.lost()) return;
   const bool locked =
       flock(file.descriptor, LOCK_EX | LOCK_NB) == 0;  // a reader that is there already may stay
-  if (file.end_of_file < file.end_of_allocation && !set_length(file, file.end_of_allocation)) return;
-  std::sort(file.waiting.begin(), file.waiting.end(), [](const Piece& a, const Piece& b) {
-    return rank(a) != rank(b) ? rank(a) < rank(b) : a.address < b.address;
-  });
-  for (const Piece& piece : file.waiting) {
-    if (!write_all(file, piece.address, piece.bytes.data(), piece.bytes.size())) break;
-  }
-  if (file.error == 0) {
-    file.waiting.clear();
-    if (file.end_of_file > file.end_of_allocation) set_length(file, file.end_of_allocation);
-    file.committed = file.end_of_file;
-  }
+  if (file.end_of_file < file.end_of_allocation) set_length(file, file.end_of_allocation);
+  if (file.error == 0) apply_waiting(file);
   if (locked) flock(file.descriptor, LOCK_UN);
 }
 

@@ -1,0 +1,19 @@
+#pragma once
+/// Faults of the file system, called up at will: the test program's own pwrite, write, ftruncate and rename
+/// stand before those of the C library.
+
+namespace brio::test {
+
+enum class Fault {
+  none,
+  kill,      ///< the process dies in place of the operation
+  no_space,  ///< this and every later write finds the disk full
+};
+
+/// The fault strikes at operation number `at`, counted from 0 as of now.
+void plan_fault(Fault fault, int at);
+
+/// Operations since the last plan.
+int operations_since_plan();
+
+}  // namespace brio::test

@@ -77,7 +77,8 @@ BRIO_INLINE Lanes<Real> narrow(const Row8* wide) {
     typedef float Half __attribute__((vector_size(32)));
     const Half low = __builtin_convertvector(wide[0], Half);
     const Half high = __builtin_convertvector(wide[1], Half);
-    return Lanes<Real>(__builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+    return Lanes<Real>(
+        __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
   }
 }
 template <Floating Real>
@@ -93,10 +94,10 @@ BRIO_INLINE void widen(Lanes<Real> lanes, Row8* wide) {
   }
 }
 
-/// Subtract three components from the rows of the first `count` lanes.
-template <Floating Real>
-BRIO_INLINE void subtract_from_rows(NodeVector* first, const int* node, int count, Lanes<Real> x, Lanes<Real> y,
-                                    Lanes<Real> z) {
+/// Subtract three components from the rows of the first `count` lanes; \param is_full all lanes count.
+template <Floating Real, bool is_full>
+BRIO_INLINE void subtract_from_rows(NodeVector* first, const int* node, int count, Lanes<Real> x,
+                                    Lanes<Real> y, Lanes<Real> z) {
   WideVector<Real> wide;
   widen(x, wide.x);
   widen(y, wide.y);
@@ -104,8 +105,8 @@ BRIO_INLINE void subtract_from_rows(NodeVector* first, const int* node, int coun
   for (int group = 0; group < WideVector<Real>::groups; ++group) {
     Row4 rows[8];
     transpose_lanes(wide.x[group], wide.y[group], wide.z[group], rows);
-    const int last = count - 8 * group < 8 ? count - 8 * group : 8;
-    for (int lane = 0; lane < last; ++lane) {
+    for (int lane = 0; lane < 8; ++lane) {
+      if (!is_full && 8 * group + lane >= count) break;
       double* row = first[node[8 * group + lane]].component;
       store_row(row, load_row(row) - rows[lane]);
     }

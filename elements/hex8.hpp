@@ -11,6 +11,9 @@
 
 namespace brio {
 
+/// Above this, hourglass modes would compete with the uniform strains for the stable step.
+inline constexpr Range hourglass_stiffness_range{.lower = 0, .upper = 0.15};
+
 struct Hex8 {
   static constexpr std::string_view name = "hex8";
   static constexpr int nodes = 8;
@@ -27,8 +30,8 @@ struct Hex8 {
   static constexpr auto fields() {
     return std::tuple{
         optional("objective_rate", &Hex8::objective_rate, any_number, "how stress follows rotation"),
-        optional("hourglass_stiffness", &Hex8::hourglass_stiffness, fraction,
-                 "elastic hourglass control, share of the bending stiffness modulus, -"),
+        optional("hourglass_stiffness", &Hex8::hourglass_stiffness, hourglass_stiffness_range,
+                 "elastic hourglass control, share of the modulus of bending, -"),
         optional("hourglass_viscosity", &Hex8::hourglass_viscosity, fraction,
                  "viscous hourglass control, share of critical damping, -"),
         optional("linear_bulk_viscosity", &Hex8::linear_bulk_viscosity, non_negative,

@@ -6,6 +6,7 @@
 /// gradient.
 
 #include "elements/mean_gradient.hpp"
+#include "elements/motion.hpp"
 
 namespace brio {
 
@@ -15,55 +16,107 @@ struct HourglassVectors {
   Vector3<T> mode[hourglass_modes];
 };
 
-/// gamma . v for each mode; \param l mean gradient of v on the configuration of x.
+/// scale gamma . v for each mode. \param l `scale` times the mean gradient of v on the configuration of x.
 template <class T>
-BRIO_INLINE HourglassVectors<T> hourglass_rates(const HexahedronModes<T>& x, const HexahedronModes<T>& v,
-                                                const Tensor<T>& l) {
-  HourglassVectors<T> rate;
+BRIO_INLINE HourglassVectors<T> hourglass_motion(const HexahedronModes<T>& x, const HexahedronModes<T>& v,
+                                                 T scale, const Tensor<T>& l) {
+  HourglassVectors<T> motion;
   for (int a = 0; a < hourglass_modes; ++a) {
     const Vector3<T>& xa = x.hourglass(a);
     const Vector3<T>& va = v.hourglass(a);
-    rate.mode[a] = {va.x - (l.m[0][0] * xa.x + l.m[0][1] * xa.y + l.m[0][2] * xa.z),
-                    va.y - (l.m[1][0] * xa.x + l.m[1][1] * xa.y + l.m[1][2] * xa.z),
-                    va.z - (l.m[2][0] * xa.x + l.m[2][1] * xa.y + l.m[2][2] * xa.z)};
+    motion.mode[a] = {scale * va.x - (l.m[0][0] * xa.x + l.m[0][1] * xa.y + l.m[0][2] * xa.z),
+                      scale * va.y - (l.m[1][0] * xa.x + l.m[1][1] * xa.y + l.m[1][2] * xa.z),
+                      scale * va.z - (l.m[2][0] * xa.x + l.m[2][1] * xa.y + l.m[2][2] * xa.z)};
   }
-  return rate;
+  return motion;
 }
 
-/// How the patterns and the mean gradient of a distorted brick overlap. All are zero for a parallelepiped.
+/// p = sum_a x_a . G x_a, dimensionless: what is subtracted from the base vectors to form gamma. It measures
+/// distortion and is zero for a parallelepiped.
 template <class T>
-struct HourglassOverlap {
-  T projection;  ///< sum_a x_a . G x_a, dimensionless: what is subtracted from Gamma to form gamma
-  T coupling;    ///< sum_a |B . gamma_a|^2, 1/length^2
-};
-template <class T>
-BRIO_INLINE HourglassOverlap<T> hourglass_overlap(const HexahedronModes<T>& x, const MeanGradient<T>& b,
-                                                  const SymmetricTensor<T>& g, T scaled_inverse_volume) {
-  HourglassOverlap<T> overlap{T(0.0), T(0.0)};
+BRIO_INLINE T hourglass_distortion(const HexahedronModes<T>& x, const SymmetricTensor<T>& g) {
+  SymmetricTensor<T> c = isotropic(T(0.0));
   for (int a = 0; a < hourglass_modes; ++a) {
     const Vector3<T>& xa = x.hourglass(a);
-    const Vector3<T> gx{g.xx * xa.x + g.xy * xa.y + g.xz * xa.z, g.xy * xa.x + g.yy * xa.y + g.yz * xa.z,
-                        g.xz * xa.x + g.yz * xa.y + g.zz * xa.z};
-    overlap.projection += dot(xa, gx);
-    if (linear_modes + a < gradient_modes) {
-      const Vector3<T> s = (8.0 * scaled_inverse_volume) * b.beta[linear_modes + a] - gx;
-      overlap.coupling += dot(s, s);
-    } else {
-      overlap.coupling += dot(gx, gx);
-    }
+    c.xx += xa.x * xa.x;
+    c.yy += xa.y * xa.y;
+    c.zz += xa.z * xa.z;
+    c.xy += xa.x * xa.y;
+    c.yz += xa.y * xa.z;
+    c.xz += xa.x * xa.z;
   }
-  return overlap;
+  return contract(c, g);
 }
 
-/// Force per hourglass displacement, force/length. For a parallelepiped the hourglass frequency squared is
-/// then `coefficient` times that of a one-dimensional wave bound with the modulus of plane-strain bending, 4
-/// mu (lambda + mu) / (lambda + 2 mu), which stays finite for incompressible materials; distorted bricks get
-/// less, so that |gamma| does not raise it.
+/// |gamma|^2 of any mode is at most (|Gamma| + sqrt(p))^2 <= 2 (8 + p).
 template <class T>
-BRIO_INLINE T hourglass_stiffness(double coefficient, T first_lame, T shear, T volume, T trace_g,
-                                  T projection) {
-  const T bending_modulus = 4.0 * shear * (first_lame + shear) / (first_lame + 2.0 * shear);
-  return coefficient * bending_modulus * volume * trace_g / (8.0 + projection);
+BRIO_INLINE T largest_gamma(T distortion) {
+  return 2.0 * (8.0 + distortion);
+}
+
+/// Share of the distortion by which hourglass stiffness may raise the frequencies of uniform strains. For p
+/// >= 8 a factor of 4 is enough because (sqrt(8) + sqrt(p))^2 <= 4 p; below, the two stiffnesses overlap in
+/// proportion to p, and the factor is held against assembled stiffness matrices in the tests.
+inline constexpr double hourglass_overlap = 6;
+
+/// Force per hourglass displacement, force/length. For a parallelepiped the hourglass frequency squared is
+/// then `coefficient` times 8 V / m tr G times the modulus of plane-strain bending, 4 mu (lambda + mu) /
+/// (lambda + 2 mu), which stays finite for incompressible materials; distorted bricks get less, so that
+/// |gamma| does not raise it.
+template <class T>
+BRIO_INLINE T hourglass_stiffness(double coefficient, const ElasticModuli<T>& moduli, T volume, T trace_g,
+                                  T distortion) {
+  const T bending_modulus =
+      4.0 * moduli.shear * (moduli.first_lame + moduli.shear) / (moduli.first_lame + 2.0 * moduli.shear);
+  return coefficient * bending_modulus * volume * trace_g / (8.0 + distortion);
+}
+
+/// Elastic forces of one step. \param q in: half of the step's hourglass displacement; out: the forces.
+/// \return their work.
+template <class T>
+BRIO_INLINE T stretch_hourglass(HourglassVectors<T>& force, T stiffness, HourglassVectors<T>& q) {
+  T work(0.0);
+  const T twice_stiffness = 2.0 * stiffness;
+  for (int a = 0; a < hourglass_modes; ++a) {
+    const Vector3<T> change = twice_stiffness * q.mode[a];
+    const Vector3<T> old_force = force.mode[a];
+    force.mode[a] = old_force + change;
+    work += dot(old_force + force.mode[a], q.mode[a]);
+    q.mode[a] = force.mode[a];
+  }
+  return work;
+}
+
+/// Viscous forces, added to `q`. \return their power.
+template <class T>
+BRIO_INLINE T resist_hourglass(const HourglassVectors<T>& rate, T resistance, HourglassVectors<T>& q) {
+  T squared(0.0);
+  for (int a = 0; a < hourglass_modes; ++a) {
+    squared += dot(rate.mode[a], rate.mode[a]);
+    q.mode[a] = q.mode[a] + resistance * rate.mode[a];
+  }
+  return resistance * squared;
+}
+
+/// Corner forces of a stress on the mean gradient and of generalized hourglass forces.
+template <class T>
+BRIO_INLINE void nodal_forces(const HexahedronModes<T>& x, const MeanGradient<T>& b,
+                              const SymmetricTensor<T>& stress, const HourglassVectors<T>& q,
+                              T scaled_inverse_volume, NodalForces<T, 8>& forces) {
+  const SymmetricTensor<T> t = T(gradient_scale) * stress;
+  const Vector3<T> rows[3] = {{t.xx, t.xy, t.xz}, {t.xy, t.yy, t.yz}, {t.xz, t.yz, t.zz}};
+  const auto component = [](const Vector3<T>& a, int i) { return i == 0 ? a.x : i == 1 ? a.y : a.z; };
+  for (int i = 0; i < 3; ++i) {
+    Vector3<T> drag = component(q.mode[0], i) * x.hourglass(0);
+    for (int a = 1; a < hourglass_modes; ++a) drag = drag + component(q.mode[a], i) * x.hourglass(a);
+    const Vector3<T> row = rows[i] - scaled_inverse_volume * drag;
+    T s[hexahedron_modes];
+    for (int m = 0; m < linear_modes; ++m) s[m] = dot(row, b.beta[m]);
+    for (int m = linear_modes; m < gradient_modes; ++m)
+      s[m] = component(q.mode[m - linear_modes], i) + dot(row, b.beta[m]);
+    s[hexahedron_modes - 1] = component(q.mode[hourglass_modes - 1], i);
+    corner_values(s, forces.force[i]);
+  }
 }
 
 }  // namespace brio

@@ -31,18 +31,21 @@ struct HexahedronModes {
   BRIO_INLINE const Vector3<T>& hourglass(int alpha) const { return sum[linear_modes + alpha]; }
 };
 
+/// Differences are formed first, so that nothing is lost far from the origin.
 /// \param f values at the eight corners; \param s sums against the seven patterns.
 template <class T>
 BRIO_INLINE void pattern_sums(const T f[8], T s[hexahedron_modes]) {
-  const T a01 = f[1] + f[0], d01 = f[1] - f[0], a23 = f[2] + f[3], d23 = f[2] - f[3];
-  const T a45 = f[5] + f[4], d45 = f[5] - f[4], a67 = f[6] + f[7], d67 = f[6] - f[7];
-  const T low = a01 + a23, low_eta = a23 - a01, low_xi = d01 + d23, low_xi_eta = d23 - d01;
-  const T high = a45 + a67, high_eta = a67 - a45, high_xi = d45 + d67, high_xi_eta = d67 - d45;
+  const T low_01 = f[1] - f[0], low_32 = f[2] - f[3], low_03 = f[3] - f[0];
+  const T high_45 = f[5] - f[4], high_76 = f[6] - f[7], high_47 = f[7] - f[4];
+  const T low_xi = low_32 + low_01, low_xi_eta = low_32 - low_01;
+  const T high_xi = high_76 + high_45, high_xi_eta = high_76 - high_45;
+  const T low_eta = 2.0 * low_03 + low_xi_eta;
+  const T high_eta = 2.0 * high_47 + high_xi_eta;
   s[0] = high_xi + low_xi;
   s[1] = high_eta + low_eta;
-  s[2] = high - low;
-  s[3] = high_eta - low_eta;
   s[4] = high_xi - low_xi;
+  s[2] = 4.0 * (f[4] - f[0]) + (s[4] + 2.0 * (high_47 - low_03));
+  s[3] = high_eta - low_eta;
   s[5] = high_xi_eta + low_xi_eta;
   s[6] = high_xi_eta - low_xi_eta;
 }
@@ -106,11 +109,9 @@ BRIO_INLINE MeanGradient<T> mean_gradient(const HexahedronModes<T>& x) {
   return gradient;
 }
 
-/// sum_I f_I (x) B_I: the mean gradient of a nodal vector field, L_ij = df_i/dx_j.
-/// \param scaled_inverse_volume gradient_scale / volume.
+/// 64 V sum_I f_I (x) B_I: the mean gradient df_i/dx_j of a nodal vector field, times 64 V.
 template <class T>
-BRIO_INLINE Tensor<T> gradient_of(const HexahedronModes<T>& f, const MeanGradient<T>& b,
-                                  T scaled_inverse_volume) {
+BRIO_INLINE Tensor<T> scaled_gradient_of(const HexahedronModes<T>& f, const MeanGradient<T>& b) {
   Vector3<T> row[3];
   row[0] = f.sum[0].x * b.beta[0];
   row[1] = f.sum[0].y * b.beta[0];
@@ -120,13 +121,7 @@ BRIO_INLINE Tensor<T> gradient_of(const HexahedronModes<T>& f, const MeanGradien
     row[1] = row[1] + f.sum[m].y * b.beta[m];
     row[2] = row[2] + f.sum[m].z * b.beta[m];
   }
-  Tensor<T> l;
-  for (int i = 0; i < 3; ++i) {
-    l.m[i][0] = scaled_inverse_volume * row[i].x;
-    l.m[i][1] = scaled_inverse_volume * row[i].y;
-    l.m[i][2] = scaled_inverse_volume * row[i].z;
-  }
-  return l;
+  return {{{row[0].x, row[0].y, row[0].z}, {row[1].x, row[1].y, row[1].z}, {row[2].x, row[2].y, row[2].z}}};
 }
 
 /// G_ij = sum_I B_iI B_jI, 1/length^2.

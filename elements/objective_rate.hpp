@@ -27,23 +27,21 @@ constexpr std::array<NamedValue<ObjectiveRate>, 2> named_values(ObjectiveRate) {
 /// is not, `determinant` says so and the result has no meaning.
 template <class T>
 BRIO_INLINE Tensor<T> centered(const Tensor<T>& a, T& determinant) {
-  const Tensor<T> square_of_a = a * a;
-  const T first = a.m[0][0] + a.m[1][1] + a.m[2][2];
-  const T second = 0.5 * (first * first - (square_of_a.m[0][0] + square_of_a.m[1][1] + square_of_a.m[2][2]));
-  const T third = a.m[0][0] * (a.m[1][1] * a.m[2][2] - a.m[1][2] * a.m[2][1]) -
-                  a.m[0][1] * (a.m[1][0] * a.m[2][2] - a.m[1][2] * a.m[2][0]) +
-                  a.m[0][2] * (a.m[1][0] * a.m[2][1] - a.m[1][1] * a.m[2][0]);
-  const T rest = 1.0 - first;
-  determinant = rest + (second - third);
+  // a (I - a)^-1 = (a + adj(a) + (det a - second invariant) I) / det(I - a)
+  const auto& m = a.m;
+  const T c00 = m[1][1] * m[2][2] - m[1][2] * m[2][1];
+  const T c11 = m[0][0] * m[2][2] - m[0][2] * m[2][0];
+  const T c22 = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+  const T c01 = m[0][2] * m[2][1] - m[0][1] * m[2][2], c02 = m[0][1] * m[1][2] - m[0][2] * m[1][1];
+  const T c10 = m[1][2] * m[2][0] - m[1][0] * m[2][2], c12 = m[1][0] * m[0][2] - m[0][0] * m[1][2];
+  const T c20 = m[1][0] * m[2][1] - m[1][1] * m[2][0], c21 = m[2][0] * m[0][1] - m[0][0] * m[2][1];
+  const T third = m[0][0] * c00 + m[0][1] * c10 + m[0][2] * c20;
+  const T rest = third - (c00 + c11 + c22);
+  determinant = 1.0 - ((m[0][0] + m[1][1] + m[2][2]) + rest);
   const T inverse = 1.0 / where(determinant > T(0.0), determinant, T(1.0));
-  Tensor<T> n;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      n.m[i][j] = rest * a.m[i][j] + square_of_a.m[i][j];
-      if (i == j) n.m[i][j] += third;
-      n.m[i][j] *= inverse;
-    }
-  return n;
+  return {{{inverse * (m[0][0] + c00 + rest), inverse * (m[0][1] + c01), inverse * (m[0][2] + c02)},
+           {inverse * (m[1][0] + c10), inverse * (m[1][1] + c11 + rest), inverse * (m[1][2] + c12)},
+           {inverse * (m[2][0] + c20), inverse * (m[2][1] + c21), inverse * (m[2][2] + c22 + rest)}}};
 }
 
 /// w with skew(n) x = w cross x.

@@ -2,20 +2,20 @@
 /// The one loop over elements. An element kind provides
 ///
 ///     static constexpr std::string_view name;
-///     using Settings = ...;                                  // if the deck's struct is another: Kind is made from it
-///     static constexpr int nodes;  static constexpr bool rotations;
-///     template <class Law> static constexpr bool accepts;
-///     int points() const;                                    // material points an element
-///     template <class T, class Law> struct Header;           // per element, T is the number of the lanes
-///     template <class T, class Law> struct Point;            // per material point
+///     using Settings = ...;                                  // if the deck's struct is another: Kind is
+///     made from it static constexpr int nodes;  static constexpr bool rotations; template <class Law> static
+///     constexpr bool accepts; static constexpr bool uses_differences = true;         // if absolute
+///     positions do as well as relative ones int points() const;                                    //
+///     material points an element template <class T, class Law> struct Header;           // per element, T is
+///     the number of the lanes template <class T, class Law> struct Point;            // per material point
 ///     NodalMass<T> initialize(const MotionOf<E, T>&, const Law&, Header<T, Law>&, Point<T, Law>*) const;
 ///     Increment<T> force(const MotionOf<E, T>&, T step, const Law&, Header<T, Law>&, Point<T, Law>*,
 ///                        ForcesOf<E, T>&) const;
 ///     ElementSample sample(const MotionOf<E, double>&, const Law&, const Header<double, Law>&,
 ///                          const Point<double, Law>*) const;
 ///
-/// and one .cpp with `choose_kernel` for it. Header and Point hold nothing but numbers `T`, so that a pack is an array
-/// [component][lane] and one lane of it can be read back as plain doubles.
+/// and one .cpp with `choose_kernel` for it. Header and Point hold nothing but numbers `T`, so that a pack is
+/// an array [component][lane] and one lane of it can be read back as plain doubles.
 
 #include <cmath>
 #include <cstring>
@@ -56,6 +56,11 @@ struct PackLayout {
   }
 };
 
+/// Positions are made relative to the first node, in double, unless the kernel forms differences itself and
+/// nothing is rounded before it does.
+template <class Kind, Floating Real>
+inline constexpr bool makes_relative = !(sizeof(Real) == 8 && requires { requires Kind::uses_differences; });
+
 template <class Kind, Floating Real>
 BRIO_INLINE MotionOf<Kind, Lanes<Real>> gather_motion(const Nodes& nodes, const int* connectivity) {
   constexpr int width = lane_count<Real>;
@@ -73,13 +78,15 @@ BRIO_INLINE MotionOf<Kind, Lanes<Real>> gather_motion(const Nodes& nodes, const 
       first_position = x;
       first_velocity = v;
     }
-    for (int group = 0; group < WideVector<Real>::groups; ++group) {
-      x.x[group] -= first_position.x[group];
-      x.y[group] -= first_position.y[group];
-      x.z[group] -= first_position.z[group];
-      v.x[group] -= first_velocity.x[group];
-      v.y[group] -= first_velocity.y[group];
-      v.z[group] -= first_velocity.z[group];
+    if constexpr (makes_relative<Kind, Real>) {
+      for (int group = 0; group < WideVector<Real>::groups; ++group) {
+        x.x[group] -= first_position.x[group];
+        x.y[group] -= first_position.y[group];
+        x.z[group] -= first_position.z[group];
+        v.x[group] -= first_velocity.x[group];
+        v.y[group] -= first_velocity.y[group];
+        v.z[group] -= first_velocity.z[group];
+      }
     }
     motion.position[0][corner] = narrow<Real>(x.x);
     motion.position[1][corner] = narrow<Real>(x.y);
@@ -88,14 +95,28 @@ BRIO_INLINE MotionOf<Kind, Lanes<Real>> gather_motion(const Nodes& nodes, const 
     motion.velocity[1][corner] = narrow<Real>(v.y);
     motion.velocity[2][corner] = narrow<Real>(v.z);
     if constexpr (Kind::rotations) {
-      const WideVector<Real> w =
-          gather_rows<Real>(nodes.angular_velocity.data()->component, sizeof(NodeVector) / sizeof(double), node);
+      const WideVector<Real> w = gather_rows<Real>(nodes.angular_velocity.data()->component,
+                                                   sizeof(NodeVector) / sizeof(double), node);
       motion.angular_velocity[0][corner] = narrow<Real>(w.x);
       motion.angular_velocity[1][corner] = narrow<Real>(w.y);
       motion.angular_velocity[2][corner] = narrow<Real>(w.z);
     }
   }
   return motion;
+}
+
+template <class Kind, Floating Real, bool is_full>
+BRIO_INLINE void scatter(Nodes& nodes, const int* connectivity, int count,
+                         const ForcesOf<Kind, Lanes<Real>>& forces) {
+#pragma GCC unroll 8
+  for (int corner = 0; corner < Kind::nodes; ++corner) {
+    const int* node = connectivity + corner * lane_count<Real>;
+    subtract_from_rows<Real, is_full>(nodes.force.data(), node, count, forces.force[0][corner],
+                                      forces.force[1][corner], forces.force[2][corner]);
+    if constexpr (Kind::rotations)
+      subtract_from_rows<Real, is_full>(nodes.moment.data(), node, count, forces.moment[0][corner],
+                                        forces.moment[1][corner], forces.moment[2][corner]);
+  }
 }
 
 /// Sum in double, lane by lane, over the packs of a chunk.
@@ -130,20 +151,17 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   SweepResult result;
   result.stable_step = HUGE_VAL;
   for (std::size_t pack = chunk.first_pack; pack < chunk.last_pack; ++pack) {
-    const int* connectivity = block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
+    const int* connectivity =
+        block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
     const int count = static_cast<int>(std::min<std::size_t>(width, block.element_count - pack * width));
     const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
     ForcesOf<Kind, T> forces;
     const Increment<T> increment =
         kind.force(motion, T(step), law, Layout::header(block, pack), Layout::points(block, pack), forces);
-#pragma GCC unroll 8
-    for (int corner = 0; corner < Kind::nodes; ++corner) {
-      const int* node = connectivity + corner * width;
-      subtract_from_rows<Real>(nodes.force.data(), node, count, forces.force[0][corner], forces.force[1][corner],
-                               forces.force[2][corner]);
-      if constexpr (Kind::rotations)
-        subtract_from_rows<Real>(nodes.moment.data(), node, count, forces.moment[0][corner],
-                                 forces.moment[1][corner], forces.moment[2][corner]);
+    if (count == width) {
+      scatter<Kind, Real, true>(nodes, connectivity, count, forces);
+    } else {
+      scatter<Kind, Real, false>(nodes, connectivity, count, forces);
     }
     internal_energy.add(increment.internal_energy, count);
     hourglass_energy.add(increment.hourglass_energy, count);
@@ -172,12 +190,16 @@ void initialize_block(Block& block, Nodes& nodes) {
   const Kind kind = kernel_of<Kind>(block.element);
   const Law& law = std::get<Law>(block.material);
   for (std::size_t pack = 0; pack < block.pack_count; ++pack) {
-    const int* connectivity = block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
+    const int* connectivity =
+        block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
     const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
-    const NodalMass<T> share = kind.initialize(motion, law, Layout::header(block, pack), Layout::points(block, pack));
-    for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count; ++lane) {
+    const NodalMass<T> share =
+        kind.initialize(motion, law, Layout::header(block, pack), Layout::points(block, pack));
+    for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count;
+         ++lane) {
       if (!(share.mass[lane] > 0))
-        throw std::invalid_argument("element " + std::to_string(pack * width + static_cast<std::size_t>(lane)) +
+        throw std::invalid_argument("element " +
+                                    std::to_string(pack * width + static_cast<std::size_t>(lane)) +
                                     " of part '" + block.part + "' has no positive volume");
       for (int corner = 0; corner < Kind::nodes; ++corner) {
         const auto node = static_cast<std::size_t>(connectivity[corner * width + lane]);
@@ -195,7 +217,8 @@ void copy_lane(const std::byte* pack, int lane, Scalar* out) {
   static_assert(std::is_trivially_copyable_v<Scalar>);
   for (std::size_t component = 0; component < sizeof(Scalar) / sizeof(double); ++component) {
     Real value;
-    std::memcpy(&value, pack + (component * lane_count<Real> + static_cast<std::size_t>(lane)) * sizeof(Real), sizeof value);
+    std::memcpy(&value, pack + (component * lane_count<Real> + static_cast<std::size_t>(lane)) * sizeof(Real),
+                sizeof value);
     const auto widened = static_cast<double>(value);
     std::memcpy(reinterpret_cast<std::byte*>(out) + component * sizeof(double), &widened, sizeof widened);
   }
@@ -231,7 +254,8 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
 template <class Kind, class Law, Floating Real>
 void set_kernel(Block& block) {
   block.pack_bytes = PackLayout<Kind, Law, Real>::bytes(kernel_of<Kind>(block.element));
-  block.kernel = {sweep_chunk<Kind, Law, Real>, initialize_block<Kind, Law, Real>, sample_element<Kind, Law, Real>};
+  block.kernel = {sweep_chunk<Kind, Law, Real>, initialize_block<Kind, Law, Real>,
+                  sample_element<Kind, Law, Real>};
 }
 
 /// Sets block.kernel and block.pack_bytes; instantiates every accepted law in both precisions.

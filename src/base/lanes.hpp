@@ -1,12 +1,18 @@
 #pragma once
 /// Numbers side by side: `Lanes<double>` holds 8, `Lanes<float>` 16 (64 bytes). Kernels are written once on a
-/// number-like `T`, which is `Lanes<Real>` in a run and plain `double` in a test. There is no branch per lane but
-/// `where(condition, a, b)`; both of its values are computed, so neither may divide by zero in a lane not chosen.
+/// number-like `T`, which is `Lanes<Real>` in a run and plain `double` in a test. There is no branch per lane
+/// but `where(condition, a, b)`; both of its values are computed, so neither may divide by zero in a lane not
+/// chosen.
 
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#include <immintrin.h>
+#define BRIO_AVX512 1
+#endif
 
 #include "src/base/real.hpp"
 
@@ -35,7 +41,8 @@ struct Lanes {
   Vector v;
 
   Lanes() = default;
-  BRIO_INLINE Lanes(double value) : v(static_cast<Real>(value) - Vector{}) {}  // implicit: a number in every lane
+  BRIO_INLINE Lanes(double value)
+      : v(static_cast<Real>(value) - Vector{}) {}  // implicit: a number in every lane
   explicit BRIO_INLINE Lanes(Vector vector) : v(vector) {}
 
   BRIO_INLINE Real operator[](int lane) const { return v[lane]; }
@@ -46,10 +53,22 @@ struct Lanes {
   friend BRIO_INLINE Lanes operator*(Lanes a, Lanes b) { return Lanes(a.v * b.v); }
   friend BRIO_INLINE Lanes operator/(Lanes a, Lanes b) { return Lanes(a.v / b.v); }
   friend BRIO_INLINE Lanes operator-(Lanes a) { return Lanes(-a.v); }
-  BRIO_INLINE Lanes& operator+=(Lanes b) { v += b.v; return *this; }
-  BRIO_INLINE Lanes& operator-=(Lanes b) { v -= b.v; return *this; }
-  BRIO_INLINE Lanes& operator*=(Lanes b) { v *= b.v; return *this; }
-  BRIO_INLINE Lanes& operator/=(Lanes b) { v /= b.v; return *this; }
+  BRIO_INLINE Lanes& operator+=(Lanes b) {
+    v += b.v;
+    return *this;
+  }
+  BRIO_INLINE Lanes& operator-=(Lanes b) {
+    v -= b.v;
+    return *this;
+  }
+  BRIO_INLINE Lanes& operator*=(Lanes b) {
+    v *= b.v;
+    return *this;
+  }
+  BRIO_INLINE Lanes& operator/=(Lanes b) {
+    v /= b.v;
+    return *this;
+  }
   friend BRIO_INLINE LaneMask<Real> operator<(Lanes a, Lanes b) { return {a.v < b.v}; }
   friend BRIO_INLINE LaneMask<Real> operator>(Lanes a, Lanes b) { return {a.v > b.v}; }
   friend BRIO_INLINE LaneMask<Real> operator<=(Lanes a, Lanes b) { return {a.v <= b.v}; }
@@ -94,11 +113,16 @@ BRIO_INLINE Real where(bool condition, Real a, std::type_identity_t<Real> b) {
 
 template <Floating Real>
 BRIO_INLINE bool any(LaneMask<Real> mask) {
+#if defined(BRIO_AVX512)
+  const __m512i words = reinterpret_cast<__m512i>(mask.v);
+  return _mm512_test_epi64_mask(words, words) != 0;
+#else
   std::uint64_t bits = 0;
   std::uint64_t words[8];
   std::memcpy(words, &mask.v, sizeof words);
   for (std::uint64_t word : words) bits |= word;
   return bits != 0;
+#endif
 }
 BRIO_INLINE bool any(bool mask) { return mask; }
 template <class Mask>
@@ -131,11 +155,21 @@ BRIO_INLINE Real min(Real a, std::type_identity_t<Real> b) {
   return a < b ? a : b;
 }
 
+// The compiler splits a loop of square roots into halves of a register; the instruction is named where it
+// exists.
 template <Floating Real>
 BRIO_INLINE Lanes<Real> sqrt(Lanes<Real> a) {
+#if defined(BRIO_AVX512)
+  if constexpr (sizeof(Real) == 8) {
+    return Lanes<Real>(_mm512_maskz_sqrt_pd(0xff, a.v));
+  } else {
+    return Lanes<Real>(_mm512_maskz_sqrt_ps(0xffff, a.v));
+  }
+#else
   Lanes<Real> root;
   for (int lane = 0; lane < lane_count<Real>; ++lane) root.v[lane] = std::sqrt(a.v[lane]);
   return root;
+#endif
 }
 template <Floating Real>
 BRIO_INLINE Real sqrt(Real a) {
@@ -154,7 +188,8 @@ BRIO_INLINE Real abs(Real a) {
 template <Floating Real>
 BRIO_INLINE double minimum(Lanes<Real> a, int count) {
   double least = static_cast<double>(a.v[0]);
-  for (int lane = 1; lane < count; ++lane) least = static_cast<double>(a.v[lane]) < least ? static_cast<double>(a.v[lane]) : least;
+  for (int lane = 1; lane < count; ++lane)
+    least = static_cast<double>(a.v[lane]) < least ? static_cast<double>(a.v[lane]) : least;
   return least;
 }
 template <Floating Real>

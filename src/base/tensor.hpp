@@ -1,5 +1,6 @@
 #pragma once
-/// Small vectors and tensors on a number-like `T` (see lanes.hpp). Symmetric tensors are stored in VTK's order.
+/// Small vectors and tensors on a number-like `T` (see lanes.hpp). Symmetric tensors are stored in VTK's
+/// order.
 
 #include "src/base/lanes.hpp"
 
@@ -75,7 +76,8 @@ template <class T>
 BRIO_INLINE Tensor<T> operator*(const Tensor<T>& a, const Tensor<T>& b) {
   Tensor<T> c;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) c.m[i][j] = a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j];
+    for (int j = 0; j < 3; ++j)
+      c.m[i][j] = a.m[i][0] * b.m[0][j] + a.m[i][1] * b.m[1][j] + a.m[i][2] * b.m[2][j];
   return c;
 }
 template <class T>
@@ -93,8 +95,16 @@ BRIO_INLINE Tensor<T> identity() {
   return one;
 }
 template <class T>
+BRIO_INLINE T trace(const Tensor<T>& a) {
+  return a.m[0][0] + a.m[1][1] + a.m[2][2];
+}
+template <class T>
 BRIO_INLINE SymmetricTensor<T> symmetric_part(const Tensor<T>& a) {
-  return {a.m[0][0], a.m[1][1], a.m[2][2], 0.5 * (a.m[0][1] + a.m[1][0]), 0.5 * (a.m[1][2] + a.m[2][1]),
+  return {a.m[0][0],
+          a.m[1][1],
+          a.m[2][2],
+          0.5 * (a.m[0][1] + a.m[1][0]),
+          0.5 * (a.m[1][2] + a.m[2][1]),
           0.5 * (a.m[0][2] + a.m[2][0])};
 }
 

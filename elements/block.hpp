@@ -10,6 +10,7 @@
 
 #include "elements/hex8.hpp"
 #include "elements/motion.hpp"
+#include "elements/shell4.hpp"
 #include "materials/material.hpp"
 #include "src/base/aligned.hpp"
 #include "src/base/nodes.hpp"
@@ -17,7 +18,7 @@
 namespace brio {
 
 /// The kinds that a deck can name.
-using Element = std::variant<Hex8>;
+using Element = std::variant<Hex8, Shell4>;
 
 inline int nodes_per_element(const Element& element) {
   return std::visit([](const auto& kind) { return kind.nodes; }, element);

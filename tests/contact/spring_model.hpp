@@ -6,6 +6,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <functional>
+#include <numbers>
+#include <string>
 #include <vector>
 
 #include "contact/scene.hpp"
@@ -39,9 +41,7 @@ class SpringModel {
     for (int k = 0; k <= nz; ++k)
       for (int j = 0; j <= ny; ++j)
         for (int i = 0; i <= nx; ++i) {
-          position_.push_back(map(Vector3d(size[0] * i / nx, size[1] * j / ny, size[2] * k / nz)));
-          mass_.push_back(0);
-          velocity_.push_back(Vector3d::Zero());
+          add_node(map(Vector3d(size[0] * i / nx, size[1] * j / ny, size[2] * k / nz)));
         }
     Piece& piece = pieces_.emplace_back();
     const double mass = density * size.prod() / (8.0 * nx * ny * nz);
@@ -69,30 +69,26 @@ class SpringModel {
     const auto [nx, ny] = cells;
     for (int j = 0; j <= ny; ++j)
       for (int i = 0; i <= nx; ++i) {
-        position_.push_back(map(Vector3d(size[0] * i / nx, size[1] * j / ny, 0)));
-        mass_.push_back(0);
-        velocity_.push_back(Vector3d::Zero());
+        add_node(map(Vector3d(size[0] * i / nx, size[1] * j / ny, 0)));
       }
-    Piece& piece = pieces_.emplace_back();
-    piece.shell = true;
-    const double mass = density * thickness * size[0] * size[1] / (4.0 * nx * ny);
-    const auto at = [&](int i, int j) { return first + i + (nx + 1) * j; };
-    for (int j = 0; j < ny; ++j)
-      for (int i = 0; i < nx; ++i) {
-        const int corner[4] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
-        piece.thickness.push_back(thickness);
-        for (int a : corner) {
-          piece.connectivity.push_back(a);
-          mass_[static_cast<std::size_t>(a)] += mass;
-        }
-        for (int a = 0; a < 4; ++a)
-          for (int b = 0; b < a; ++b) add_spring(corner[a], corner[b]);
+    add_shells(
+        nx, ny, thickness, density * thickness * size[0] * size[1] / (4.0 * nx * ny),
+        [&](int i, int j) { return first + i + (nx + 1) * j; }, false);
+    return first;
+  }
+
+  /// Closed tube of shells about the z axis. \returns its first node.
+  int add_tube(std::array<int, 2> cells, double radius, double height, double thickness, double density) {
+    const int first = static_cast<int>(position_.size());
+    const auto [nc, nz] = cells;
+    for (int j = 0; j <= nz; ++j)
+      for (int i = 0; i < nc; ++i) {
+        const double angle = 2 * std::numbers::pi * i / nc;
+        add_node({radius * std::cos(angle), radius * std::sin(angle), height * j / nz});
       }
-    for (int j = 0; j <= ny; ++j)
-      for (int i = 0; i <= nx; ++i) {
-        if (i + 2 <= nx) add_spring(at(i, j), at(i + 2, j));
-        if (j + 2 <= ny) add_spring(at(i, j), at(i, j + 2));
-      }
+    add_shells(
+        nc, nz, thickness, density * thickness * 2 * std::numbers::pi * radius * height / (4.0 * nc * nz),
+        [&](int i, int j) { return first + i % nc + nc * j; }, true);
     return first;
   }
 
@@ -135,6 +131,30 @@ class SpringModel {
       nodes.prescribed[static_cast<std::size_t>(n)] |= static_cast<std::uint8_t>(axes);
   }
 
+  void accelerate(double dt) {
+    std::vector<Vector3d> force(nodes.size(), Vector3d::Zero());
+    for (const Spring& s : springs_) {
+      const Vector3d along = x(s.b) - x(s.a);
+      const double length = along.norm();
+      const Vector3d pull = stiffness / s.length * (length - s.length) / length * along;
+      force[static_cast<std::size_t>(s.a)] += pull;
+      force[static_cast<std::size_t>(s.b)] -= pull;
+    }
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      for (int axis = 0; axis < 3; ++axis) {
+        NodeRecord& record = nodes.record[n];
+        nodes.velocity_before[n].component[axis] = record.velocity[axis];
+        if (nodes.free_inverse_mass(n, axis) == 0) continue;
+        record.velocity[axis] += dt * (force[n][axis] * record.inverse_mass + gravity[axis]);
+        record.velocity[axis] *= 1 - dt * damping;
+      }
+  }
+
+  void move(double dt) {
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      for (int axis = 0; axis < 3; ++axis)
+        nodes.record[n].position[axis] += dt * nodes.record[n].velocity[axis];
+  }
   void step(double dt, ThreadTeam& team) {
     accelerate(dt);
     resolve(scene, nodes, dt, team);
@@ -201,26 +221,36 @@ class SpringModel {
     double length = 0;
   };
 
-  void add_spring(int a, int b) { springs_.push_back({a, b}); }
+  void add_node(const Vector3d& position) {
+    position_.push_back(position);
+    mass_.push_back(0);
+    velocity_.push_back(Vector3d::Zero());
+  }
 
-  void accelerate(double dt) {
-    std::vector<Vector3d> force(nodes.size(), Vector3d::Zero());
-    for (const Spring& s : springs_) {
-      const Vector3d along = x(s.b) - x(s.a);
-      const double length = along.norm();
-      const Vector3d pull = stiffness / s.length * (length - s.length) / length * along;
-      force[static_cast<std::size_t>(s.a)] += pull;
-      force[static_cast<std::size_t>(s.b)] -= pull;
-    }
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-      for (int axis = 0; axis < 3; ++axis) {
-        NodeRecord& record = nodes.record[n];
-        nodes.velocity_before[n].component[axis] = record.velocity[axis];
-        if (nodes.free_inverse_mass(n, axis) == 0) continue;
-        record.velocity[axis] += dt * (force[n][axis] * record.inverse_mass + gravity[axis]);
-        record.velocity[axis] *= 1 - dt * damping;
+  /// Shells between the nodes at(i, j), with `mass` to each corner of each; `closed`: column nx is column 0.
+  template <class At>
+  void add_shells(int nx, int ny, double thickness, double mass, const At& at, bool closed) {
+    Piece& piece = pieces_.emplace_back();
+    piece.shell = true;
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        const int corner[4] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+        piece.thickness.push_back(thickness);
+        for (int a : corner) {
+          piece.connectivity.push_back(a);
+          mass_[static_cast<std::size_t>(a)] += mass;
+        }
+        for (int a = 0; a < 4; ++a)
+          for (int b = 0; b < a; ++b) add_spring(corner[a], corner[b]);
+      }
+    for (int j = 0; j <= ny; ++j)
+      for (int i = 0; i < nx + (closed ? 0 : 1); ++i) {
+        if (closed || i + 2 <= nx) add_spring(at(i, j), at(i + 2, j));
+        if (j + 2 <= ny) add_spring(at(i, j), at(i, j + 2));
       }
   }
+
+  void add_spring(int a, int b) { springs_.push_back({a, b}); }
 
   std::vector<Vector3d> position_, velocity_;
   std::vector<double> mass_;

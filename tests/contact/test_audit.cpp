@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include "contact/audit.hpp"
+#include "tests/contact/spring_model.hpp"
+
+namespace brio::testing {
+namespace {
+
+void move_nodes(SpringModel& model, int first, int end, const Vector3d& by) {
+  for (int n = first; n < end; ++n)
+    for (int axis = 0; axis < 3; ++axis)
+      model.nodes.record[static_cast<std::size_t>(n)].position[axis] += by[axis];
+}
+
+TEST(Audit, FindsAPlantedPenetrationOfSolids) {
+  ThreadTeam team(1);
+  SpringModel model;
+  model.add_box({3, 3, 3}, {3, 3, 3}, 1, shifted({0, 0, 0}));
+  const int upper = model.add_box({1, 1, 1}, {0.9, 0.9, 0.9}, 1, shifted({1, 1, 3.001}));
+  model.start({});
+  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+  move_nodes(model, upper, model.count(), {0, 0, -0.05});
+  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << "shallower than a tenth";
+  move_nodes(model, upper, model.count(), {0, 0, -0.1});
+  const Audit found = audit(model.scene, model.nodes, team);
+  EXPECT_EQ(found.inside_solids, 4);
+  EXPECT_NEAR(found.deepest, 0.149, 1e-12);
+  EXPECT_GE(found.deepest_node, upper);
+}
+
+TEST(Audit, FindsShellsTooCloseAndPierced) {
+  ThreadTeam team(1);
+  SpringModel model;
+  model.add_sheet({6, 6}, {6, 6}, 0.1, 1, shifted({0, 0, 0}));
+  const int upper = model.add_sheet({4, 4}, {3, 3}, 0.1, 1, [](const Vector3d& x) -> Vector3d {
+    return {1.1 + x[0], 1.2, 0.101 + x[1]};
+  });
+  model.start({});
+  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+  move_nodes(model, upper, model.count(), {0, 0, -0.02});
+  const Audit close = audit(model.scene, model.nodes, team);
+  EXPECT_EQ(close.shells_too_close, 5);
+  EXPECT_EQ(close.shells_pierced, 0);
+  move_nodes(model, upper, model.count(), {0, 0, -0.4});
+  EXPECT_EQ(audit(model.scene, model.nodes, team).shells_pierced, 5 + 3)
+      << "its uprights, and columns of the lower";
+}
+
+TEST(Audit, FindsASolidThatCutsItself) {
+  ThreadTeam team(1);
+  SpringModel model;
+  // A bar bent into an open ring, then the ends pushed into each other.
+  const int cells = 16;
+  model.add_box({1, 1, cells}, {1, 1, 2}, 1, [](const Vector3d& x) -> Vector3d {
+    const double angle = std::numbers::pi * 0.95 * x[2];
+    return {(3 + x[0]) * std::cos(angle), x[1], (3 + x[0]) * std::sin(angle)};
+  });
+  model.start({});
+  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+  // The first section, made narrower, is turned back until it lies inside the last cell.
+  for (int n = 0; n < 4; ++n) {
+    const double angle = -0.16 * std::numbers::pi;
+    const double radius = n % 2 == 0 ? 3.3 : 3.7;
+    move_nodes(model, n, n + 1,
+               Vector3d(radius * std::cos(angle), n < 2 ? 0.3 : 0.7, radius * std::sin(angle)) - model.x(n));
+  }
+  EXPECT_EQ(audit(model.scene, model.nodes, team).inside_solids, 4);
+}
+
+}  // namespace
+}  // namespace brio::testing

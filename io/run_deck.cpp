@@ -1,0 +1,179 @@
+#include "io/run_deck.hpp"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+
+#include "io/deck_error.hpp"
+#include "io/generate_mesh.hpp"
+#include "io/read_deck.hpp"
+#include "io/write_results.hpp"
+#include "src/advance.hpp"
+#include "src/build.hpp"
+#include "src/observe.hpp"
+#include "src/output_schedule.hpp"
+
+namespace brio {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+// Calls back now and then, and foresees the end from the speed of the last stretch.
+class ProgressReporter {
+ public:
+  ProgressReporter(const RunOptions& options, double end) : options_(options), end_(end) {}
+
+  void report(const Model& model, bool now) {
+    if (!options_.progress) return;
+    const double elapsed = seconds_since(start_);
+    if (!now && elapsed - reported_ < 0.1) return;
+    const double speed = elapsed > reported_ ? (model.times.time - time_) / (elapsed - reported_) : 0;
+    mean_speed_ = mean_speed_ == 0 ? speed : 0.9 * mean_speed_ + 0.1 * speed;
+    reported_ = elapsed;
+    time_ = model.times.time;
+    options_.progress({.time = model.times.time,
+                       .end = end_,
+                       .step = model.step,
+                       .dt = model.times.next,
+                       .energy_error = model.energy.relative_error(),
+                       .elapsed_s = elapsed,
+                       .remaining_s = mean_speed_ > 0 ? (end_ - model.times.time) / mean_speed_ : 0});
+  }
+
+ private:
+  const RunOptions& options_;
+  double end_;
+  Clock::time_point start_ = Clock::now();
+  double reported_ = 0;
+  double time_ = 0;
+  double mean_speed_ = 0;
+};
+
+// Fields and history as they fall due.
+class Output {
+ public:
+  Output(const Deck& deck, Model& model, ResultWriter& writer)
+      : model_(model),
+        writer_(writer),
+        observer_(model),
+        history_(history_columns(model)),
+        field_schedule_(deck.output.fields_.times.empty()
+                            ? OutputSchedule::every(deck.output.fields_.every.value_or(deck.time.end / 20))
+                            : OutputSchedule::at(deck.output.fields_.times)),
+        history_schedule_(OutputSchedule::every(deck.output.history.every.value_or(deck.time.end / 1000))) {}
+
+  void write_what_is_due(bool last) {
+    const bool row_due = history_schedule_.due(model_.times.time);
+    const bool fields_due = field_schedule_.due(model_.times.time);
+    if (!row_due && !fields_due && !last) return;
+    const StageTimer timer(model_.stages, Stage::output);
+    if (row_due || last) {
+      observe_history(model_, row_);
+      history_.append(row_);
+    }
+    if (fields_due || last) writer_.write(observer_.observe(model_));
+    if (fields_due || last || history_.full()) writer_.write(history_);
+  }
+
+ private:
+  Model& model_;
+  ResultWriter& writer_;
+  FieldObserver observer_;
+  History history_;
+  std::vector<double> row_;
+  OutputSchedule field_schedule_, history_schedule_;
+};
+
+// Steps until the end, a failure or a stop. \return why it ended early, empty if it did not.
+std::string march(const Deck& deck, const RunOptions& options, Model& model, Output& output, Summary& state) {
+  ThreadTeam team(options.threads);
+  ProgressReporter progress(options, deck.time.end);
+  state.status = "finished";
+  while (true) {
+    try {
+      update_velocities(model, deck.numerics.energy_error_limit, team);
+    } catch (const Breakdown& breakdown) {
+      state.status = "failed";
+      state.exit_code = 3;
+      output.write_what_is_due(true);
+      return breakdown.what();
+    }
+    const int signal = options.stop != nullptr ? options.stop->load() : 0;
+    const bool at_end = model.times.time >= deck.time.end;
+    output.write_what_is_due(at_end || signal != 0);
+    progress.report(model, at_end || signal != 0);
+    if (at_end) return "";
+    if (signal != 0) {
+      state.status = signal == SIGINT ? "interrupted" : "terminated";
+      state.exit_code = 128 + signal;
+      return state.status + " at time " + std::to_string(model.times.time);
+    }
+    update_positions(model, team);
+  }
+}
+
+}  // namespace
+
+Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, Model& model) {
+  Deck deck = read_deck(path, overrides);
+  std::vector<Mesh> meshes;
+  meshes.reserve(deck.parts.size());
+  for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
+  try {
+    model = build(deck, meshes);
+  } catch (const BuildError& fault) {
+    throw DeckError(path.string() + ": " + fault.what());
+  }
+  return deck;
+}
+
+RunOutcome run_deck(const RunOptions& options) {
+  const auto start = Clock::now();
+  Model model;
+  const Deck deck = load_deck(options.deck, options.overrides, model);
+  const std::string name = options.deck.stem().string();
+  RunOutcome outcome;
+  outcome.folder = options.output.empty() ? std::filesystem::path(name + ".results") : options.output;
+  ResultWriter writer(outcome.folder, name,
+                      {.title = deck.title,
+                       .deck_path = options.deck.string(),
+                       .deck_text = deck.text,
+                       .overrides = options.overrides,
+                       .version = BRIO_VERSION,
+                       .threads = options.threads},
+                      history_columns(model));
+  outcome.vtkhdf = writer.vtkhdf();
+  outcome.xdmf = writer.xdmf();
+  Output output(deck, model, writer);
+  Summary state;
+  outcome.message = march(deck, options, model, output, state);
+
+  outcome.summary = observe_end(model);
+  outcome.summary.version = BRIO_VERSION;
+  outcome.summary.deck = options.deck.string();
+  outcome.summary.status = state.status;
+  outcome.summary.exit_code = state.exit_code;
+  outcome.summary.threads = options.threads;
+  outcome.summary.peak_memory_mb = peak_memory_mb();
+  const double elements =
+      static_cast<double>(outcome.summary.elements.hex8 + outcome.summary.elements.shell4);
+  outcome.summary.wall_s.total = seconds_since(start);
+  outcome.summary.element_updates_per_s =
+      elements * static_cast<double>(model.step) / outcome.summary.wall_s.total;
+  writer.write(outcome.summary);
+  return outcome;
+}
+
+}  // namespace brio

@@ -1,0 +1,51 @@
+#pragma once
+/// A whole run: deck in, results out.
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "src/deck.hpp"
+#include "src/model.hpp"
+#include "src/summary.hpp"
+
+namespace brio {
+
+/// Where a run stands; for a progress line.
+struct Progress {
+  double time = 0;
+  double end = 0;
+  std::int64_t step = 0;
+  double dt = 0;
+  double energy_error = 0;
+  double elapsed_s = 0;
+  double remaining_s = 0;  ///< if the rest goes on like the last part
+};
+
+struct RunOptions {
+  std::filesystem::path deck;
+  std::vector<std::string> overrides;  ///< KEY.PATH=VALUE
+  std::filesystem::path output;        ///< result folder; empty: NAME.results where the program runs
+  int threads = 1;
+  const std::atomic<int>* stop = nullptr;  ///< set to a signal's number to end the run after the present step
+  std::function<void(const Progress&)> progress;  ///< called about ten times a second
+};
+
+struct RunOutcome {
+  Summary summary;
+  std::string message;  ///< why the run ended early; empty if it reached its end
+  std::filesystem::path folder;
+  std::filesystem::path vtkhdf, xdmf;
+};
+
+/// A deck read, its parts meshed and the scene put together. \throws DeckError
+Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, Model& model);
+
+/// Runs to the end time, a numerical failure, or a stop. Nothing is written before the scene is built.
+/// \throws DeckError for what the deck gets wrong, FileError for what the file system refuses.
+RunOutcome run_deck(const RunOptions& options);
+
+}  // namespace brio

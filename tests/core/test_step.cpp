@@ -1,0 +1,215 @@
+// The step as a whole: waves, walls, books, and what must not depend on threads or frames.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "tests/core/scene.hpp"
+
+namespace brio {
+namespace {
+
+using namespace test;
+
+// A bar along x of n elements and length 1, cross-section h by h.
+Deck bar(int elements, double velocity, const Hex8& element) {
+  Deck deck;
+  const double h = 1.0 / elements;
+  deck.materials = {{"material", elastic()}};
+  deck.parts = {box("bar", {1, h, h}, {elements, 1, 1}, {0.5, 0, 0}, element)};
+  deck.initial_conditions = {moving("bar", {velocity, 0, 0})};
+  return deck;
+}
+
+RigidWall wall(Triple point, Triple normal) {
+  RigidWall result;
+  result.point = point;
+  result.normal = normal;
+  return result;
+}
+
+// Bar of speed 100 against a wall at x = 0: stress rho c v until 2L/c, then it leaves.
+struct BarImpact {
+  double stress = 0;    ///< mean over the middle element while the plateau lasts
+  double duration = 0;  ///< last time at which the wall pushed
+  double restitution = 0;
+  double energy_error = 0;
+};
+BarImpact impact_on_wall(int elements, const Hex8& element) {
+  Deck deck = bar(elements, -100, element);
+  deck.boundary_conditions = {wall({0, 0, 0}, {1, 0, 0})};
+  deck.time.end = 3e-3;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  BarImpact result;
+  double samples = 0, last_impulse = 0;
+  run(model, deck, team, [&](Model& m) {
+    if (m.times.time > 0.8e-3 && m.times.time < 1.2e-3) {
+      const std::size_t middle =
+          static_cast<std::size_t>(m.parts[0].element_slot[static_cast<std::size_t>(elements / 4)]);
+      result.stress -= m.blocks[0].kernel.sample(m.blocks[0], m.nodes, middle).stress.xx;
+      ++samples;
+    }
+    if (m.momentum.walls.linear[0] > last_impulse) result.duration = m.times.time;
+    last_impulse = m.momentum.walls.linear[0];
+  });
+  result.stress /= samples;
+  result.restitution = mean_velocity(model, 0, 0) / 100;
+  result.energy_error = model.energy.error_max;
+  return result;
+}
+
+TEST(Step, BarOnRigidWallCarriesTheWaveStressAndLeavesAfterTwoTransits) {
+  for (int elements : {20, 40}) {
+    const BarImpact impact = impact_on_wall(elements, hex8());
+    EXPECT_NEAR(impact.stress, 1e8, 0.01e8);
+    EXPECT_NEAR(impact.duration, 2e-3, 0.05 * 2e-3);
+    EXPECT_GE(impact.restitution, 0.92);
+    EXPECT_LE(impact.restitution, 1.0);
+    EXPECT_LE(impact.energy_error, 0.01);
+  }
+}
+
+TEST(Step, LossOfALumpedImpactHalvesWithTheElementSize) {
+  const double coarse = 1 - std::pow(impact_on_wall(20, inviscid_hex8()).restitution, 2);
+  const double fine = 1 - std::pow(impact_on_wall(40, inviscid_hex8()).restitution, 2);
+  EXPECT_LE(coarse, 1 - 0.96 * 0.96);
+  EXPECT_NEAR(fine / coarse, 0.5, 0.1);
+}
+
+TEST(Step, StepLoadSendsAFrontAtTheWaveSpeedWithoutRinging) {
+  Deck deck = bar(100, 0, hex8());
+  NodalForce force;
+  force.where.set = "bar.xmin";
+  force.force = {1e-4 * 1e6 / 4, 0, 0};  // stress 1e6 on an area of 1e-4, four nodes
+  deck.loads = {force};
+  deck.time.end = 0.5e-3;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  run(model, deck, team);
+  double front = 0, largest = 0;
+  for (int e = 0; e < 100; ++e) {
+    const auto slot = static_cast<std::size_t>(model.parts[0].element_slot[static_cast<std::size_t>(e)]);
+    const double stress = -model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot).stress.xx;
+    largest = std::max(largest, stress);
+    front += 0.01 * stress / 1e6;  // momentum carried: area under the profile
+  }
+  EXPECT_NEAR(front, 0.5, 0.005);
+  EXPECT_LE(largest, 1.1e6);
+}
+
+TEST(Step, FreeCubeIsStableWhereNineTenthsOfEdgeOverSpeedIsNot) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  deck.parts = {box("cube", {1, 1, 1}, {1, 1, 1}, {0, 0, 0}, inviscid_hex8())};
+  deck.time.end = 1;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  // A breathing disturbance of the mode that sets the limit.
+  for (std::size_t i = 0; i < 8; ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      model.nodes.record[i].velocity[axis] = 1e-3 * model.nodes.record[i].position[axis];
+  update_velocities(model, 1e9, team);
+  const double wave_speed = std::sqrt(1e9 * 0.7 / (1.3 * 0.4) / 1000);
+  EXPECT_NEAR(model.control.stable * wave_speed, std::sqrt(0.7 / 1.3), 1e-3);
+  double largest = 0;
+  for (int step = 0; step < 20000; ++step) {
+    update_positions(model, team);
+    update_velocities(model, 1e9, team);
+    largest = std::max(largest, model.energy.kinetic_half);
+  }
+  EXPECT_LE(largest, 10 * model.energy.kinetic_start + 1e-3);
+  EXPECT_LT(std::abs(model.energy.relative_error()), 0.05);
+}
+
+// A distorted, spinning block under gravity on three supports with a pressure on top: everything that is
+// booked.
+Deck busy_deck() {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  deck.parts = {box("a", {2, 1, 1}, {12, 6, 6}, {0, 0, 0}, hex8()),
+                box("b", {1, 1, 1}, {7, 6, 5}, {5, 0, 3}, hex8())};
+  InitialCondition spin;
+  spin.where.set = "b";
+  spin.velocity = {0, 5, -20};
+  spin.spin = Spin{{5, 0, 3}, {10, 0, 40}};
+  deck.initial_conditions = {spin};
+  deck.boundary_conditions = {fix("a.xmin", {0, 1, 2}), wall({0, 0, 2}, {0, 0, 1})};
+  Gravity gravity;
+  gravity.acceleration = {0, 0, -1000};
+  deck.loads = {gravity, Pressure{"a.zmax", Curve{{{0, 0}, {1e-3, 1e7}}}}};
+  deck.time.end = 0.02;
+  return deck;
+}
+
+TEST(Step, BooksBalance) {
+  const Deck deck = busy_deck();
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  run(model, deck, team);
+  EXPECT_LT(model.energy.error_max, 0.01);
+  const Momentum now = momentum(model.nodes);
+  model.momentum.now = now.total;
+  EXPECT_LT(model.momentum.linear_imbalance(), 1e-10);
+  EXPECT_LT(model.momentum.angular_imbalance(), 1e-10);
+  EXPECT_GT(model.energy.external.at_step(), 0);
+  EXPECT_LT(model.energy.contact.at_step(), 0);
+}
+
+TEST(Step, BitsDoNotDependOnTheNumberOfThreads) {
+  const Deck deck = busy_deck();
+  std::vector<Model> models;
+  for (int threads : {1, 2, 4}) {
+    models.push_back(build_model(deck));
+    ThreadTeam team(threads);
+    run(models.back(), deck, team);
+  }
+  for (std::size_t i = 1; i < models.size(); ++i) {
+    ASSERT_EQ(std::memcmp(models[0].nodes.record.data(), models[i].nodes.record.data(),
+                          models[0].nodes.size() * sizeof(NodeRecord)),
+              0);
+    EXPECT_EQ(models[0].energy.internal, models[i].energy.internal);
+    EXPECT_EQ(models[0].energy.external.half, models[i].energy.external.half);
+  }
+}
+
+TEST(Step, RemeetsTheEndTimeWithoutASliver) {
+  Deck deck = bar(10, 0, hex8());
+  deck.time.end = 1.0000001e-3;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  double least = 1;
+  run(model, deck, team, [&](Model& m) { least = std::min(least, m.times.next); });
+  EXPECT_EQ(model.times.time, deck.time.end);
+  EXPECT_GT(least, 0.4 * model.control.first);
+}
+
+TEST(Step, ConstantStepAboveTheStableOneIsRefused) {
+  Deck deck = bar(10, 0, hex8());
+  deck.time.end = 1e-3;
+  deck.time.step = 1e-3;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  EXPECT_THROW(run(model, deck, team), Breakdown);
+}
+
+TEST(Step, InvertedElementStopsTheRunAndIsNamed) {
+  Deck deck = bar(4, 0, hex8());
+  deck.time.end = 1e-3;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  // Push one end face through the bar.
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    if (model.nodes.record[i].position[0] < 0.1) model.nodes.record[i].position[0] = 0.4;
+  try {
+    run(model, deck, team);
+    FAIL() << "an inverted element went unnoticed";
+  } catch (const Breakdown& breakdown) {
+    EXPECT_NE(std::string(breakdown.what()).find("element 0 of part 'bar'"), std::string::npos)
+        << breakdown.what();
+  }
+}
+
+}  // namespace
+}  // namespace brio

@@ -156,6 +156,7 @@ RunOutcome run_deck(const RunOptions& options) {
                       history_columns(model));
   outcome.vtkhdf = writer.vtkhdf();
   outcome.xdmf = writer.xdmf();
+  outcome.summary_file = writer.summary();
   Output output(deck, model, writer);
   Summary state;
   outcome.message = march(deck, options, model, output, state);

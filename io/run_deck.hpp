@@ -38,7 +38,7 @@ struct RunOutcome {
   Summary summary;
   std::string message;  ///< why the run ended early; empty if it reached its end
   std::filesystem::path folder;
-  std::filesystem::path vtkhdf, xdmf;
+  std::filesystem::path vtkhdf, xdmf, summary_file;
 };
 
 /// A deck read, its parts meshed and the scene put together. \throws DeckError

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/commands.hpp"
+#include "io/run_deck.hpp"
+#include "src/advance.hpp"
+#include "src/observe.hpp"
+
+namespace brio {
+
+namespace {
+
+void print_parts(const Deck& deck, const Model& model) {
+  fmt::print("{:<20} {:<10} {:<22} {:>10} {:>10} {:>12}\n", "part", "element", "material", "elements",
+             "nodes", "mass");
+  double mass = 0;
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const PartInModel& part = model.parts[p];
+    const Block& block = model.blocks[part.block];
+    fmt::print("{:<20} {:<10} {:<22} {:>10} {:>10} {:>12.5g}\n", part.name, name_of(block.element),
+               deck.parts[p].material, block.element_count, part.node.size(), part.mass);
+    mass += part.mass;
+  }
+  fmt::print("{:<20} {:<10} {:<22} {:>10} {:>10} {:>12.5g}\n", "all", "", "", "", model.nodes.size(), mass);
+}
+
+std::size_t state_bytes(const Model& model) {
+  std::size_t bytes = model.nodes.size() * (sizeof(NodeRecord) + sizeof(NodeVector) + sizeof(double));
+  bytes +=
+      (model.nodes.velocity_before.size() + model.nodes.moment.size() + model.nodes.angular_velocity.size()) *
+      sizeof(NodeVector);
+  for (const Block& block : model.blocks)
+    bytes += block.state.size() + block.connectivity.size() * sizeof(int);
+  return bytes;
+}
+
+void check(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  Model model;
+  const Deck deck = load_deck(path, overrides, model);
+  ThreadTeam team(1);
+  update_velocities(model, deck.numerics.energy_error_limit, team);
+
+  if (!deck.title.empty()) fmt::print("{}\n\n", deck.title);
+  print_parts(deck, model);
+  const StepControl& control = model.control;
+  const PartInModel& critical = model.parts[control.critical_block];
+  fmt::print("\nstable step {:.4g}, set by element {} of part '{}'; first step {:.4g}\n", control.stable,
+             critical.element_order[control.critical_element], critical.name, model.times.next);
+  fmt::print("about {:.0f} steps to time {:g} at that step\n", deck.time.end / model.times.next,
+             deck.time.end);
+  fmt::print("memory of nodes and elements {:.1f} MB\n", static_cast<double>(state_bytes(model)) * 1e-6);
+  fmt::print("switched on:");
+  for (const std::string& feature : active_features(model)) fmt::print(" {}", feature);
+  fmt::print("\n");
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, int&) {
+  struct Arguments {
+    std::filesystem::path deck;
+    std::vector<std::string> overrides;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("check", "Read a deck, build its scene and say what it is");
+  command->add_option("deck", arguments->deck, "YAML deck")->required();
+  command->add_option("--set", arguments->overrides, "KEY.PATH=VALUE, overrides a value of the deck")
+      ->allow_extra_args(false);
+  command->callback([arguments] { check(arguments->deck, arguments->overrides); });
+}
+
+}  // namespace brio

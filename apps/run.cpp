@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "apps/commands.hpp"
+#include "io/run_deck.hpp"
+
+namespace brio {
+
+namespace {
+
+std::atomic<int> stop_signal{0};
+
+void stop_after_this_step(int signal) { stop_signal = signal; }
+
+std::string duration(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{:.1f} s", seconds);
+  if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
+// One line that is written over on a terminal; a plain line every ten seconds elsewhere.
+class ProgressLine {
+ public:
+  void operator()(const Progress& progress) {
+    const bool finished = progress.time >= progress.end;
+    if (!on_terminal_ && !finished && progress.elapsed_s - printed_ < 10) return;
+    printed_ = progress.elapsed_s;
+    const std::string line = fmt::format(
+        "time {:.4e}  step {}  dt {:.3e}  {:5.1f} %  {}  left {}  energy error {:+.3f} %", progress.time,
+        progress.step, progress.dt, 100 * progress.time / progress.end, duration(progress.elapsed_s),
+        duration(progress.remaining_s), 100 * progress.energy_error);
+    if (on_terminal_) {
+      fmt::print(stderr, "\r{:<118}", line);
+      if (finished) fmt::print(stderr, "\n");
+    } else {
+      fmt::print(stderr, "{}\n", line);
+    }
+    std::fflush(stderr);
+  }
+
+ private:
+  bool on_terminal_ = isatty(STDERR_FILENO) != 0;
+  double printed_ = -10;
+};
+
+void print_outcome(const RunOutcome& outcome) {
+  const Summary& summary = outcome.summary;
+  fmt::print("{} at time {:.6g} after {} steps, {} ({:.3g} million element updates a second)\n",
+             summary.status, summary.time, summary.steps, duration(summary.wall_s.total),
+             summary.element_updates_per_s * 1e-6);
+  const Summary::Energies& energy = summary.energy;
+  fmt::print(
+      "energy: kinetic {:.4g}, internal {:.4g}, hourglass {:.3g}, viscous {:.3g}, contact {:.3g}, friction "
+      "{:.3g}; "
+      "error {:+.3f} %\n",
+      energy.kinetic, energy.internal, energy.hourglass, energy.viscous, energy.contact, energy.friction,
+      100 * energy.error_relative);
+  fmt::print("wall time by stage:");
+  for (const auto& [stage, seconds] : summary.wall_s.by_stage)
+    if (seconds > 0) fmt::print(" {} {:.2f} s", stage, seconds);
+  fmt::print("\nresults: {} (ParaView 5.12 or later), {} (ParaView 5.11)\n", outcome.vtkhdf.string(),
+             outcome.xdmf.string());
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, int& exit_code) {
+  struct Arguments {
+    RunOptions options;
+    bool quiet = false;
+    bool json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  RunOptions& options = arguments->options;
+  CLI::App* command = program.add_subcommand("run", "Run a deck and write its results");
+  command->add_option("deck", options.deck, "YAML deck")->required();
+  command->add_option("--output", options.output, "result folder; default NAME.results here");
+  command->add_option("--threads", options.threads, "number of threads; default all processors")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--set", options.overrides, "KEY.PATH=VALUE, overrides a value of the deck")
+      ->allow_extra_args(false);
+  command->add_flag("--quiet", arguments->quiet, "print nothing but faults");
+  command->add_flag("--json", arguments->json, "print the summary as JSON");
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command->callback([arguments, &exit_code] {
+    std::signal(SIGINT, stop_after_this_step);
+    std::signal(SIGTERM, stop_after_this_step);
+    arguments->options.stop = &stop_signal;
+    ProgressLine line;
+    if (!arguments->quiet) arguments->options.progress = [&](const Progress& progress) { line(progress); };
+    const RunOutcome outcome = run_deck(arguments->options);
+    if (!outcome.message.empty()) fmt::print(stderr, "\nbrio: {}\n", outcome.message);
+    if (!arguments->quiet && !arguments->json) print_outcome(outcome);
+    if (arguments->json) std::cout << std::ifstream(outcome.summary_file).rdbuf();
+    exit_code = outcome.summary.exit_code;
+  });
+}
+
+}  // namespace brio

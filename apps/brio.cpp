@@ -36,6 +36,8 @@ int main(int argument_count, char** arguments) {
   CLI::App program("Brio: explicit transient dynamics of solids and shells with contact", "brio");
   int exit_code = brio::exit_good;
   program.require_subcommand(1);
+  brio::add_run_command(program, exit_code);
+  brio::add_check_command(program, exit_code);
   brio::add_schema_command(program, exit_code);
   for (CLI::App* command : program.get_subcommands({}))
     command->set_version_flag("--version", "brio " BRIO_VERSION);

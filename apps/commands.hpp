@@ -12,6 +12,8 @@ inline constexpr int exit_bad_input = 2;          ///< bad command, deck or mesh
 inline constexpr int exit_numerical_failure = 3;  ///< the last good state was written
 inline constexpr int exit_file_failure = 4;       ///< what was written before stays readable
 
+void add_run_command(CLI::App& program, int& exit_code);
+void add_check_command(CLI::App& program, int& exit_code);
 void add_schema_command(CLI::App& program, int& exit_code);
 
 }  // namespace brio

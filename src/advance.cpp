@@ -109,6 +109,28 @@ void constrain(Model& model) {
   }
 }
 
+void resolve_contact(Model& model, ThreadTeam& team) {
+  if (model.contacts.empty()) return;
+  const StageTimer timer(model.stages, Stage::contact);
+  for (ContactScene& scene : model.contacts) {
+    resolve(scene, model.nodes, model.times.next, team);
+    const ContactStep& step = scene.step;
+
+    model.energy.contact.before += step.normal_work_before;
+    model.energy.contact.after += step.normal_work_after;
+    model.energy.friction.before += step.friction_work_before;
+    model.energy.friction.after += step.friction_work_after;
+    model.energy.external.before += step.support_work_before;
+    model.energy.external.after += step.support_work_after;
+    Impulse support;
+    for (std::size_t i = 0; i < 3; ++i) {
+      support.linear[i] = step.support_impulse[static_cast<Eigen::Index>(i)];
+      support.angular[i] = step.support_moment[static_cast<Eigen::Index>(i)];
+    }
+    model.momentum.supports.add(support);
+  }
+}
+
 void stop_at_walls(Model& model) {
   if (model.walls.empty()) return;
   const StageTimer timer(model.stages, Stage::constraints);
@@ -151,6 +173,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
     kinetic = accelerate(model.nodes, model.times.mean(), model.kinetic_sums, team);
   }
   constrain(model);
+  resolve_contact(model, team);
   stop_at_walls(model);
   energy.external.after += load_work(model);
   book_load_impulses(model);

@@ -161,6 +161,49 @@ std::vector<std::array<int, 4>> sides_of(const std::string& side_set, const Deck
   throw BuildError("no side set is named '" + side_set + "'");
 }
 
+bool takes_part(const ContactSection& contact, const std::string& part) {
+  const auto named = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), part) != list.end();
+  };
+  return (contact.surfaces.empty() || named(contact.surfaces)) && !named(contact.exclude);
+}
+
+double shell_thickness(const Element& element) {
+  return std::visit(
+      [](const auto& kind) {
+        if constexpr (requires { kind.thickness; }) {
+          return kind.thickness;
+        } else {
+          return 0.0;
+        }
+      },
+      element);
+}
+
+// Before masses are lumped: small initial overlaps are removed by moving nodes.
+void make_contact(const Deck& deck, const std::vector<std::vector<int>>& connectivity, Model& model) {
+  if (!deck.contact) return;
+  std::vector<SurfacePart> surfaces;
+  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+    const Part& part = deck.parts[p];
+    if (!takes_part(*deck.contact, part.name)) continue;
+    const bool shell = has_rotations(part.element);
+    const std::size_t shells = shell ? model.blocks[p].element_count : 0;
+    surfaces.push_back({.name = part.name,
+                        .shell = shell,
+                        .nodes_per_element = nodes_per_element(part.element),
+                        .connectivity = connectivity[p],
+                        .thickness = std::vector<double>(shells, shell_thickness(part.element))});
+  }
+  try {
+    model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));
+    ThreadTeam team(1);
+    model.initial_overlaps = remove_initial_overlap(model.contacts.back(), model.nodes, team);
+  } catch (const std::invalid_argument& fault) {
+    throw BuildError(fault.what());
+  }
+}
+
 void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   for (const Load& entry : deck.loads) {
     if (const auto* gravity = std::get_if<Gravity>(&entry))
@@ -175,7 +218,7 @@ void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
 }
 
 void open_books(Model& model) {
-  if (!model.prescribed.empty() || !model.walls.empty())
+  if (!model.prescribed.empty() || !model.walls.empty() || !model.contacts.empty())
     model.nodes.velocity_before = AlignedBuffer<NodeVector>(model.nodes.size());
   const Momentum start = momentum(model.nodes);
   model.momentum.start = model.momentum.now = start.total;
@@ -200,13 +243,14 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   place_parts(deck, meshes, model, connectivity);
   fill_nodes(deck, meshes, model);
   make_blocks(deck, connectivity, model);
+  constrain(deck, meshes, model);
+  make_contact(deck, connectivity, model);
   lump_masses(model);
   model.schedule = make_schedule(model.blocks, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());
   model.kinetic_sums.resize(range_count(model.nodes));
   model.control.settings = deck.time;
   set_initial_velocities(deck, meshes, model);
-  constrain(deck, meshes, model);
   load(deck, meshes, model);
   open_books(model);
   return model;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "contact/overlap.hpp"
+#include "contact/scene.hpp"
 #include "src/constraints.hpp"
 #include "src/deck.hpp"
 #include "src/ledger.hpp"
@@ -50,6 +52,9 @@ struct Model {
   std::vector<ActiveLoad> loads;
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
+  std::vector<ContactScene> contacts;            ///< one if the deck names contact, else none
+  std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step
+
   EnergyBook energy;
   MomentumBook momentum;
   std::vector<KineticEnergy> kinetic_sums;  ///< one a range of nodes

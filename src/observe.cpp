@@ -181,6 +181,7 @@ std::vector<std::string> active_features(const Model& model) {
     features.insert(std::array{"gravity", "nodal_force", "pressure"}[load.load.index()]);
   if (!model.prescribed.empty()) features.insert("prescribed_motion");
   if (!model.walls.empty()) features.insert("rigid_wall");
+  if (!model.contacts.empty()) features.insert("contact");
   return {features.begin(), features.end()};
 }
 
@@ -208,6 +209,15 @@ Summary observe_end(Model& model) {
                     .total_start = energy.kinetic_start,
                     .error_relative = energy.relative_error()};
   summary.momentum = {model.momentum.now.linear, model.momentum.now.angular};
+  for (const ContactScene& scene : model.contacts) {
+    const SearchCounts& counts = scene.candidates.counts;
+    summary.contact = {.searches = static_cast<std::int64_t>(counts.searches),
+                       .comparisons = static_cast<std::int64_t>(counts.comparisons),
+                       .candidate_pairs = static_cast<std::int64_t>(counts.candidate_pairs),
+                       .active_max = scene.totals.most_contacts,
+                       .penetration_max = scene.totals.deepest_overlap,
+                       .missed = 0};
+  }
   for (std::size_t stage = 0; stage < stage_names.size(); ++stage)
     summary.wall_s.by_stage[std::string(stage_names[stage])] = model.stages.seconds[stage];
   summary.active_features = active_features(model);

@@ -50,8 +50,10 @@ class SceneMaker {
   SearchScene folded(int edge) {
     SearchScene scene{"folded", {}, {}};
     for (int j = 0; j < edge; ++j)
-      for (int i = 0; i < edge; ++i)
-        scene.points.push_back({std::abs(i % 10 - 5) * 1.0, j * 1.0, 0.1 * (i / 5) + 0.001 * uniform(-1, 1)});
+      for (int i = 0; i < edge; ++i) {
+        const int layer = i / 5;
+        scene.points.push_back({std::abs(i % 10 - 5) * 1.0, j * 1.0, 0.1 * layer + 0.001 * uniform(-1, 1)});
+      }
     for (const auto& point : scene.points) scene.boxes.push_back(around(point, 1.1));
     return scene;
   }

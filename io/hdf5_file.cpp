@@ -157,6 +157,15 @@ Hdf5Handle Hdf5File::open_dataset(const string& dataset) const {
   return checked(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose, "open " + dataset);
 }
 
+hsize_t Hdf5File::first_free_row(const Hdf5Handle& dataset, hsize_t rows) const {
+  const string doing = "read the layout of a table";
+  const Hdf5Handle properties = checked(H5Dget_create_plist(dataset.id()), H5Pclose, doing);
+  if (check(H5Pget_nfilters(properties.id()), doing) == 0) return rows;
+  std::array<hsize_t, 2> chunk{};
+  check(H5Pget_chunk(properties.id(), 2, chunk.data()), doing);
+  return (rows + chunk[0] - 1) / chunk[0] * chunk[0];
+}
+
 std::int64_t Hdf5File::append_rows(const string& table, hsize_t rows, hid_t memory_type, const void* data) {
   const Hdf5Handle dataset = open_dataset(table);
   const string doing = "append to " + table;
@@ -165,17 +174,16 @@ std::int64_t Hdf5File::append_rows(const string& table, hsize_t rows, hid_t memo
   const int rank = H5Sget_simple_extent_ndims(space.id());
   assert(rank == 1 || rank == 2);
   check(H5Sget_simple_extent_dims(space.id(), size.data(), nullptr), doing);
-  const std::array<hsize_t, 2> start{size[0], 0};
-  const auto first = static_cast<std::int64_t>(size[0]);
-  if (rows == 0) return first;
-  size[0] += rows;
+  if (rows == 0) return static_cast<std::int64_t>(size[0]);
+  const std::array<hsize_t, 2> start{first_free_row(dataset, size[0]), 0};
+  size[0] = start[0] + rows;
   check(H5Dset_extent(dataset.id(), size.data()), doing);
   const std::array<hsize_t, 2> count{rows, size[1]};
   space = checked(H5Screate_simple(rank, size.data(), nullptr), H5Sclose, doing);
   const Hdf5Handle memory = checked(H5Screate_simple(rank, count.data(), nullptr), H5Sclose, doing);
   check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), doing);
   check(H5Dwrite(dataset.id(), memory_type, memory.id(), space.id(), H5P_DEFAULT, data), doing);
-  return first;
+  return static_cast<std::int64_t>(start[0]);
 }
 
 std::vector<std::int64_t> Hdf5File::dimensions(const string& dataset) const {

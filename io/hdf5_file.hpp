@@ -77,8 +77,10 @@ class Hdf5File {
 
   void create_group(const std::string& group);
   void create_table(const std::string& table, const TableShape& shape);
-  /// \param data rows x columns values of `memory_type`.
-  /// \return the row at which they now begin.
+  /// A compressed chunk is never written again, because that would move it while the old index still shows
+  /// the old place: rows of a compressed table begin at the next chunk, and what is left of the last one
+  /// stays unused. \param data rows x columns values of `memory_type`. \return the row at which they now
+  /// begin.
   std::int64_t append_rows(const std::string& table, hsize_t rows, hid_t memory_type, const void* data);
   /// Dimensions of a dataset; empty for a single value.
   std::vector<std::int64_t> dimensions(const std::string& dataset) const;
@@ -106,6 +108,7 @@ class Hdf5File {
   Hdf5File(std::filesystem::path path, Hdf5Handle file) : path_(std::move(path)), file_(std::move(file)) {}
 
   Hdf5Handle open_dataset(const std::string& dataset) const;
+  hsize_t first_free_row(const Hdf5Handle& dataset, hsize_t rows) const;
   Hdf5Handle open_attribute(const std::string& object, const std::string& name) const;
   void read_table(const std::string& table, std::int64_t first, std::int64_t rows, hid_t memory_type,
                   void* data) const;

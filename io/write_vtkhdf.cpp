@@ -79,14 +79,14 @@ std::vector<std::int64_t> mixed_list(const Topology& topology) {
 }  // namespace
 
 void VtkhdfWriter::create_fields(Hdf5File& file, const string& group, const std::vector<FieldArray>& fields,
-                                 std::int64_t rows) const {
+                                 std::int64_t rows, int compression) {
   file.create_group(root + "/" + group);
   file.create_group(steps + "/" + group + "Offsets");
   for (const FieldArray& field : fields) {
     assert(!field.name.empty() && field.name.find('/') == string::npos && field.components > 0);
     const auto columns = static_cast<hsize_t>(field.components);
     file.create_table(root + "/" + group + "/" + field.name,
-                      {file_type(field.storage), columns, chunk_rows(rows), compression_});
+                      {file_type(field.storage), columns, chunk_rows(rows), compression});
     file.create_table(steps + "/" + group + "Offsets/" + field.name, {H5T_STD_I64LE, 0, step_chunk_rows});
   }
 }
@@ -113,9 +113,9 @@ void VtkhdfWriter::create_layout(Hdf5File& file, const Snapshot& snapshot, const
   for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"}) {
     file.create_table(steps + "/" + name, {H5T_STD_I64LE, 1, step_chunk_rows});
   }
-  create_fields(file, "PointData", snapshot.point_fields, points);
-  create_fields(file, "CellData", snapshot.cell_fields, cells);
-  create_fields(file, "FieldData", snapshot.global_fields, 1);
+  create_fields(file, "PointData", snapshot.point_fields, points, compression_);
+  create_fields(file, "CellData", snapshot.cell_fields, cells, compression_);
+  create_fields(file, "FieldData", snapshot.global_fields, 1, 0);
   file.create_group(steps + "/FieldDataSizes");
   for (const FieldArray& field : snapshot.global_fields) {
     file.create_table(steps + "/FieldDataSizes/" + field.name, {H5T_STD_I64LE, 2, step_chunk_rows});

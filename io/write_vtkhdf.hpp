@@ -62,8 +62,8 @@ class VtkhdfWriter {
   };
 
   void create_layout(Hdf5File& file, const Snapshot& snapshot, const Topology& topology) const;
-  void create_fields(Hdf5File& file, const std::string& group, const std::vector<FieldArray>& fields,
-                     std::int64_t rows) const;
+  static void create_fields(Hdf5File& file, const std::string& group, const std::vector<FieldArray>& fields,
+                            std::int64_t rows, int compression);
   void append_topology(Hdf5File& file, const Topology& topology, std::int64_t points, Progress& next);
   void append_fields(Hdf5File& file, const std::string& group, const std::vector<FieldArray>& fields,
                      std::int64_t rows, bool new_topology, std::vector<std::int64_t>& fixed_row,

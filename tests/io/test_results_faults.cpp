@@ -177,6 +177,28 @@ TEST(KilledWriterSlow, LeavesTheDumpsBeforeWhereverItDies) {
   }
 }
 
+/// A compressed chunk that is written again may move; so none is.
+TEST(KilledWriter, LeavesCompressedDumpsWhereverItDies) {
+  const Folder folder, backup;
+  constexpr int before = 3;
+  ResultWriter writer(folder.path(), "scene", {}, history_columns, 6);
+  for (int dump = 0; dump < before; ++dump) writer.write(test::mixed_snapshot(dump, 0));
+  Running::copy(folder.path(), backup.path());
+  int at = 0;
+  for (bool alive = false; !alive; ++at) {
+    Running::copy(backup.path(), folder.path());
+    alive = lives_through(Fault::kill, at, [&] { writer.write(test::mixed_snapshot(before, 0)); });
+    const Hdf5File file = Hdf5File::open_to_read(writer.vtkhdf());
+    for (std::int64_t dump = 0; dump < file.dimensions("/VTKHDF/Steps/Values").at(0); ++dump) {
+      const Snapshot expected = test::mixed_snapshot(static_cast<int>(dump), 0);
+      const auto row = file.read_integers("/VTKHDF/Steps/CellDataOffsets/stress", dump, 1).at(0);
+      ASSERT_EQ(file.read_rows("/VTKHDF/CellData/stress", row, 8), expected.cell_fields[0].values)
+          << "dump " << dump << ", killed at operation " << at;
+    }
+  }
+  EXPECT_GT(at, 20);
+}
+
 /// Until the first dump is there, the results of the run before stay as they are.
 TEST(KilledWriter, LeavesTheEarlierRunUntilItsOwnFirstDump) {
   Running run(2);

@@ -13,7 +13,7 @@ namespace {
 using Entry = std::uint64_t;
 
 constexpr int bits_per_axis = 10;
-constexpr double last_cell = (1 << bits_per_axis) - 1;
+constexpr int last_cell = (1 << bits_per_axis) - 1;
 constexpr std::uint32_t no_cell = std::uint32_t{1} << (3 * bits_per_axis);  // behind every cell
 constexpr std::size_t crowd = 32;             // positions in a cell that are worth a finer curve
 constexpr std::size_t smallest_slice = 8192;  // positions worth a task of their own
@@ -41,26 +41,25 @@ constexpr std::uint32_t spread(std::uint32_t x) {
   return (x | (x << 2)) & 0x09249249u;
 }
 
-/// The cubic cells of a curve that covers a box; infinite ends are cut to the largest numbers.
+/// The cubic cells of a curve that covers a box.
 struct Cells {
   double origin[3];
   double per_length = 0;
 
   explicit Cells(const CaptureBox& covered) {
-    constexpr double far = std::numeric_limits<double>::max() / 4;
     double extent = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      origin[axis] = std::clamp(covered.lower[axis], -far, far);
-      extent = std::max(extent, std::clamp(covered.upper[axis], -far, far) - origin[axis]);
+      origin[axis] = covered.lower[axis];
+      if (covered.upper[axis] > covered.lower[axis])
+        extent = std::max(extent, covered.upper[axis] - origin[axis]);
     }
     constexpr double smallest_extent = 4 * (last_cell + 1) * std::numeric_limits<double>::min();
     if (extent > smallest_extent) per_length = (last_cell + 1) / extent;
   }
 
   std::uint32_t cell(double coordinate, int axis) const {
-    const double reach = std::numeric_limits<double>::max() / 2;
-    const double offset = std::clamp(coordinate, -reach, reach) - origin[axis];
-    return static_cast<std::uint32_t>(std::clamp(offset * per_length, 0.0, last_cell));
+    return static_cast<std::uint32_t>(
+        std::min(static_cast<int>((coordinate - origin[axis]) * per_length), last_cell));
   }
   std::uint32_t key(const Vector3<double>& p) const {
     return spread(cell(p.x, 0)) | spread(cell(p.y, 1)) << 1 | spread(cell(p.z, 2)) << 2;
@@ -84,20 +83,6 @@ void radix_sort(Entry* entries, Entry* scratch, std::size_t count) {
 }
 
 }  // namespace
-
-Bounds::Bounds() {
-  for (int axis = 0; axis < 3; ++axis) {
-    lower[axis] = std::numeric_limits<double>::infinity();
-    upper[axis] = -std::numeric_limits<double>::infinity();
-  }
-}
-
-void Bounds::include(const CaptureBox& box) {
-  for (int axis = 0; axis < 3; ++axis) {
-    lower[axis] = std::isless(box.lower[axis], lower[axis]) ? box.lower[axis] : lower[axis];
-    upper[axis] = std::isgreater(box.upper[axis], upper[axis]) ? box.upper[axis] : upper[axis];
-  }
-}
 
 void lay_centres(const SearchNodes& boxes, const CaptureBox& within, ThreadTeam& team,
                  std::vector<Vector3<double>>& centres) {
@@ -126,7 +111,8 @@ void SpatialOrder::sort(std::span<const Vector3<double>> positions, ThreadTeam& 
   team.for_each(slices, [&](std::size_t s) {
     Bounds bounds;
     const std::size_t end = std::min(count, (s + 1) * smallest_slice);
-    for (std::size_t i = s * smallest_slice; i < end; ++i) bounds.include(at(positions[i]));
+    for (std::size_t i = s * smallest_slice; i < end; ++i)
+      if (is_number(positions[i])) bounds.include(at(positions[i]));
     slice_bounds_[s] = bounds;
   });
   Bounds bounds;

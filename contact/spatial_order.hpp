@@ -3,6 +3,7 @@
 /// neighbours in space.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -10,10 +11,18 @@
 
 namespace brio {
 
-/// Smallest box around what was included; contains nothing at first. What is not a number is passed over.
+/// Smallest box around the boxes included, whose faces are numbers; holds nothing at first.
 struct Bounds : CaptureBox {
-  Bounds();
-  void include(const CaptureBox& box);
+  Bounds() : CaptureBox{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}} {}
+  BRIO_INLINE void include(const CaptureBox& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = box.lower[axis] < lower[axis] ? box.lower[axis] : lower[axis];
+      upper[axis] = box.upper[axis] > upper[axis] ? box.upper[axis] : upper[axis];
+    }
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
 };
 
 /// Centres of what the boxes share with `within`: not a number where they share nothing, and of infinite
@@ -23,10 +32,10 @@ void lay_centres(const SearchNodes& boxes, const CaptureBox& within, ThreadTeam&
 
 class SpatialOrder {
  public:
-  /// Order the indices of `positions`, leaving out those with a coordinate that is not a number. Where the
-  /// curve's cells hold many positions they are ordered among themselves by a finer curve, so that a few
-  /// positions far away do not blur the order of the others. Positions of the same cell of the finest curve
-  /// stand in ascending order.
+  /// Order the indices of `positions`, which are finite (at most a quarter of the largest number), leaving
+  /// out those with a coordinate that is not a number. Where the curve's cells hold many positions they are
+  /// ordered among themselves by a finer curve, so that a few positions far away do not blur the order of the
+  /// others. Positions of the same cell of the finest curve stand in ascending order.
   void sort(std::span<const Vector3<double>> positions, ThreadTeam& team);
 
   std::size_t size() const { return size_; }

@@ -24,8 +24,8 @@ constexpr int tests_per_block = 6 * tree_width;
 constexpr unsigned first_bits(std::size_t count) { return count >= width ? 0xffffu : (1u << count) - 1u; }
 
 /// Which of sixteen boxes overlap `box`.
-unsigned overlap_bits_of_sixteen(const double (&lower)[3][tree_width], const double (&upper)[3][tree_width],
-                                 const BoxLanes& box) {
+BRIO_INLINE unsigned overlap_bits_of_sixteen(const double (&lower)[3][tree_width],
+                                             const double (&upper)[3][tree_width], const BoxLanes& box) {
   unsigned bits = 0;
   for (int half = 0; half < tree_width; half += bits_lanes) {
     const double* const from[3] = {lower[0] + half, lower[1] + half, lower[2] + half};

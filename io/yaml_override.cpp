@@ -63,14 +63,13 @@ NodePointer overridden(const NodePointer& node, const Override& change, std::siz
   return copy;
 }
 
-bool reads_back_plain(const std::string& text) {
-  if (text.empty() || text.front() == '-' || text == "null" || text == "Null" || text == "NULL" ||
-      text == "~") {
-    // A number may start with a minus sign; a lone one starts a list.
-    if (text.size() < 2 || text.find_first_not_of("-+.0123456789eE") != std::string::npos) return false;
-  }
-  return text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-") ==
-         std::string::npos;
+bool reads_back_plain(std::string_view text) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-";
+  if (text.empty() || text.find_first_not_of(letters) != std::string_view::npos) return false;
+  if (text == "null" || text == "Null" || text == "NULL") return false;
+  // A number may start with a minus sign; alone, or before another, it is a mark of YAML.
+  return text.front() != '-' ||
+         (text.size() > 1 && std::string_view(".0123456789").find(text[1]) != std::string_view::npos);
 }
 
 void write_scalar(const std::string& text, bool quoted, std::string& out) {
@@ -78,18 +77,18 @@ void write_scalar(const std::string& text, bool quoted, std::string& out) {
     out += text;
     return;
   }
+  constexpr std::string_view hexadecimal = "0123456789abcdef";
   out += '"';
   for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (c == '\n') {
-      out += "\\n";
-    } else if (c == '\t') {
-      out += "\\t";
-    } else if (c == '\r') {
-      out += "\\r";
-    } else {
-      out += c;
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) {
+      out += "\\x";
+      out += hexadecimal[byte >> 4];
+      out += hexadecimal[byte & 15];
+      continue;
     }
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
   }
   out += '"';
 }

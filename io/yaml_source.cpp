@@ -186,6 +186,18 @@ void check_is_text(const std::string& text, const TreeBuilder& builder) {
   }
 }
 
+/// \param line counted from 0
+bool starts_with_tab(const std::string& text, int line) {
+  std::size_t start = 0;
+  for (int i = 0; i < line && start != std::string::npos; ++i) {
+    start = text.find('\n', start);
+    if (start != std::string::npos) ++start;
+  }
+  if (start == std::string::npos) return false;
+  const std::size_t first = text.find_first_not_of(' ', start);
+  return first != std::string::npos && text[first] == '\t';
+}
+
 }  // namespace
 
 std::string to_string(const Place& place) {
@@ -249,7 +261,10 @@ std::shared_ptr<const YamlNode> parse_yaml(const std::string& text, const std::s
       throw DeckError(second.root() ? second.root()->place : Place{},
                       "a second document; a deck is one document");
   } catch (const YAML::Exception& fault) {
-    throw DeckError(builder.place_of(fault.mark), "not valid YAML: " + fault.msg);
+    std::string message = "not valid YAML: " + fault.msg;
+    if (starts_with_tab(text, fault.mark.line))
+      message += "; the line starts with a tab, spaces are accepted";
+    throw DeckError(builder.place_of(fault.mark), message);
   }
   return builder.root();
 }

@@ -1,5 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <clocale>
+#include <filesystem>
+#include <fstream>
+#include <locale>
+
+#include "io/closest_word.hpp"
 #include "io/read_deck.hpp"
 #include "tests/io/deck_text.hpp"
 
@@ -59,6 +65,197 @@ TEST(Deck, ConditionsAndLoadsKeepTheirKind) {
   EXPECT_TRUE(deck.contact->surfaces.empty());
   EXPECT_EQ(deck.contact->exclude, std::vector<std::string>{"left"});
   EXPECT_EQ(deck.contact->options.friction, 0.1);
+}
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = plain_deck;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+double density_of(const Deck& deck) { return density(deck.materials.at(0).second); }
+
+std::string fault_of(const std::string& text, const std::vector<std::string>& overrides) {
+  try {
+    parse_deck(text, "a.yaml", overrides);
+  } catch (const DeckError& fault) {
+    return fault.what();
+  }
+  return {};
+}
+
+TEST(Deck, NumbersAreWrittenInManyWays) {
+  const std::vector<std::pair<std::string, double>> numbers{{"30e6", 30e6}, {"1e-3", 1e-3},    {".5", 0.5},
+                                                            {"+1", 1},      {"5.", 5},         {"1E+2", 100},
+                                                            {"007", 7},     {"1e-310", 1e-310}};
+  for (const auto& [text, value] : numbers)
+    EXPECT_EQ(density_of(parse_deck(with("7.34e-4", text), "a.yaml")), value) << text;
+  const Deck deck = parse_deck(with("[2, 2, 4]", "[2.0, 2e0, +4]"), "a.yaml");
+  EXPECT_EQ(std::get<BoxMesh>(deck.parts[0].mesh).elements, (std::array<int, 3>{2, 2, 4}));
+}
+
+/// A locale in which one and a half is written 1,5 and a thousand 1.000.
+struct CommaPunctuation : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(Deck, MeansTheSameWhereNumbersHaveCommas) {
+  const std::locale before = std::locale::global(std::locale(std::locale(), new CommaPunctuation));
+  const std::string c_before = std::setlocale(LC_ALL, nullptr);
+  std::setlocale(LC_ALL, "de_DE.UTF-8");  // where it is installed
+  const Deck deck = parse_deck(plain_deck, "a.yaml", {"parts.left.mesh.box.elements=[1000, 2, 4]"});
+  const std::string fault = fault_of(with("[2, 2, 4]", "[2, 2.5, 4]"), {});
+  std::setlocale(LC_ALL, c_before.c_str());
+  std::locale::global(before);
+  EXPECT_EQ(density_of(deck), 7.34e-4);
+  EXPECT_NE(deck.text.find("elements: [1000, 2, 4]"), std::string::npos) << deck.text;
+  EXPECT_EQ(fault, "a.yaml:6:49: 'elements' is '2.5'; expected an integer >= 1");
+}
+
+TEST(Deck, AnchorsAndMergeKeysWork) {
+  const std::string text = R"(
+materials:
+  a: &steel {model: elastic, density: 1, youngs_modulus: 2, poissons_ratio: 0}
+  b: {<<: *steel, density: 3}
+  c: {density: 5, <<: [{density: 6, model: elastic}, *steel]}
+parts:
+  one: &one {mesh: {box: {size: &size [1, 1, 1], elements: [1, 1, 1]}}, element: hex8, material: a}
+  two:
+    <<: *one
+    mesh: {box: {size: *size, elements: [2, 2, 2]}}
+time: {end: 1}
+)";
+  const Deck deck = parse_deck(text, "a.yaml");
+  ASSERT_EQ(deck.materials.size(), 3U);
+  EXPECT_EQ(density(deck.materials[1].second), 3);
+  EXPECT_EQ(std::get<Elastic>(deck.materials[1].second).youngs_modulus, 2);
+  EXPECT_EQ(density(deck.materials[2].second), 5);
+  EXPECT_EQ(std::get<BoxMesh>(deck.parts[1].mesh).size, (Triple{1, 1, 1}));
+  EXPECT_EQ(std::get<BoxMesh>(deck.parts[1].mesh).elements[0], 2);
+  EXPECT_EQ(deck.parts[1].material, "a");
+  EXPECT_EQ(std::get<BoxMesh>(deck.parts[0].mesh).elements[0], 1);
+}
+
+TEST(Deck, LineEndsAndByteOrderMarkDoNotMatter) {
+  std::string text = plain_deck;
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2)
+    text.replace(at, 1, "\r\n");
+  EXPECT_EQ(parse_deck(text, "a.yaml").parts.size(), 2U);
+  EXPECT_EQ(parse_deck("\xEF\xBB\xBF" + std::string(plain_deck), "a.yaml").title, "Two boxes");
+  EXPECT_EQ(parse_deck(with("Two boxes", "Zwei Würfel \xE2\x9C\x93"), "a.yaml").title,
+            "Zwei Würfel \xE2\x9C\x93");
+}
+
+TEST(Deck, IsReadFromAPathWithSpaces) {
+  const auto folder = std::filesystem::temp_directory_path() / "brio deck test";
+  std::filesystem::create_directories(folder);
+  const std::string path = (folder / "a deck.yaml").string();
+  std::ofstream(path) << plain_deck;
+  EXPECT_EQ(read_deck(path).file, path);
+  std::ofstream(path) << with("hex8", "hexe");
+  try {
+    read_deck(path);
+    FAIL() << "not refused";
+  } catch (const DeckError& fault) {
+    EXPECT_EQ(std::string(fault.what()).find(path + ":7:14: "), 0U) << fault.what();
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Deck, ReadsManyPartsInProportionateTime) {
+  std::string text =
+      "materials: {m: {model: elastic, density: 1, youngs_modulus: 1, poissons_ratio: 0}}\nparts:\n";
+  const int count = 10000;
+  for (int i = 0; i < count; ++i)
+    text += "  p" + std::to_string(i) +
+            ": {mesh: {box: {size: [1, 1, 1], elements: [1, 1, 1]}}, element: hex8, material: m}\n";
+  text += "initial_conditions:\n";
+  for (int i = 0; i < count; ++i) text += "  - {part: p" + std::to_string(i) + ", velocity: [1, 0, 0]}\n";
+  text += "time: {end: 1}\n";
+  EXPECT_EQ(parse_deck(text, "a.yaml").parts.size(), static_cast<std::size_t>(count));
+}
+
+TEST(Override, ReplacesAnyValue) {
+  const Deck deck =
+      parse_deck(plain_deck, "a.yaml",
+                 {"time.end=1e-2", "parts.left.mesh.box.elements=[3, 3, 3]", "boundary_conditions.0.fix=[x]",
+                  "numerics.precision=float", "title=", "title='a: b'", "materials.steel.density=+.5"});
+  EXPECT_EQ(deck.time.end, 1e-2);
+  EXPECT_EQ(std::get<BoxMesh>(deck.parts[0].mesh).elements, (std::array<int, 3>{3, 3, 3}));
+  EXPECT_EQ(std::get<PrescribedMotion>(deck.boundary_conditions[0]).components.size(), 1U);
+  EXPECT_EQ(deck.numerics.precision, Precision::single_precision);
+  EXPECT_EQ(density_of(deck), 0.5);
+  EXPECT_EQ(deck.title, "a: b");
+}
+
+TEST(Override, LeavesWhatSharesAnAnchorAlone) {
+  const std::string text = R"(
+materials: {m: {model: elastic, density: 1, youngs_modulus: 2, poissons_ratio: 0}}
+parts:
+  one: &one {mesh: {box: {size: [1, 1, 1], elements: [1, 1, 1]}}, element: hex8, material: m}
+  two: *one
+time: {end: 1}
+)";
+  const Deck deck = parse_deck(text, "a.yaml", {"parts.two.mesh.box.size.1=7"});
+  EXPECT_EQ(std::get<BoxMesh>(deck.parts[0].mesh).size[1], 1);
+  EXPECT_EQ(std::get<BoxMesh>(deck.parts[1].mesh).size[1], 7);
+}
+
+TEST(Override, IsEchoedInTheTextOfTheDeck) {
+  const std::vector<std::string> overrides{"time.end=0.25", "title=\"a \\\"b\\\" \\\\ [c]: #d\\te\"",
+                                           "units.length=mm"};
+  const Deck deck = parse_deck(plain_deck, "a.yaml", overrides);
+  const Deck again = parse_deck(deck.text, "echo.yaml");
+  EXPECT_EQ(again.title, "a \"b\" \\ [c]: #d\te");
+  EXPECT_EQ(again.time.end, 0.25);
+  EXPECT_EQ(again.units.at(0).second, "mm");
+  EXPECT_EQ(again.parts.size(), deck.parts.size());
+  EXPECT_EQ(parse_deck(deck.text, "echo.yaml", overrides).text, deck.text)
+      << "writing what was written changes nothing";
+}
+
+TEST(Override, IsThePlaceOfItsFaults) {
+  EXPECT_EQ(fault_of(plain_deck, {"time.end=-1"}), "--set time.end=-1: 'end' is '-1'; expected a number > 0");
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {"time.ende=1", "unknown key 'ende'; did you mean 'end'?"},
+      {"tiem.end=1", "unknown key 'tiem'; did you mean 'time'?"},
+      {"time", "write KEY.PATH=VALUE"},
+      {"=1", "write KEY.PATH=VALUE"},
+      {"", "write KEY.PATH=VALUE"},
+      {"time..end=1", "a key of the path is empty"},
+      {".time=1", "a key of the path is empty"},
+      {"time.=1", "a key of the path is empty"},
+      {"time.end.now=1", "'now' cannot be set inside '3e-3'"},
+      {"boundary_conditions.3.fix=[x]", "'3' is not an entry of the list; it has 3, counted from 0"},
+      {"boundary_conditions.first.fix=[x]", "'first' is not an entry of the list"},
+      {"boundary_conditions.-1.fix=[x]", "'-1' is not an entry of the list"},
+      {"time.end=[1", "not valid YAML"},
+      {"time.end=\x01", "not a text file"},
+      {"parts.left.material=stahl", "no material is called 'stahl'"},
+      {"parts.third.material=steel", "'third' has no 'mesh'"},
+      {"contact={frictoin: 1}", "unknown key 'frictoin'"},
+      {"time={end: 1, end: 2}", "duplicate key 'end'"}};
+  for (const auto& [setting, message] : faults) {
+    const std::string fault = fault_of(plain_deck, {setting});
+    EXPECT_EQ(fault.find("--set " + setting + ": "), 0U) << fault;
+    EXPECT_NE(fault.find(message), std::string::npos) << fault;
+  }
+}
+
+TEST(ClosestWord, CountsInsertionsDeletionsReplacementsAndSwaps) {
+  EXPECT_EQ(edit_distance("density", "density"), 0);
+  EXPECT_EQ(edit_distance("", "abc"), 3);
+  EXPECT_EQ(edit_distance("densty", "density"), 1);
+  EXPECT_EQ(edit_distance("frictoin", "friction"), 1);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+  EXPECT_EQ(edit_distance("Density", "density"), 0);
+}
+
+TEST(ClosestWord, IsNotSaidWhereNothingResembles) {
+  EXPECT_EQ(closest_word("friktion", {"surfaces", "friction"}), "friction");
+  EXPECT_TRUE(closest_word("colour", {"surfaces", "friction"}).empty());
+  EXPECT_TRUE(closest_word("x", {"y", "z"}).empty());
 }
 
 }  // namespace

@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/read_deck.hpp"
+#include "io/write_schema.hpp"
+#include "tests/io/deck_text.hpp"
+
+namespace brio {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Schema, HoldsRangesAndDefaultsOfTheTables) {
+  const auto schema = nlohmann::json::parse(deck_schema());
+  const auto& time = schema.at("properties").at("time").at("properties");
+  EXPECT_EQ(time.at("end").at("exclusiveMinimum"), 0);
+  EXPECT_EQ(time.at("step_scale").at("maximum"), 1);
+  EXPECT_EQ(time.at("step_scale").at("default"), TimeSection{}.step_scale);
+  EXPECT_EQ(schema.at("additionalProperties"), false);
+  EXPECT_EQ(schema.at("definitions").at("material").at("oneOf").size(), std::variant_size_v<Material>);
+  EXPECT_EQ(schema.at("definitions").at("mesh").at("oneOf").size(), std::variant_size_v<MeshSource>);
+  EXPECT_EQ(schema.at("required"), (nlohmann::json{"materials", "parts", "time"}));
+}
+
+TEST(Schema, CommittedReferenceIsUpToDate) {
+  std::ifstream file(BRIO_SOURCE_DIR "/docs/deck.md");
+  std::istringstream reference(deck_reference());
+  std::string committed, expected;
+  while (std::getline(reference, expected)) {
+    std::getline(file, committed);
+    ASSERT_EQ(committed, expected) << "write it anew: brio schema --markdown > docs/deck.md";
+  }
+  EXPECT_FALSE(std::getline(file, committed)) << committed;
+}
+
+/// What validate_decks.py says of each deck, or nothing where Python lacks a package.
+std::map<std::string, std::string> verdicts(const std::vector<std::string>& decks) {
+  const fs::path schema =
+      fs::temp_directory_path() / ("brio_schema_" + std::to_string(std::rand()) + ".json");
+  std::ofstream(schema) << deck_schema();
+  std::string command = "python3 '" BRIO_SOURCE_DIR "/tests/io/validate_decks.py' '" + schema.string() + "'";
+  for (const std::string& deck : decks) command += " '" + deck + "'";
+  std::map<std::string, std::string> result;
+  if (std::FILE* pipe = popen(command.c_str(), "r")) {
+    std::string line(4096, '\0');
+    while (std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr) {
+      std::istringstream words(line.c_str());
+      std::string verdict, path;
+      words >> verdict;
+      std::getline(words >> std::ws, path);
+      if (verdict == "bad" || verdict == "good") result[path.substr(0, path.find(".yaml") + 5)] = verdict;
+    }
+    pclose(pipe);
+  }
+  fs::remove(schema);
+  return result;
+}
+
+TEST(Schema, AcceptsTheDecksThatComeWithBrio) {
+  std::vector<std::string> decks;
+  for (const auto& entry : fs::directory_iterator(BRIO_SOURCE_DIR "/inputs"))
+    if (entry.path().extension() == ".yaml" && entry.path().stem() != "can_buckling")
+      decks.push_back(entry.path().string());
+  const fs::path plain = fs::temp_directory_path() / "brio_plain_deck.yaml";
+  std::ofstream(plain) << plain_deck;
+  decks.push_back(plain.string());
+  const auto said = verdicts(decks);
+  fs::remove(plain);
+  if (said.empty()) {
+    GTEST_SKIP() << "python3 lacks jsonschema or yaml";
+  }
+  for (const std::string& deck : decks) EXPECT_EQ(said.at(deck), "good") << deck;
+}
+
+TEST(Schema, RefusesBadDecks) {
+  // Faults that a schema can see; names that do not exist and keys that stand twice are not among them.
+  std::vector<std::string> decks;
+  for (const char* name : {"a_list",           "a_word",          "empty",           "half_an_element",
+                           "incompressible",   "list_as_key",     "missing_key",     "missing_value",
+                           "negative_density", "second_document", "too_few_numbers", "two_meshes",
+                           "unclosed_bracket", "unknown_element", "unknown_key",     "unknown_mesh",
+                           "unknown_model",    "wrong_type",      "zero_interval",   "zero_size"})
+    decks.push_back(BRIO_SOURCE_DIR "/tests/io/bad_decks/" + std::string(name) + ".yaml");
+  const auto said = verdicts(decks);
+  if (said.empty()) {
+    GTEST_SKIP() << "python3 lacks jsonschema or yaml";
+  }
+  for (const std::string& deck : decks) EXPECT_EQ(said.at(deck), "bad") << deck;
+}
+
+TEST(Inputs, AreGoodDecks) {
+  for (const auto& entry : fs::directory_iterator(BRIO_SOURCE_DIR "/inputs")) {
+    if (entry.path().extension() != ".yaml" || entry.path().stem() == "can_buckling") continue;
+    EXPECT_NO_THROW(read_deck(entry.path().string())) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace brio

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/apart.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -204,7 +206,7 @@ struct Touch {
 
 // So many certificates are tried within the promised tolerance; each as many more double it. Only motion that
 // keeps within rounding of a turning edge for long needs more.
-constexpr int patience = 256;
+constexpr int patience = 1024;
 
 // First touch of a sub-triangle not later than `limit`: the time moves forward for as long as a direction
 // separates.
@@ -240,6 +242,17 @@ int side_before(const Cubic& cubic, double time) {
   return 0;
 }
 
+Vector3<double> components(const Vector3d& a) { return {a[0], a[1], a[2]}; }
+
+MovingPair<double> moving_pair(const MovingNode& node, const MovingFace& face) {
+  MovingPair<double> pair{{components(node.start)}, {components(node.displacement)}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    pair.start[k + 1] = components(face.start[k]);
+    pair.displacement[k + 1] = components(face.displacement[k]);
+  }
+  return pair;
+}
+
 }  // namespace
 
 double touch_tolerance(const MovingNode& node, const MovingFace& face, double reach) {
@@ -248,6 +261,7 @@ double touch_tolerance(const MovingNode& node, const MovingFace& face, double re
 
 std::optional<VelocityContact> velocity_check(const MovingNode& node, const MovingFace& face, double reach) {
   assert(reach >= 0);
+  if (surely_apart(moving_pair(node, face), reach)) return std::nullopt;
   const LocalPair pair = local_pair(node, face, reach);
   const bool single = is_triangle(face.start) && is_triangle(face.displacement);
   std::optional<VelocityContact> contact;

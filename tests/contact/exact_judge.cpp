@@ -204,12 +204,13 @@ std::optional<Number> first_contact(const std::array<Path, 3>& triangle) {
   return first;
 }
 
-// A filter with proven bounds, in extended precision (64 bits): true only if the exact volume of node and
-// triangle keeps one sign over the step, or the triangle stays on one side of a coordinate plane through the
-// node. Differences of doubles are formed in extended precision with error 2^-64 relative, so a component of
-// a vertex is wrong by at most 2^-64 x 8 m, m the largest component; a triple product sums 6 terms of 3
-// factors below m x 2 m x 2 m: error below 2^-64 x 6 x 4 m^3 x (3 x 8 + 12); 2^-64 x 2000 m^3 bounds it with
-// the combinations by thirds.
+// A filter with proven bounds, in extended precision (64 bits): true only if the step can be cut into
+// intervals in each of which the exact volume of node and triangle keeps one sign, or the triangle stays on
+// one side of a fixed plane through the node. With m the largest component of a relative position plus that
+// of its displacement, and u = 2^-64: a component at a time is wrong by less than 16 u m; along a direction d
+// by less than 32 u m |d|_1, for which 64 u m |d|_1 is taken; a triple product sums 6 terms of three factors
+// below m, each wrong by less than (3 x 16 + 4) u m^3, and the Bernstein coefficients add three of them: 4000
+// u m^3 bounds all.
 class ExtendedFilter {
  public:
   ExtendedFilter(const MovingNode& node, const MovingFace& face) {
@@ -217,46 +218,91 @@ class ExtendedFilter {
       for (int i = 0; i < 3; ++i) {
         const auto c = static_cast<std::size_t>(i);
         start_[k][c] = static_cast<long double>(face.start[k][i]) - node.start[i];
-        const long double displacement =
-            static_cast<long double>(face.displacement[k][i]) - node.displacement[i];
-        end_[k][c] = start_[k][c] + displacement;
-        largest_ = std::max(largest_, std::abs(start_[k][c]) + std::abs(displacement));
+        displacement_[k][c] = static_cast<long double>(face.displacement[k][i]) - node.displacement[i];
+        largest_ = std::max(largest_, std::abs(start_[k][c]) + std::abs(displacement_[k][c]));
       }
     }
     for (std::size_t c = 0; c < 3; ++c) {
       start_[4][c] = (start_[0][c] + start_[1][c] + start_[2][c] + start_[3][c]) / 4;
-      end_[4][c] = (end_[0][c] + end_[1][c] + end_[2][c] + end_[3][c]) / 4;
+      displacement_[4][c] =
+          (displacement_[0][c] + displacement_[1][c] + displacement_[2][c] + displacement_[3][c]) / 4;
     }
   }
 
-  bool apart(const std::array<std::size_t, 3>& corners) const {
-    const long double margin = 0x1p-60L * largest_;
-    for (std::size_t c = 0; c < 3; ++c) {
-      int above = 0;
-      int below = 0;
-      for (const std::size_t k : corners) {
-        above += start_[k][c] > margin && end_[k][c] > margin;
-        below += start_[k][c] < -margin && end_[k][c] < -margin;
-      }
-      if (above == 3 || below == 3) return true;
-    }
-    const auto [a, b, c] = corners;
-    const V &a0 = start_[a], &b0 = start_[b], &c0 = start_[c], &a1 = end_[a], &b1 = end_[b], &c1 = end_[c];
+  bool apart(const std::array<std::size_t, 3>& corners) const { return apart(corners, 0, 1, 5); }
+
+ private:
+  using V = std::array<long double, 3>;
+  using Corners = std::array<V, 3>;
+
+  bool apart(const std::array<std::size_t, 3>& corners, long double from, long double to, int cuts) const {
+    const Corners first = corners_at(corners, from);
+    const Corners last = corners_at(corners, to);
+    if (volume_keeps_sign(first, last) || beyond_a_plane(first, last)) return true;
+    if (cuts == 0) return false;
+    const long double middle = (from + to) / 2;
+    return apart(corners, from, middle, cuts - 1) && apart(corners, middle, to, cuts - 1);
+  }
+
+  Corners corners_at(const std::array<std::size_t, 3>& corners, long double time) const {
+    Corners result;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t c = 0; c < 3; ++c)
+        result[k][c] = start_[corners[k]][c] + time * displacement_[corners[k]][c];
+    return result;
+  }
+
+  bool volume_keeps_sign(const Corners& p, const Corners& q) const {
+    const auto& [a0, b0, c0] = p;
+    const auto& [a1, b1, c1] = q;
     const long double v[4] = {
         volume(a0, b0, c0), volume(a1, b0, c0) + volume(a0, b1, c0) + volume(a0, b0, c1),
         volume(a1, b1, c0) + volume(a1, b0, c1) + volume(a0, b1, c1), volume(a1, b1, c1)};
-    const long double error = 2000 * 0x1p-64L * largest_ * largest_ * largest_;
+    const long double error = 4000 * 0x1p-64L * largest_ * largest_ * largest_;
     return (v[0] > error && v[1] > error && v[2] > error && v[3] > error) ||
            (v[0] < -error && v[1] < -error && v[2] < -error && v[3] < -error);
   }
 
- private:
-  using V = std::array<long double, 3>;
+  // Planes at right angles to the axes, to the triangle's mean normal, and to both that normal and an edge.
+  bool beyond_a_plane(const Corners& p, const Corners& q) const {
+    static constexpr V axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (const V& axis : axes)
+      if (beyond(p, q, axis)) return true;
+    Corners mean;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t c = 0; c < 3; ++c) mean[k][c] = p[k][c] + q[k][c];
+    const V normal = product(difference(mean[1], mean[0]), difference(mean[2], mean[0]));
+    if (beyond(p, q, normal)) return true;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (beyond(p, q, product(difference(mean[(k + 1) % 3], mean[k]), normal))) return true;
+    return false;
+  }
+
+  bool beyond(const Corners& p, const Corners& q, const V& direction) const {
+    const long double margin =
+        64 * 0x1p-64L * largest_ * (std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]));
+    int above = 0;
+    int below = 0;
+    for (const Corners* corners : {&p, &q}) {
+      for (const V& corner : *corners) {
+        const long double height =
+            corner[0] * direction[0] + corner[1] * direction[1] + corner[2] * direction[2];
+        above += height > margin;
+        below += height < -margin;
+      }
+    }
+    return above == 6 || below == 6;
+  }
+
+  static V difference(const V& a, const V& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+  static V product(const V& a, const V& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
   static long double volume(const V& a, const V& b, const V& c) {
     return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
            a[2] * (b[0] * c[1] - b[1] * c[0]);
   }
-  std::array<V, 5> start_, end_;
+  std::array<V, 5> start_, displacement_;
   long double largest_ = 0;
 };
 

@@ -162,30 +162,49 @@ int variations(const Chain& chain, const Integer& numerator, unsigned exponent) 
   return count;
 }
 
-// Signs of the Bernstein coefficients on [0, 1]: how often they change, and whether the first and last are
-// not zero. No change: no root within; one change: one simple root (Descartes' rule).
-struct BernsteinSigns {
-  int changes = 0;
-  int first = 0;
-  int last = 0;
-};
+using Coefficients = std::array<Integer, Polynomial::most + 1>;
 
-BernsteinSigns bernstein_signs(const Polynomial& p) {
+// Bernstein coefficients on [0, 1] times 12.
+Coefficients bernstein(const Polynomial& p) {
   static constexpr int binomial[5][5] = {
       {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
-  BernsteinSigns signs;
-  int before = 0;
-  for (int i = 0; i <= p.degree; ++i) {
-    Integer b = 0;
-    for (int k = 0; k <= i; ++k) b += p[k] * (binomial[i][k] * 12 / binomial[p.degree][k]);
-    const int here = sgn(b);
-    if (i == 0) signs.first = here;
-    signs.last = here;
-    if (here == 0) continue;
-    if (before != 0 && here != before) ++signs.changes;
-    before = here;
+  Coefficients b;
+  for (int i = 0; i <= p.degree; ++i)
+    for (int k = 0; k <= i; ++k)
+      b[static_cast<std::size_t>(i)] += p[k] * (binomial[i][k] * 12 / binomial[p.degree][k]);
+  return b;
+}
+
+// Isolates roots by halving intervals until the Bernstein coefficients change sign at most once (Descartes'
+// rule: then there is no root, or one simple root). False where this does not end soon: a root at an end, or
+// multiple roots.
+bool isolated(const Polynomial& p, Coefficients b, const Integer& low, unsigned exponent,
+              std::vector<Number>& found) {
+  constexpr unsigned deepest = 8;
+  const auto last = static_cast<std::size_t>(p.degree);
+  const int sign_last = sgn(b[last]);
+  int before = sgn(b[0]);
+  if (before == 0 || sign_last == 0) return false;
+  int changes = 0;
+  for (std::size_t i = 1; i <= last; ++i) {
+    const int here = sgn(b[i]);
+    if (here != 0 && here != before) ++changes;
+    if (here != 0) before = here;
   }
-  return signs;
+  if (changes == 0) return true;
+  if (changes == 1) {
+    found.push_back(Number{false, p, low, low + 1, exponent, sign_last});
+    return true;
+  }
+  if (exponent == deepest) return false;
+  Coefficients left;  // de Casteljau at the middle, all times 2^degree
+  for (std::size_t i = 0; i <= last; ++i) {
+    mpz_mul_2exp(left[i].get_mpz_t(), b[0].get_mpz_t(), last - i);
+    for (std::size_t k = 0; k + i < last; ++k) b[k] += b[k + 1];
+  }
+  for (std::size_t i = 0; i <= last; ++i) mpz_mul_2exp(b[i].get_mpz_t(), b[i].get_mpz_t(), i);
+  return isolated(p, std::move(left), 2 * low, exponent + 1, found) &&
+         isolated(p, std::move(b), 2 * low + 1, exponent + 1, found);
 }
 
 struct Isolation {
@@ -278,11 +297,8 @@ void Number::refine() {
 
 std::vector<Number> roots(const Polynomial& given) {
   std::vector<Number> found;
-  const BernsteinSigns signs = bernstein_signs(given);
-  if (signs.first != 0 && signs.last != 0) {
-    if (signs.changes == 0) return found;
-    if (signs.changes == 1) return {Number{false, given, 0, 1, 0, signs.last}};
-  }
+  if (isolated(given, bernstein(given), 0, 0, found)) return found;
+  found.clear();
   const Polynomial p = squarefree(given);
   if (p.degree < 1) return found;
   if (p[0] == 0) found.push_back(number({0, 0}));

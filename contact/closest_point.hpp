@@ -45,7 +45,7 @@ struct ClosestPoint {
   double squared_distance;
   Feature feature;   // seams between sub-triangles belong to the interior
   int index;         // edge k joins face vertices k and k+1; vertex k; the sub-triangle in the interior
-  int sub_triangle;  // 0..3; 0 for a triangular face
+  int sub_triangle;  // 0..3, one of those that share the closest point; 0 for a triangular face
 };
 
 ClosestPoint closest_point_on_quad(const Eigen::Vector3d& node, const FaceVertices& vertices);

@@ -22,6 +22,7 @@ template <class T>
 struct HardeningPoint {
   T plastic_strain;  ///< equivalent plastic strain p, -
   T stress;          ///< yield stress at p
+  T slope;           ///< of the yield stress
 };
 
 /// yield_stress + modulus p
@@ -33,7 +34,7 @@ struct LinearHardening {
 
   template <class T>
   BRIO_INLINE HardeningPoint<T> at(T plastic_strain) const {
-    return {plastic_strain, T(yield_stress) + T(modulus) * plastic_strain};
+    return {plastic_strain, T(yield_stress) + T(modulus) * plastic_strain, T(modulus)};
   }
 
   template <class T>

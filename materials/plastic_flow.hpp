@@ -8,8 +8,6 @@
 /// law, and the effective stress is that of xi = dev(stress) - alpha. Prager's rule: d(alpha) = 2/3
 /// kinematic_modulus d(eps_p).
 
-#include <limits>
-
 #include "materials/elastic_constants.hpp"
 #include "materials/hardening.hpp"
 #include "materials/stress_state.hpp"
@@ -27,6 +25,10 @@ BRIO_INLINE void plastic_update(const Law& law, const SymmetricTensor<T>& strain
                                 SymmetricTensor<T>& stress, History& history) {
   const ElasticConstants elastic = law.elastic();
   const auto hardening = law.hardening();
+  // Here and not where it is needed, so that it leaves the loops over points: it depends on parameters alone.
+  const T stiffness(3 * elastic.shear() + law.kinematic_modulus());
+  const T kinematic_share(law.kinematic_modulus() / (3 * elastic.shear() + law.kinematic_modulus()));
+
   stress = stress + elastic.stress(strain_increment);
   SymmetricTensor<T> xi = deviator(stress);
   if constexpr (has_back_stress<History>) xi = xi - history.back_stress;
@@ -37,15 +39,14 @@ BRIO_INLINE void plastic_update(const Law& law, const SymmetricTensor<T>& strain
   const auto yields = squared > square(start.stress);
   if (!any(yields)) return;
   const T trial = where(yields, sqrt(squared), start.stress);
-  const double kinematic_modulus = law.kinematic_modulus();
-  const HardeningPoint<T> end = hardening.meet(start, trial, T(3 * elastic.shear() + kinematic_modulus));
+  const HardeningPoint<T> end = hardening.meet(start, trial, stiffness);
+  const T left = end.stress / trial;
   history.equivalent_plastic_strain = where(yields, end.plastic_strain, start.plastic_strain);
-  SymmetricTensor<T> returned = isotropic(trace(stress) * (1.0 / 3.0)) + (end.stress / trial) * xi;
+  SymmetricTensor<T> returned = isotropic(trace(stress) * (1.0 / 3.0)) + left * xi;
   if constexpr (has_back_stress<History>) {
     // The part of the trial stress that flow takes away, shared between elastic unloading and the back
     // stress.
-    const T share = kinematic_modulus / (3 * elastic.shear() + kinematic_modulus);
-    const SymmetricTensor<T> back_stress = history.back_stress + (share * (trial - end.stress) / trial) * xi;
+    const SymmetricTensor<T> back_stress = history.back_stress + (kinematic_share * (1.0 - left)) * xi;
     history.back_stress = where(yields, back_stress, history.back_stress);
     returned = returned + history.back_stress;
   }
@@ -58,78 +59,89 @@ BRIO_INLINE void plastic_update(const Law& law, const SymmetricTensor<T>& strain
 template <class T>
 struct PlaneStressReturn {
   T sum_squared, shear_squared,
-      transverse_squared;  ///< their shares of the square of the trial effective stress
-  T sum_rate, shear_rate, transverse_rate;
+      transverse_squared;                   ///< their shares of the square of the trial effective stress
+  T sum_rate, shear_rate, transverse_rate;  ///< over `unit`; r is taken times `unit`
+  T unit;                                   ///< a modulus
+  T plastic_unit;                           ///< 2/3 over unit: dp = plastic_unit r q
 
-  struct Point {
-    T sum_factor, shear_factor, transverse_factor;  ///< xi at r over trial xi
-    T effective_stress;                             ///< q(r)
-    T plastic_increment;                            ///< dp = 2/3 r q
-    T decline;                                      ///< -dq/dr
-    T stiffness;                                    ///< -dq/dp
+  /// xi at r over trial xi
+  struct Factors {
+    T sum, shear, transverse;
   };
-
-  BRIO_INLINE Point at(T r) const {
+  BRIO_INLINE Factors factors(T r) const {
     const T sum_base = 1.0 + sum_rate * r;
     const T shear_base = 1.0 + shear_rate * r;
     const T transverse_base = 1.0 + transverse_rate * r;
-    const T inverse = 1.0 / (sum_base * shear_base * transverse_base);
+    const T pair = shear_base * transverse_base;
+    const T inverse = 1.0 / (sum_base * pair);
+    return {pair * inverse, sum_base * transverse_base * inverse, sum_base * shear_base * inverse};
+  }
+  BRIO_INLINE T squared(const Factors& f) const {
+    return sum_squared * square(f.sum) + shear_squared * square(f.shear) +
+           transverse_squared * square(f.transverse);
+  }
+
+  /// The return at r: effective stress q, and what its slopes are made of.
+  struct Point {
+    T squared, effective_stress;  ///< q^2, q
+    T first, second;              ///< first = -q dq/dr; d(first)/dr = -3 second
+    T stiffness;                  ///< -dq/dp, p = 2/3 r q / unit
+  };
+  BRIO_INLINE Point at(const Factors& f) const {
+    const T sum_part = sum_squared * square(f.sum);
+    const T shear_part = shear_squared * square(f.shear);
+    const T transverse_part = transverse_squared * square(f.transverse);
+    const T sum_weight = sum_part * f.sum;
+    const T shear_weight = shear_part * f.shear;
+    const T transverse_weight = transverse_part * f.transverse;
+    const T sum_first = sum_rate * sum_weight;
+    const T shear_first = shear_rate * shear_weight;
+    const T transverse_first = transverse_rate * transverse_weight;
     Point point;
-    point.sum_factor = shear_base * transverse_base * inverse;
-    point.shear_factor = sum_base * transverse_base * inverse;
-    point.transverse_factor = sum_base * shear_base * inverse;
-    const T sum_part = sum_squared * square(point.sum_factor);
-    const T shear_part = shear_squared * square(point.shear_factor);
-    const T transverse_part = transverse_squared * square(point.transverse_factor);
-    point.effective_stress = sqrt(sum_part + shear_part + transverse_part);
-    point.plastic_increment = (2.0 / 3.0) * r * point.effective_stress;
-    const T sum_weight = sum_part * point.sum_factor;
-    const T shear_weight = shear_part * point.shear_factor;
-    const T transverse_weight = transverse_part * point.transverse_factor;
-    const T weighted =
-        sum_rate * sum_weight + shear_rate * shear_weight + transverse_rate * transverse_weight;
-    point.decline = weighted / point.effective_stress;
-    point.stiffness = 1.5 * weighted / (sum_weight + shear_weight + transverse_weight);
+    point.squared = sum_part + shear_part + transverse_part;
+    point.effective_stress = sqrt(point.squared);
+    point.first = sum_first + shear_first + transverse_first;
+    point.second = sum_rate * f.sum * sum_first + shear_rate * f.shear * shear_first +
+                   transverse_rate * f.transverse * transverse_first;
+    point.stiffness = 1.5 * unit * point.first / (sum_weight + shear_weight + transverse_weight);
     return point;
   }
 };
 
-/// Relative error at which a return has converged: a few units in the last place.
-template <class T>
-inline constexpr double return_tolerance = 32 * std::numeric_limits<RealOf<T>>::epsilon();
-/// No return needs more; the iterations converge quadratically (five at most in the tests' extremes).
-inline constexpr int most_return_iterations = 40;
-
 template <class T>
 struct PlaneStressEnd {
   HardeningPoint<T> hardening;
-  T multiplier;  ///< r
-  typename PlaneStressReturn<T>::Point point;
+  T multiplier;  ///< r times unit
 };
 
-/// r at which the effective stress has come down to the yield stress: Newton's method, on dp with the line
-/// that touches q(p), and on r with 1/q, which is nearly linear in r. q(p) is convex and falls, so that dp
-/// approaches from below. Lanes that start on the yield surface stay there with r = 0.
+/// No return needs more steps: they converge as the third power, in two or three where strain increments are
+/// small.
+inline constexpr int most_return_iterations = 40;
+
+/// r at which the effective stress has come down to the yield stress. The line that touches q(p), which is
+/// convex, gives the yield stress to come down to; r follows by Chebyshev's method on 1/q, which is nearly
+/// linear in r. Lanes that start on the yield surface stay there with r = 0.
 template <class T, class Hardening>
 BRIO_INLINE PlaneStressEnd<T> solve_plane_stress(const PlaneStressReturn<T>& flow, const Hardening& hardening,
                                                  const HardeningPoint<T>& start) {
-  constexpr double tolerance = return_tolerance<T>;
-  PlaneStressEnd<T> end{start, T(0.0), flow.at(T(0.0))};
+  // What is left after a relative change of this size is below round-off.
+  constexpr double small_change = sizeof(RealOf<T>) == 8 ? 1e-6 : 1e-3;
+  PlaneStressEnd<T> end{start, T(0.0)};
+  typename PlaneStressReturn<T>::Factors factors{T(1.0), T(1.0), T(1.0)};
   for (int iteration = 0; iteration < most_return_iterations; ++iteration) {
-    const auto& point = end.point;
-    const T ahead = (start.plastic_strain - end.hardening.plastic_strain) + point.plastic_increment;
+    const auto point = flow.at(factors);
+    const T ahead = (start.plastic_strain - end.hardening.plastic_strain) +
+                    flow.plastic_unit * end.multiplier * point.effective_stress;
     const T line = point.effective_stress + point.stiffness * ahead;
     end.hardening = hardening.meet(end.hardening, line, point.stiffness);
     const T stress = end.hardening.stress;
-    end.multiplier = max(end.multiplier + (point.effective_stress - stress) * point.effective_stress /
-                                              (stress * point.decline),
-                         0.0);
-    end.point = flow.at(end.multiplier);
-    const T gap = abs(end.point.effective_stress - stress);
-    const T behind = abs((start.plastic_strain - end.hardening.plastic_strain) + end.point.plastic_increment);
-    if (all((gap <= tolerance * stress) & ((behind * end.point.stiffness <= tolerance * stress) |
-                                           (behind <= tolerance * end.hardening.plastic_strain))))
-      break;
+    const T newton = (point.effective_stress - stress) * point.squared / (stress * point.first);
+    const T bend = 1.5 * newton * (point.second / point.first - point.first / point.squared);
+    const T multiplier = max(end.multiplier + newton * (1.0 + min(max(bend, -0.5), 1.0)), 0.0);
+    const T change = abs(multiplier - end.multiplier);
+    end.multiplier = multiplier;
+    if (all(change * flow.shear_rate <= small_change * (1.0 + flow.shear_rate * multiplier))) break;
+    factors = flow.factors(multiplier);
   }
   return end;
 }
@@ -155,6 +167,16 @@ BRIO_INLINE void plastic_update_plane_stress(const Law& law, const ShellTensor<T
                                              T& thickness_strain_increment) {
   const ElasticConstants elastic = law.elastic();
   const auto hardening = law.hardening();
+  // Here and not where it is needed, so that it leaves the loops over points: it depends on parameters alone.
+  const double unit = 2 * elastic.shear();
+  const T kinematic_rate(2.0 / 3.0 * law.kinematic_modulus() / unit);
+  PlaneStressReturn<T> flow;
+  flow.unit = T(unit);
+  flow.plastic_unit = T(2.0 / 3.0 / unit);
+  flow.sum_rate = T((1 + elastic.poissons_ratio) / (3 * (1 - elastic.poissons_ratio))) + kinematic_rate;
+  flow.shear_rate = 1.0 + kinematic_rate;
+  flow.transverse_rate = T(shear_factor) + kinematic_rate;
+
   const ShellTensor<T> elastic_increment = elastic.plane_stress(strain_increment, shear_factor);
   const ShellTensor<T> old_stress = stress;
   stress = stress + elastic_increment;
@@ -163,7 +185,6 @@ BRIO_INLINE void plastic_update_plane_stress(const Law& law, const ShellTensor<T
   const ShellTensor<T> xi = relative_stress(stress, history);
   const T sum = 0.5 * (xi.xx + xi.yy);
   const T difference = 0.5 * (xi.xx - xi.yy);
-  PlaneStressReturn<T> flow;
   flow.sum_squared = square(sum);
   flow.shear_squared = 3.0 * (square(difference) + square(xi.xy));
   flow.transverse_squared = 3.0 * (square(xi.yz) + square(xi.xz));
@@ -177,25 +198,21 @@ BRIO_INLINE void plastic_update_plane_stress(const Law& law, const ShellTensor<T
   flow.sum_squared = where(yields, flow.sum_squared, square(start.stress));
   flow.shear_squared = where(yields, flow.shear_squared, 0.0);
   flow.transverse_squared = where(yields, flow.transverse_squared, 0.0);
-  const double kinematic = 2.0 / 3.0 * law.kinematic_modulus();
-  const double shear = 2 * elastic.shear();
-  flow.sum_rate = T(elastic.youngs_modulus / (3 * (1 - elastic.poissons_ratio)) + kinematic);
-  flow.shear_rate = T(shear + kinematic);
-  flow.transverse_rate = T(shear_factor * shear + kinematic);
-
   const PlaneStressEnd<T> end = solve_plane_stress(flow, hardening, start);
-  const T onto_surface = end.hardening.stress / end.point.effective_stress;  // 1 to round-off
-  const T sum_left = end.point.sum_factor * onto_surface * sum;
-  const T difference_left = end.point.shear_factor * onto_surface * difference;
-  const T shear_left = end.point.shear_factor * onto_surface;
-  const T transverse_left = end.point.transverse_factor * onto_surface;
+  const auto factors = flow.factors(end.multiplier);
+  // The root of a ratio that is 1 to round-off.
+  const T onto_surface = 0.5 + 0.5 * square(end.hardening.stress) / flow.squared(factors);
+  const T sum_left = factors.sum * onto_surface * sum;
+  const T shear_left = factors.shear * onto_surface;
+  const T difference_left = shear_left * difference;
+  const T transverse_left = factors.transverse * onto_surface;
   const ShellTensor<T> left{sum_left + difference_left, sum_left - difference_left, shear_left * xi.xy,
                             transverse_left * xi.yz, transverse_left * xi.xz};
   history.equivalent_plastic_strain = where(yields, end.hardening.plastic_strain, start.plastic_strain);
   ShellTensor<T> returned = left;
   if constexpr (has_back_stress<History>) {
     // 2/3 kinematic_modulus r dev(xi)
-    const T growth = T(kinematic) * end.multiplier;
+    const T growth = kinematic_rate * end.multiplier;
     const SymmetricTensor<T> direction{(2.0 * left.xx - left.yy) * (1.0 / 3.0),
                                        (2.0 * left.yy - left.xx) * (1.0 / 3.0),
                                        (left.xx + left.yy) * (-1.0 / 3.0),
@@ -206,7 +223,8 @@ BRIO_INLINE void plastic_update_plane_stress(const Law& law, const ShellTensor<T
     returned = returned - relative_stress(ShellTensor<T>{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)}, history);
   }
   stress = where(yields, returned, stress);
-  const T thickness = elastic.thickness_strain(stress - old_stress) - (2.0 / 3.0) * end.multiplier * sum_left;
+  const T thickness =
+      elastic.thickness_strain(stress - old_stress) - flow.plastic_unit * end.multiplier * sum_left;
   thickness_strain_increment = where(yields, thickness, thickness_strain_increment);
 }
 

@@ -6,11 +6,11 @@
 ///
 ///     stiffness u + constant u^exponent = C,     u > 0, C > 0.
 ///
-/// The left side rises and is concave in u: Halley's method from a near point takes few steps, kept within a
-/// bracket. In log(u) the logarithm of the left side is convex with a slope between the exponent and 1: a
+/// The left side rises and is concave in u: Chebyshev's method from a near point takes few steps, kept within
+/// a bracket. In log(u) the logarithm of the left side is convex with a slope between the exponent and 1: a
 /// start from the smaller of the two asymptotes comes down on the root without fail, however steep the curve.
 
-#include <array>
+#include <cmath>
 #include <limits>
 
 #include "materials/hardening.hpp"
@@ -32,12 +32,19 @@ struct PowerHardening {
   template <class T>
   BRIO_INLINE HardeningPoint<T> at(T plastic_strain) const {
     const T beyond = max(plastic_strain - T(luders_strain), 0.0);
-    return {plastic_strain, T(yield_stress) + T(constant) * pow(beyond, exponent)};
+    const T rise = T(constant) * pow(beyond, exponent);
+    return {plastic_strain, T(yield_stress) + rise, T(exponent) * rise / max(beyond, least<T>)};
   }
 
   template <class T>
   BRIO_INLINE HardeningPoint<T> meet(HardeningPoint<T> near, T effective_stress, T stiffness) const {
     const T near_u = near.plastic_strain - T(luders_strain);
+    const T newton = (effective_stress - near.stress) / (stiffness + near.slope);
+    if (all(abs(newton) <= T(straight<T>) * near_u)) {
+      // The strain that is stored is rounded; the stress is that of the stored strain.
+      const T strain = near.plastic_strain + newton;
+      return {strain, near.stress + (strain - near.plastic_strain) * near.slope, near.slope};
+    }
     Crossing<T> crossing;
     crossing.stiffness = stiffness;
     crossing.base = max(near_u, 0.0);
@@ -45,19 +52,15 @@ struct PowerHardening {
     crossing.excess = (effective_stress - near.stress) + stiffness * min(near_u, 0.0);
     const T height = crossing.excess + stiffness * crossing.base + crossing.base_rise;  // C
     const auto hardens = height > T(0.0);
-    const T plateau = near.plastic_strain + (effective_stress - T(yield_stress)) / stiffness;
-    if (!any(hardens)) return {plateau, T(yield_stress)};
-
-    crossing.excess = where(hardens, crossing.excess, 0.0);
-    T step = first_guess(crossing, where(hardens, height, stiffness));
-    const Rise<T> rise = solve(crossing, step);
-    // The strain that is stored is rounded; the stress is that of the stored strain.
-    const T strain = where(near_u > T(0.0), near.plastic_strain, luders_strain) + step;
-    const T correction = max(strain - T(luders_strain), 0.0) - rise.u;
-    T stress = T(yield_stress) + rise.value +
-               correction * rise.slope * (1.0 + T(0.5 * (exponent - 1)) * correction * rise.inverse_u);
-    if (!all((abs(correction) <= near_enough<T> * rise.u) | !hardens)) stress = at(strain).stress;
-    return {where(hardens, strain, plateau), where(hardens, stress, yield_stress)};
+    if (!all(hardens)) {
+      const T plateau = near.plastic_strain + (effective_stress - T(yield_stress)) / stiffness;
+      if (!any(hardens)) return {plateau, T(yield_stress), T(0.0)};
+      crossing.excess = where(hardens, crossing.excess, 0.0);
+      const HardeningPoint<T> end = beyond_plateau(crossing, where(hardens, height, stiffness), near, near_u);
+      return {where(hardens, end.plastic_strain, plateau), where(hardens, end.stress, yield_stress),
+              where(hardens, end.slope, 0.0)};
+    }
+    return beyond_plateau(crossing, height, near, near_u);
   }
 
  private:
@@ -70,58 +73,70 @@ struct PowerHardening {
     T base_rise;  ///< constant base^exponent
     T excess;     ///< of the line over the curve at the base
   };
-  /// constant u^exponent and its first derivative at u.
+  /// constant u^exponent at u.
   template <class T>
   struct Rise {
-    T u, inverse_u, value, slope;
+    T u, value;
   };
 
   /// Relative distance in u over which the cubic remainder of a Taylor series is below round-off.
   template <class T>
   static constexpr double near_enough = sizeof(RealOf<T>) == 8 ? 4e-6 : 2e-3;
+  /// Relative distance in u over which the curve is straight to round-off.
+  template <class T>
+  static constexpr double straight = sizeof(RealOf<T>) == 8 ? 2e-7 : 5e-4;
   /// Plastic strain beyond the plateau that counts as none while a crossing is looked for: derivatives stay
   /// finite.
   template <class T>
   static constexpr double least = sizeof(RealOf<T>) == 8 ? 1e-200 : 1e-25;
   /// Distance, relative to the base, within which the binomial series gives the power to round-off.
   static constexpr double series_reach = 1.0 / 32;
-  static constexpr std::size_t series_terms = 10;
+  template <class T>
+  static constexpr int series_terms = sizeof(RealOf<T>) == 8 ? 10 : 5;
   static constexpr int most_iterations = 100;
 
-  template <class T>
-  BRIO_INLINE Rise<T> rise_at(T u, T value) const {
-    const T inverse_u = 1.0 / u;
-    return {u, inverse_u, value, T(exponent) * value * inverse_u};
-  }
-
-  /// (1 + x)^exponent for small x.
+  /// (1 + x)^exponent for small x: 1 + n x (1 + (n-1)/2 x (1 + (n-2)/3 x (...))).
   template <class T>
   BRIO_INLINE T binomial_series(T x) const {
-    std::array<double, series_terms> coefficient;
-    double product = 1;
-    for (std::size_t k = 0; k < series_terms; ++k) {
-      coefficient[k] = product;
-      product *= (exponent - static_cast<double>(k)) / static_cast<double>(k + 1);
+    T sum(1.0);
+#pragma GCC unroll 16
+    for (int k = series_terms<T> - 1; k >= 0; --k) {
+      const double share = 1.0 / (k + 1);
+      sum = 1.0 + (T(exponent * share - k * share) * x) * sum;
     }
-    T sum(coefficient[series_terms - 1]);
-    for (std::size_t k = series_terms - 1; k-- > 0;) sum = sum * x + T(coefficient[k]);
     return sum;
   }
 
-  /// Halley's step towards a rise larger by `missing`, at most twice Newton's.
   template <class T>
-  BRIO_INLINE T halley_step(T missing, T stiffness, const Rise<T>& rise) const {
-    const T inverse = 1.0 / (stiffness + rise.slope);
+  BRIO_INLINE HardeningPoint<T> beyond_plateau(const Crossing<T>& crossing, T height,
+                                               const HardeningPoint<T>& near, T near_u) const {
+    T step = first_guess(crossing, height);
+    const Rise<T> rise = solve(crossing, step);
+    const T strain = where(near_u > T(0.0), near.plastic_strain, luders_strain) + step;
+    const T inverse_u = 1.0 / rise.u;
+    const T correction = (max(strain - T(luders_strain), 0.0) - rise.u) * inverse_u;
+    const T bend = 1.0 + T(0.5 * (exponent - 1)) * correction;
+    const T stress = T(yield_stress) + rise.value * (1.0 + T(exponent) * correction * bend);
+    if (!all(abs(correction) <= T(near_enough<T>))) return at(strain);
+    return {strain, stress, T(exponent) * rise.value * inverse_u};
+  }
+
+  /// Chebyshev's step towards a rise larger by `missing`, relative to u: Newton's step and at most as much
+  /// again for the curvature.
+  template <class T>
+  BRIO_INLINE T relative_step(T missing, T stiffness, const Rise<T>& rise) const {
+    const T hardening_part = T(exponent) * rise.value;
+    const T inverse = 1.0 / (stiffness * rise.u + hardening_part);
     const T newton = missing * inverse;
-    const T bend = T(0.5 * (exponent - 1)) * rise.inverse_u * (rise.slope * inverse);
-    return newton / max(1.0 + newton * bend, 0.5);
+    return newton + newton * min(T(0.5 * (1 - exponent)) * (hardening_part * inverse) * newton, 1.0);
   }
 
   template <class T>
   BRIO_INLINE T first_guess(const Crossing<T>& crossing, T height) const {
-    const Rise<T> rise = rise_at(max(crossing.base, least<T>), crossing.base_rise);
-    const T step = halley_step(crossing.excess, crossing.stiffness, rise);
-    const auto leaves = step > 0.5 * crossing.base;
+    const Rise<T> rise{max(crossing.base, least<T>), crossing.base_rise};
+    const T relative = relative_step(crossing.excess, crossing.stiffness, rise);
+    const T step = relative * rise.u;
+    const auto leaves = relative > T(0.5);
     if (!(constant > 0) || !any(leaves)) return step;
     return where(leaves, max(exp(log_of_crossing(crossing.stiffness, height)) - crossing.base, 0.0), step);
   }
@@ -144,24 +159,22 @@ struct PowerHardening {
   /// Takes the step to the root, but for a change that a Taylor series from the rise returned covers.
   template <class T>
   BRIO_INLINE Rise<T> solve(const Crossing<T>& crossing, T& step) const {
-    const T whole = crossing.excess / crossing.stiffness;
-    T low = min(whole, 0.0);
-    T high = max(whole, 0.0);
-    step = min(max(step, low), high);
+    T low = -crossing.base;
+    T high(std::numeric_limits<RealOf<T>>::max());
     const T inverse_base = 1.0 / max(crossing.base, least<T>);
     Rise<T> rise;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       const T u = max(crossing.base + step, least<T>);
       const T relative = step * inverse_base;
       if (all(abs(relative) <= T(series_reach))) {
-        rise = rise_at(u, crossing.base_rise * binomial_series(relative));
+        rise = {u, crossing.base_rise * binomial_series(relative)};
       } else {
-        rise = rise_at(u, T(constant) * pow(u, exponent));
+        rise = {u, T(constant) * pow(u, exponent)};
       }
       const T missing = crossing.excess - crossing.stiffness * step - (rise.value - crossing.base_rise);
       low = where(missing > T(0.0), step, low);
       high = where(missing > T(0.0), high, step);
-      T next = step + halley_step(missing, crossing.stiffness, rise);
+      T next = step + u * relative_step(missing, crossing.stiffness, rise);
       next = where((next >= low) & (next <= high), next, 0.5 * (low + high));
       const T moved = abs(next - step);
       step = next;

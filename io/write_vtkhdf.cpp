@@ -36,6 +36,15 @@ hsize_t chunk_rows(std::int64_t rows_of_a_dump) {
   return std::clamp(static_cast<hsize_t>(rows_of_a_dump), smallest_chunk_rows, largest_chunk_rows);
 }
 
+/// PARENT/NAME
+string inside(const string& parent, const string& name) {
+  string path;
+  return path.append(parent).append("/").append(name);
+}
+
+/// Where the offsets of a group's fields stand.
+string offsets_group(const string& group) { return inside(steps, group).append("Offsets"); }
+
 std::int64_t append_number(Hdf5File& file, const string& table, std::int64_t value) {
   return file.append_rows(table, 1, H5T_NATIVE_INT64, &value);
 }
@@ -80,14 +89,14 @@ std::vector<std::int64_t> mixed_list(const Topology& topology) {
 
 void VtkhdfWriter::create_fields(Hdf5File& file, const string& group, const std::vector<FieldArray>& fields,
                                  std::int64_t rows, int compression) {
-  file.create_group(root + "/" + group);
-  file.create_group(steps + "/" + group + "Offsets");
+  file.create_group(inside(root, group));
+  file.create_group(offsets_group(group));
   for (const FieldArray& field : fields) {
     assert(!field.name.empty() && field.name.find('/') == string::npos && field.components > 0);
     const auto columns = static_cast<hsize_t>(field.components);
-    file.create_table(root + "/" + group + "/" + field.name,
+    file.create_table(inside(inside(root, group), field.name),
                       {file_type(field.storage), columns, chunk_rows(rows), compression});
-    file.create_table(steps + "/" + group + "Offsets/" + field.name, {H5T_STD_I64LE, 0, step_chunk_rows});
+    file.create_table(inside(offsets_group(group), field.name), {H5T_STD_I64LE, 0, step_chunk_rows});
   }
 }
 
@@ -101,17 +110,17 @@ void VtkhdfWriter::create_layout(Hdf5File& file, const Snapshot& snapshot, const
   file.create_group(steps);
   file.write_attribute(steps, "NSteps", 0);
   for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"}) {
-    file.create_table(root + "/" + name, {H5T_STD_I64LE, 0, step_chunk_rows});
+    file.create_table(inside(root, name), {H5T_STD_I64LE, 0, step_chunk_rows});
   }
   file.create_table(root + "/Points", {H5T_IEEE_F64LE, 3, chunk_rows(points), compression_});
   file.create_table(root + "/Connectivity", {H5T_STD_I64LE, 0, chunk_rows(corners)});
   file.create_table(root + "/Offsets", {H5T_STD_I64LE, 0, chunk_rows(cells + 1)});
   file.create_table(root + "/Types", {H5T_STD_U8LE, 0, chunk_rows(cells)});
   for (const char* name : {"PartOffsets", "NumberOfParts", "PointOffsets"}) {
-    file.create_table(steps + "/" + name, {H5T_STD_I64LE, 0, step_chunk_rows});
+    file.create_table(inside(steps, name), {H5T_STD_I64LE, 0, step_chunk_rows});
   }
   for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"}) {
-    file.create_table(steps + "/" + name, {H5T_STD_I64LE, 1, step_chunk_rows});
+    file.create_table(inside(steps, name), {H5T_STD_I64LE, 1, step_chunk_rows});
   }
   create_fields(file, "PointData", snapshot.point_fields, points, compression_);
   create_fields(file, "CellData", snapshot.cell_fields, cells, compression_);
@@ -173,9 +182,9 @@ void VtkhdfWriter::append_fields(Hdf5File& file, const string& group, const std:
   fixed_row.resize(fields.size());
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const FieldArray& field = fields[i];
-    const string table = root + "/" + group + "/" + field.name;
+    const string table = inside(inside(root, group), field.name);
     if (new_topology || !field.fixed_by_topology) fixed_row[i] = append_values(file, table, field, rows);
-    append_number(file, steps + "/" + group + "Offsets/" + field.name, fixed_row[i]);
+    append_number(file, inside(offsets_group(group), field.name), fixed_row[i]);
     stored.push_back(
         {field.name, table, field.storage, field.components, fixed_row[i], rows, fixed_row[i] + rows});
   }

@@ -56,7 +56,7 @@ const char* attribute_type(std::int64_t components) {
 
 }  // namespace
 
-XdmfWriter::XdmfWriter(std::string heavy_file) : heavy_file_(escaped(heavy_file)) {}
+XdmfWriter::XdmfWriter(const std::string& heavy_file) : heavy_file_(escaped(heavy_file)) {}
 
 std::string XdmfWriter::slab(const StoredArray& array) const {
   return fmt::format(

@@ -14,7 +14,7 @@ namespace brio {
 class XdmfWriter {
  public:
   /// \param heavy_file name of the VTKHDF file as seen from the folder of the XDMF file.
-  explicit XdmfWriter(std::string heavy_file);
+  explicit XdmfWriter(const std::string& heavy_file);
 
   void append(const StoredDump& dump);
 

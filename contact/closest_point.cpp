@@ -143,7 +143,7 @@ Vector3d unit_or(const Vector3d& area_vector, const Vector3d& otherwise) {
 }
 
 ClosestPoint closest_point_on_quad(const Vector3d& node, const FaceVertices& vertices) {
-  const Vector3d origin = vertices[0];
+  const Vector3d& origin = vertices[0];
   const Vector3d local_node = node - origin;
   FaceVertices local;
   for (std::size_t k = 0; k < 4; ++k) local[k] = vertices[k] - origin;

@@ -135,19 +135,18 @@ Direction without_turn(const Direction& direction) { return {direction.towards, 
 Direction separating_direction(const Sight& sight, Feature feature, int index) {
   const auto k = static_cast<std::size_t>(index);
   const std::size_t next = (k + 1) % 3;
-  const Direction none{Vector3d::Zero(), Vector3d::Zero()};
   if (feature == Feature::vertex) return {sight.vertices[k].normalized(), Vector3d::Zero()};
   const Vector3d edge = sight.vertices[next] - sight.vertices[k];
   const Vector3d edge_motion = sight.motions[next] - sight.motions[k];
   if (feature == Feature::edge) {
     const double length_squared = edge.squaredNorm();
-    if (!(length_squared > 0)) return none;
+    if (!(length_squared > 0)) return {Vector3d::Zero(), Vector3d::Zero()};
     const Vector3d& offset = sight.closest.offset;
     const Vector3d across = (offset - edge * (edge.dot(offset) / length_squared)).normalized();
     return {across, edge * (-across.dot(edge_motion) / length_squared)};
   }
   const double length = sight.closest.area_vector.norm();
-  if (!(length > 0)) return none;
+  if (!(length > 0)) return {Vector3d::Zero(), Vector3d::Zero()};
   const Vector3d other = sight.vertices[2] - sight.vertices[0];
   const Vector3d other_motion = sight.motions[2] - sight.motions[0];
   const double sign = sight.closest.area_vector.dot(sight.closest.offset) < 0 ? -1 : 1;
@@ -172,7 +171,7 @@ double separated_for(const Triangle& triangle, const Sight& sight, const Directi
   const double nearest = triangle.reach + direction_roundings * rounding;
   const double turn = direction.turning.norm();
   // Beyond half a right angle the direction is useless, and its length 1 + (turn elapsed)^2 / 2 too rough.
-  double elapsed = turn > 0 ? 1 / turn : std::numeric_limits<double>::infinity();
+  double elapsed = turn > 1 ? 1 / turn : std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
     const double c = direction.towards.dot(sight.vertices[k]) - nearest;
     const double b = direction.towards.dot(sight.motions[k]) + direction.turning.dot(sight.vertices[k]) -

@@ -86,7 +86,7 @@ struct PowerHardening {
   template <class T>
   static constexpr double straight = sizeof(RealOf<T>) == 8 ? 2e-7 : 5e-4;
   /// Plastic strain beyond the plateau that counts as none while a crossing is looked for: derivatives stay
-  /// finite.
+  /// finite. In single precision it is felt at first yield where the exponent is below about 0.1.
   template <class T>
   static constexpr double least = sizeof(RealOf<T>) == 8 ? 1e-200 : 1e-25;
   /// Distance, relative to the base, within which the binomial series gives the power to round-off.

@@ -174,7 +174,7 @@ BRIO_INLINE Lanes<Real> exp(Lanes<Real> x) {
   const Lanes<Real> limited = min(max(x, -F::exponent_limit), F::exponent_limit);
   const Lanes<Real> n = lane_math::nearest_integer(limited * log2_e);
   const Lanes<Real> value = lane_math::scaled_exp((limited - n * F::ln2_high) - n * F::ln2_low, n);
-  return where(x == x, value, x);
+  return where((x <= Lanes<Real>(0.0)) | (x > Lanes<Real>(0.0)), value, x);
 }
 
 /// x^y = 2^(y k) 2^(y log2(1 + f)): the product with the exponent k is split so that its whole part comes off

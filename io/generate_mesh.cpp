@@ -13,6 +13,7 @@ namespace {
 
 std::vector<ElementSide> every_shell(const Mesh& mesh) {
   std::vector<ElementSide> sides;
+  sides.reserve(mesh.element_count());
   for (int e = 0; e < static_cast<int>(mesh.element_count()); ++e) sides.push_back({e, 0});
   return sides;
 }
@@ -30,8 +31,8 @@ Mesh mesh_of(const BoxMesh& box) {
   // Above and below by the same number, whatever the rounding of the steps between.
   const std::size_t level = mesh.position.size() / static_cast<std::size_t>(nz + 1);
   for (std::size_t n = 0; n < mesh.position.size(); ++n) {
-    const double k = static_cast<double>(n / level);
-    mesh.position[n][2] = box.size[2] * (2 * k - nz) / (2.0 * nz);
+    const int k = static_cast<int>(n / level);
+    mesh.position[n][2] = box.size[2] * (2.0 * k - nz) / (2.0 * nz);
   }
   mesh.side_sets["zmin"] = mesh.side_sets["bottom"];
   mesh.side_sets["zmax"] = mesh.side_sets["top"];

@@ -47,6 +47,7 @@ Point2 core_point(double u, double v, double corner_radius, double bulge) {
 /// Grid places (i, j) of the outline of an m by m square, counter-clockwise from (0, 0).
 std::vector<std::array<int, 2>> outline_of_square(int m) {
   std::vector<std::array<int, 2>> outline;
+  outline.reserve(4 * static_cast<std::size_t>(m));
   for (int i = 0; i < m; ++i) outline.push_back({i, 0});
   for (int j = 0; j < m; ++j) outline.push_back({m, j});
   for (int i = m; i > 0; --i) outline.push_back({i, m});
@@ -192,13 +193,16 @@ Mesh pull_along_z(const Section& section, double start, double length, int layer
 }
 
 std::vector<int> nodes_of_sides(const Mesh& mesh, const std::vector<ElementSide>& sides) {
+  const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
   std::vector<int> nodes;
+  nodes.reserve(4 * sides.size());
   for (const auto& [element, side] : sides)
     for (int corner = 0; corner < 4; ++corner) {
       const int local = mesh.nodes_per_element == 4
                             ? corner
                             : sides_of_hex[static_cast<std::size_t>(side)][static_cast<std::size_t>(corner)];
-      nodes.push_back(mesh.connectivity[static_cast<std::size_t>(element * mesh.nodes_per_element + local)]);
+      nodes.push_back(
+          mesh.connectivity[static_cast<std::size_t>(element) * corners + static_cast<std::size_t>(local)]);
     }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

@@ -201,7 +201,7 @@ bool starts_with_tab(const std::string& text, int line) {
 }  // namespace
 
 std::string to_string(const Place& place) {
-  const std::string source = place.source ? *place.source : std::string("deck");
+  std::string source = place.source ? *place.source : std::string("deck");
   if (place.line == 0) return source;
   return source + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "elements/hex8.hpp"
+#include "elements/hex8_full.hpp"
 #include "elements/motion.hpp"
 #include "elements/shell4.hpp"
 #include "materials/material.hpp"
@@ -18,7 +19,7 @@
 namespace brio {
 
 /// The kinds that a deck can name.
-using Element = std::variant<Hex8, Shell4>;
+using Element = std::variant<Hex8, Hex8Full, Shell4>;
 
 inline int nodes_per_element(const Element& element) {
   return std::visit([](const auto& kind) { return kind.nodes; }, element);

@@ -13,14 +13,6 @@
 
 namespace brio {
 
-/// Rotation state of an element: none for Jaumann.
-template <class T, ObjectiveRate rate>
-struct RotationState {
-  StretchAndRotation<T> axes;
-};
-template <class T>
-struct RotationState<T, ObjectiveRate::jaumann> {};
-
 template <ObjectiveRate rate>
 struct Hex8Kernel : Hex8 {
   using Settings = Hex8;
@@ -36,19 +28,15 @@ struct Hex8Kernel : Hex8 {
     T internal_energy;
     T viscous_pressure;             ///< of the last step
     HourglassVectors<T> hourglass;  ///< elastic generalized forces, on the axes of the stress
-    [[no_unique_address]] RotationState<T, rate> rotation;
   };
   template <class T, class Law>
-  using Point = SolidPoint<T, Law>;
+  using Point = SolidPoint<T, Law, rate>;
 
   template <class T, class Law>
   NodalMass<T> initialize(const NodalMotion<T, 8>& motion, const Law& law, Header<T, Law>& header,
-                          Point<T, Law>*) const {
+                          Point<T, Law>* point) const {
     header.mass = T(law.density) * mean_gradient(modes(motion.position)).volume;
-    if constexpr (is_unrotated) {
-      header.rotation.axes.stretch = isotropic(T(1.0));
-      header.rotation.axes.rotation = {T(1.0), T(0.0), T(0.0), T(0.0)};
-    }
+    start(*point);
     return {header.mass * 0.125, T(0.0)};
   }
 
@@ -68,9 +56,9 @@ struct Hex8Kernel : Hex8 {
     const StepVolume<T> volume = step_volume(b.volume, determinant);
 
     HourglassVectors<T> q = hourglass_motion(x, v, half_step, half_l);
-    const MaterialAxes<T> axes = follow_rotation(header, *point, n, q);
+    MaterialAxes<T> axes;
     Increment<T> increment;
-    increment.internal_energy = volume.middle * update_stress(law, axes, header, *point);
+    increment.internal_energy = volume.middle * update(law, n, *point, axes);
     header.internal_energy += increment.internal_energy;
 
     const ElasticModuli<T> moduli = law.moduli(point->history);
@@ -88,12 +76,14 @@ struct Hex8Kernel : Hex8 {
     const T distortion = hourglass_distortion(x, g);
     const T stiffness =
         brio::hourglass_stiffness(hourglass_stiffness, moduli, volume.end, trace_g, distortion);
-    increment.hourglass_energy = stretch_hourglass(header.hourglass, stiffness, q);
-    SymmetricTensor<T> stress = point->stress;
     if constexpr (is_unrotated) {
-      stress = turned(axes.end, stress);
-      for (Vector3<T>& mode : q.mode) mode = turned(axes.end, mode);
+      for (Vector3<T>& mode : q.mode) mode = turned_back(axes.middle, mode);
+    } else {
+      for (Vector3<T>& mode : header.hourglass.mode) mode = turned(axes.end, mode);
     }
+    increment.hourglass_energy = stretch_hourglass(header.hourglass, stiffness, q);
+    if constexpr (is_unrotated)
+      for (Vector3<T>& mode : q.mode) mode = turned(axes.end, mode);
     T damping = viscosity.damping;
     if (hourglass_viscosity > 0) {
       const T resistance =
@@ -103,7 +93,7 @@ struct Hex8Kernel : Hex8 {
       increment.viscous_energy += step * power;
       damping += 8.0 * inverse_mass * resistance * largest_gamma(distortion);
     }
-    stress = stress - isotropic(viscosity.pressure);
+    const SymmetricTensor<T> stress = fixed_stress(*point, axes) - isotropic(viscosity.pressure);
     nodal_forces(x, b, stress, q, scaled_inverse_volume, forces);
     const T frequency_squared = max(spectrum.uniform, 64.0 * inverse_mass * stiffness) +
                                 (8.0 * hourglass_overlap) * inverse_mass * stiffness * distortion;
@@ -114,44 +104,9 @@ struct Hex8Kernel : Hex8 {
   template <class Law>
   ElementSample sample(const NodalMotion<double, 8>&, const Law&, const Header<double, Law>& header,
                        const Point<double, Law>* point) const {
-    ElementSample result{.stress = point->stress,
-                         .equivalent_plastic_strain = equivalent_plastic_strain_of(*point),
-                         .internal_energy = header.internal_energy};
-    if constexpr (is_unrotated)
-      result.stress = turned(rotation_matrix(header.rotation.axes.rotation, 2.0), point->stress);
-    return result;
-  }
-
- private:
-  /// Turns the state, and hourglass motion to the axes on which its forces are kept.
-  template <class T, class Law>
-  static BRIO_INLINE MaterialAxes<T> follow_rotation(Header<T, Law>& header, Point<T, Law>& point,
-                                                     const Tensor<T>& n, HourglassVectors<T>& motion) {
-    if constexpr (is_unrotated) {
-      const MaterialAxes<T> axes = advance(header.rotation.axes, n);
-      for (Vector3<T>& mode : motion.mode) mode = turned_back(axes.middle, mode);
-      return axes;
-    } else {
-      const MaterialAxes<T> axes = turn_with_spin(n);
-      point.stress = turned(axes.end, point.stress);
-      if constexpr (requires { point.history.back_stress; })
-        point.history.back_stress = turned(axes.end, point.history.back_stress);
-      for (Vector3<T>& mode : header.hourglass.mode) mode = turned(axes.end, mode);
-      return axes;
-    }
-  }
-
-  /// Stress at the end of the step; returns the work per volume of the middle.
-  template <class T, class Law>
-  static BRIO_INLINE T update_stress(const Law& law, const MaterialAxes<T>& axes, Header<T, Law>& header,
-                                     Point<T, Law>& point) {
-    const SymmetricTensor<T> old_stress = point.stress;
-    if constexpr (RateLaw<Law>) {
-      law.update(T(2.0) * axes.half_strain, point.stress, point.history);
-    } else {
-      law.update_from_stretch(header.rotation.axes.stretch, point.stress, point.history);
-    }
-    return contract(old_stress + point.stress, axes.half_strain);
+    return {.stress = fixed_stress(*point),
+            .equivalent_plastic_strain = equivalent_plastic_strain_of(*point),
+            .internal_energy = header.internal_energy};
   }
 };
 

@@ -24,17 +24,76 @@ concept StretchLaw = requires(const Law& law, const SymmetricTensor<double>& str
 template <class Law>
 inline constexpr bool is_solid_law = RateLaw<Law> || StretchLaw<Law>;
 
-/// State of one material point.
-template <class T, class Law>
+/// Rotation state of a material point: none for Jaumann.
+template <class T, ObjectiveRate rate>
+struct RotationState {
+  StretchAndRotation<T> axes;
+};
+template <class T>
+struct RotationState<T, ObjectiveRate::jaumann> {};
+
+/// State of one material point. Stress and history are on material axes (green_naghdi) or fixed ones
+/// (jaumann).
+template <class T, class Law, ObjectiveRate rate>
 struct SolidPoint {
-  SymmetricTensor<T> stress;  ///< on material axes (green_naghdi) or fixed axes (jaumann)
+  SymmetricTensor<T> stress;
   [[no_unique_address]] typename Law::template History<T> history;
+  [[no_unique_address]] RotationState<T, rate> rotation;
 };
 
-template <class T, class Law>
-double equivalent_plastic_strain_of(const SolidPoint<T, Law>& point) {
+template <class T, class Law, ObjectiveRate rate>
+BRIO_INLINE void start(SolidPoint<T, Law, rate>& point) {
+  if constexpr (rate == ObjectiveRate::green_naghdi) {
+    point.rotation.axes.stretch = isotropic(T(1.0));
+    point.rotation.axes.rotation = {T(1.0), T(0.0), T(0.0), T(0.0)};
+  }
+}
+
+/// Turns the axes of the point and updates its stress. \param n dt/2 times the velocity gradient of the
+/// middle of the step. \param axes out. \return work of the step per volume of its middle.
+template <class T, class Law, ObjectiveRate rate>
+BRIO_INLINE T update(const Law& law, const Tensor<T>& n, SolidPoint<T, Law, rate>& point,
+                     MaterialAxes<T>& axes) {
+  if constexpr (rate == ObjectiveRate::green_naghdi) {
+    axes = advance(point.rotation.axes, n);
+  } else {
+    axes = turn_with_spin(n);
+    point.stress = turned(axes.end, point.stress);
+    if constexpr (requires { point.history.back_stress; })
+      point.history.back_stress = turned(axes.end, point.history.back_stress);
+  }
+  const SymmetricTensor<T> old_stress = point.stress;
+  if constexpr (RateLaw<Law>) {
+    law.update(T(2.0) * axes.half_strain, point.stress, point.history);
+  } else {
+    law.update_from_stretch(point.rotation.axes.stretch, point.stress, point.history);
+  }
+  return contract(old_stress + point.stress, axes.half_strain);
+}
+
+/// Cauchy stress on fixed axes. \param axes of the end of the last step.
+template <class T, class Law, ObjectiveRate rate>
+BRIO_INLINE SymmetricTensor<T> fixed_stress(const SolidPoint<T, Law, rate>& point,
+                                            const MaterialAxes<T>& axes) {
+  if constexpr (rate == ObjectiveRate::green_naghdi) {
+    return turned(axes.end, point.stress);
+  } else {
+    return point.stress;
+  }
+}
+template <class Law, ObjectiveRate rate>
+SymmetricTensor<double> fixed_stress(const SolidPoint<double, Law, rate>& point) {
+  if constexpr (rate == ObjectiveRate::green_naghdi) {
+    return turned(rotation_matrix(point.rotation.axes.rotation, 2.0), point.stress);
+  } else {
+    return point.stress;
+  }
+}
+
+template <class Law, ObjectiveRate rate>
+double equivalent_plastic_strain_of(const SolidPoint<double, Law, rate>& point) {
   if constexpr (requires { point.history.equivalent_plastic_strain; }) {
-    return static_cast<double>(point.history.equivalent_plastic_strain);
+    return point.history.equivalent_plastic_strain;
   } else {
     return 0.0;
   }

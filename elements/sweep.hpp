@@ -282,5 +282,6 @@ void choose_kernel_of(Block& block) {
 // One translation unit an element kind holds the code of its kernels.
 void choose_kernel(const Hex8&, Block& block);
 void choose_kernel(const Shell4&, Block& block);
+void choose_kernel(const Hex8Full&, Block& block);
 
 }  // namespace brio

@@ -96,12 +96,12 @@ inline SymmetricTensor<double> tensor_of(const Eigen::Matrix3d& m) {
 }
 
 /// One element with plain doubles, moved from configuration to configuration.
-template <class Kernel, class Law, int points = 1>
+template <class Kernel, class Law>
 struct SingleElement {
   Kernel kernel;
   Law law;
   typename Kernel::template Header<double, Law> header{};
-  typename Kernel::template Point<double, Law> point[points]{};
+  typename Kernel::template Point<double, Law> point[Kernel::points()]{};
   Corners position;
   Corners force = Corners::Zero();
   Increment<double> increment{};

@@ -98,12 +98,17 @@ void sort_by_slave(Candidates& candidates, const Surface& surface, const Lists& 
 
 }  // namespace
 
+double influence_outside(const Surface& surface, const ContactOptions& options, const Candidates& candidates,
+                         int face) {
+  const auto f = static_cast<std::size_t>(face);
+  return 0.5 * options.shell_thickness_scale * surface.thickness[f] + band_share * candidates.edge[f];
+}
+
 double influence(const Surface& surface, const ContactOptions& options, const Candidates& candidates,
                  int face) {
   const auto f = static_cast<std::size_t>(face);
-  const double edge = candidates.edge[f];
-  return 0.5 * options.shell_thickness_scale * surface.thickness[f] +
-         (surface.face[f].shell ? band_share : std::max(band_share, candidates.depth_share)) * edge;
+  if (surface.face[f].shell) return influence_outside(surface, options, candidates, face);
+  return std::max(band_share, candidates.depth_share) * candidates.edge[f];
 }
 
 Spread velocity_spread(const Surface& surface, const Nodes& nodes) {

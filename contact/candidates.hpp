@@ -57,6 +57,10 @@ inline double touching_distance(const Surface& surface, const ContactOptions& op
 double influence(const Surface& surface, const ContactOptions& options, const Candidates& candidates,
                  int face);
 
+/// The same for nodes on its outside.
+double influence_outside(const Surface& surface, const ContactOptions& options, const Candidates& candidates,
+                         int face);
+
 /// Spread of velocities of the slave nodes.
 Spread velocity_spread(const Surface& surface, const Nodes& nodes);
 

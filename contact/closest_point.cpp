@@ -152,6 +152,7 @@ ClosestPoint closest_point_on_quad(const Vector3d& node, const FaceVertices& ver
   const Vector3d face_area = accurate_cross(local[2] - local[0], local[3] - local[1]);
 
   ClosestPoint closest;
+  Vector3d area_vector = face_area;
   closest.squared_distance = std::numeric_limits<double>::infinity();
   for (int k = 0; k < (triangle ? 1 : 4); ++k) {
     const auto first = static_cast<std::size_t>(k);
@@ -163,7 +164,7 @@ ClosestPoint closest_point_on_quad(const Vector3d& node, const FaceVertices& ver
     closest.squared_distance = foot.squared_distance;
     closest.separation = -foot.offset;
     closest.point = origin + (local_node + foot.offset);
-    closest.normal = unit_or(foot.area_vector, face_area);
+    area_vector = foot.area_vector;
     closest.sub_triangle = k;
     closest.feature = foot.feature;
     closest.index = foot.index;
@@ -180,6 +181,7 @@ ClosestPoint closest_point_on_quad(const Vector3d& node, const FaceVertices& ver
     const bool last = foot.feature == Feature::vertex && foot.index == 2;
     closest.index = last ? (k + 1) % 4 : k;
   }
+  closest.normal = unit_or(area_vector, face_area);
   return closest;
 }
 

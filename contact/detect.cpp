@@ -27,22 +27,54 @@ constexpr double touching_share = 1e-6;
 /// Directions are formed from positions only where these are farther apart than this share of an edge.
 constexpr double direction_share = 1e-8;
 
-CaptureBox swept_box(const Nodes& nodes, std::span<const int> points, const Vector3d& frame, double ahead,
-                     double growth) {
-  Vector3d lower = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d upper = -lower;
-  for (int node : points) {
-    const Vector3d x = position(nodes, node);
-    const Vector3d later = x + ahead * (velocity(nodes, node) - frame);
-    lower = lower.cwiseMin(x).cwiseMin(later);
-    upper = upper.cwiseMax(x).cwiseMax(later);
-  }
-  CaptureBox box{};
+struct Sweep {
+  Vector3d start, end;
+};
+
+Sweep sweep_of(const Nodes& nodes, int node, const Vector3d& frame, double ahead) {
+  const Vector3d x = position(nodes, node);
+  return {x, x + ahead * (velocity(nodes, node) - frame)};
+}
+
+void grow(CaptureBox& box, double by) {
   for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = lower[axis] - growth;
-    box.upper[axis] = upper[axis] + growth;
+    box.lower[axis] -= by;
+    box.upper[axis] += by;
   }
-  return box;
+}
+
+CaptureBox box_of(std::span<const Sweep> sweeps) {
+  Vector3d lower = sweeps[0].start.cwiseMin(sweeps[0].end);
+  Vector3d upper = sweeps[0].start.cwiseMax(sweeps[0].end);
+  for (const Sweep& sweep : sweeps.subspan(1)) {
+    lower = lower.cwiseMin(sweep.start).cwiseMin(sweep.end);
+    upper = upper.cwiseMax(sweep.start).cwiseMax(sweep.end);
+  }
+  return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
+}
+
+SweptFace swept_face(const Nodes& nodes, const Face& face, const Vector3d& frame, double ahead,
+                     double influence, double outside) {
+  std::array<Sweep, 4> sweeps;
+  for (std::size_t k = 0; k < 4; ++k) sweeps[k] = sweep_of(nodes, face.node[k], frame, ahead);
+  SweptFace swept{};
+  swept.box = box_of(sweeps);
+  grow(swept.box, influence);
+  const Vector3d area = (sweeps[2].start - sweeps[0].start).cross(sweeps[3].start - sweeps[1].start);
+  const double length = area.norm();
+  swept.normal = length > 0 ? Vector3d(area / length) : Vector3d::UnitX();
+  swept.lower = std::numeric_limits<double>::infinity();
+  swept.upper = -swept.lower;
+  for (const Sweep& sweep : sweeps)
+    for (const Vector3d& x : {sweep.start, sweep.end}) {
+      const double height = swept.normal.dot(x);
+      swept.lower = std::min(swept.lower, height);
+      swept.upper = std::max(swept.upper, height);
+    }
+  swept.lower -= influence;
+  swept.upper_outside = swept.upper + outside;
+  swept.upper += influence;
+  return swept;
 }
 
 bool apart(const CaptureBox& a, const CaptureBox& b) {
@@ -64,27 +96,49 @@ class NodeCheck {
     const auto s = static_cast<std::size_t>(slave);
     node_ = scene_.surface.node[s];
     solid_ = scene_.surface.of_solid[s] != 0;
-    gather(faces);
-    if (piece_.near.empty()) return;
-    find_history();
     normal_known_ = false;
     begin_ = piece_.contact.size();
-    for (std::size_t i = 0; i < piece_.near.size(); ++i) judge(i);
+    // Whoever seems to be inside a body is judged once more with all that is near in sight.
+    if (!judge_all(faces, false)) {
+      piece_.contact.resize(begin_);
+      judge_all(faces, true);
+    }
     if (scene_.options.velocity_check) check_motion();
   }
 
  private:
   // ---- what is near
 
-  void gather(std::span<const int> faces) {
+  // \returns false where the node seems to be inside a body but faces that might prove otherwise were left
+  // out.
+  bool judge_all(std::span<const int> faces, bool everything) {
+    gather(faces, everything);
+    if (piece_.near.empty()) return true;
+    find_history();
+    for (std::size_t i = 0; i < piece_.near.size(); ++i) {
+      judge(i);
+      if (piece_.near[i].inside && !everything) return false;
+    }
+    return true;
+  }
+
+  // Faces of closed bodies that the node is well outside of are left out, but where everything is asked for.
+  void gather(std::span<const int> faces, bool everything) {
     piece_.near.clear();
-    const std::array<int, 1> self{node_};
     const double radius =
         scene_.options.shell_thickness_scale * scene_.surface.radius[static_cast<std::size_t>(slave_)];
-    const CaptureBox own = swept_box(scene_.nodes, self, scene_.frame, approach_share * scene_.dt, radius);
-    const Vector3d x = position(scene_.nodes, node_);
+    const Sweep sweep = sweep_of(scene_.nodes, node_, scene_.frame, approach_share * scene_.dt);
+    const Vector3d& x = sweep.start;
+    CaptureBox own = box_of({&sweep, 1});
+    grow(own, radius);
     for (int f : faces) {
-      if (apart(own, scene_.face_box[static_cast<std::size_t>(f)])) continue;
+      const SweptFace& swept = scene_.swept[static_cast<std::size_t>(f)];
+      if (apart(own, swept.box)) continue;
+      const double from = swept.normal.dot(sweep.start);
+      const double to = swept.normal.dot(sweep.end);
+      if (std::min(from, to) - radius > (everything ? swept.upper : swept.upper_outside) ||
+          std::max(from, to) + radius < swept.lower)
+        continue;
       const ClosestPoint closest = closest_point_on_quad(x, vertices(scene_.nodes, face(f)));
       piece_.near.push_back({.face = f, .distance = std::sqrt(closest.squared_distance), .closest = closest});
     }
@@ -181,39 +235,47 @@ class NodeCheck {
       judge_solid(i);
   }
 
-  // Unit vector from the closest point to the node, towards the outside of `normal`.
-  Vector3d direction(const NearFace& near, const Vector3d& normal) const {
+  // Whether the node can reach the face within the time that constraints look ahead.
+  bool within_band(const NearFace& near) const {
+    const double beyond = near.distance - touching(near.face) - band_share * edge(near.face);
+    if (beyond <= 0) return true;
+    return beyond <= approach_share * scene_.dt * relative_velocity(near.face, near.closest.weights).norm();
+  }
+
+  // Unit vector that leads the node out of the body, from the closest point to the node if that is outside.
+  Vector3d way_out(const NearFace& near, bool outside) const {
     const ClosestPoint& closest = near.closest;
     const double along = closest.separation.dot(closest.normal);
-    const bool above_triangle = std::abs(along) >= (1 - 1e-12) * near.distance;
-    if (near.distance <= direction_share * edge(near.face) ||
-        (closest.feature == Feature::interior && above_triangle))
-      return closest.feature == Feature::interior ? closest.normal : normal;
-    return closest.separation / (closest.separation.dot(normal) < 0 ? -near.distance : near.distance);
+    const bool over_triangle =
+        closest.feature == Feature::interior && std::abs(along) >= (1 - 1e-12) * near.distance;
+    if (over_triangle) return closest.normal;
+    if (near.distance <= direction_share * edge(near.face))
+      return pseudo_normal(scene_.surface, scene_.nodes, near.face, closest);
+    return closest.separation / (outside ? near.distance : -near.distance);
   }
 
   void judge_solid(std::size_t i) {
     const std::size_t first = closest_of_body(i);
-    const NearFace& near = piece_.near[i];
-    const Vector3d normal = pseudo_normal(scene_.surface, scene_.nodes, near.face, near.closest);
-    const double distance = signed_gap(near.closest, normal);
-    const double tolerance = touching_share * edge(near.face);
-    if (first == i) piece_.near[i].inside = distance < -tolerance;
+    NearFace& near = piece_.near[i];
+    const bool self = face(near.face).body == scene_.surface.body[static_cast<std::size_t>(slave_)];
+    const bool overlap_matters = !history_.empty() || (!self && first == i);
+    if (!within_band(near) && !overlap_matters) return;
+    const bool outside = near.distance <= touching_share * edge(near.face) ||
+                         is_outside(scene_.surface, scene_.nodes, near.face, near.closest);
+    if (first == i) near.inside = !outside;
     if (repeated(i)) return;
-    const Vector3d push = direction(near, normal);
-    if (!faces_towards(push)) return;
-    if (distance < -tolerance) {
-      if (!piece_.near[first].inside || -distance > scene_.candidates.depth_share * edge(near.face)) return;
-      const bool tracked = was_tracked(near.face, push);
-      const bool self = face(near.face).body == scene_.surface.body[static_cast<std::size_t>(slave_)];
-      if (!tracked && (self || first != i)) return;
+    const Vector3d push = way_out(near, outside);
+    if (!outside) {
+      if (!piece_.near[first].inside || near.distance > scene_.candidates.depth_share * edge(near.face))
+        return;
+      if ((self || first != i) && !was_tracked(near.face, push)) return;
     }
-    add(near, push, distance - touching(near.face));
+    add(near, push, (outside ? near.distance : -near.distance) - touching(near.face));
   }
 
   void judge_shell(std::size_t i) {
-    if (repeated(i)) return;
     const NearFace& near = piece_.near[i];
+    if (!within_band(near) || repeated(i)) return;
     const double reach = touching(near.face);
     const Vector3d side = side_of(near);
     Vector3d push = side;
@@ -227,7 +289,6 @@ class NodeCheck {
         distance = -distance;
       }
     }
-    if (!faces_towards(push)) return;
     add(near, push, distance - reach);
   }
 
@@ -243,7 +304,7 @@ class NodeCheck {
   void add(const NearFace& near, const Vector3d& push, double gap) {
     const double approach = relative_velocity(near.face, near.closest.weights).dot(push);
     if (gap > band_share * edge(near.face) + approach_share * std::abs(approach) * scene_.dt) return;
-    append(near.face, near.closest.weights, push, gap);
+    if (faces_towards(push)) append(near.face, near.closest.weights, push, gap);
   }
 
   void append(int f, const std::array<double, 4>& weights, const Vector3d& push, double gap) {
@@ -340,16 +401,16 @@ void detect(Detection& detection, const Surface& surface, const Candidates& cand
             std::span<const Contact> last, ThreadTeam& team, std::vector<Contact>& contacts) {
   Vector3d frame;
   for (int axis = 0; axis < 3; ++axis) frame[axis] = 0.5 * (velocities.lower[axis] + velocities.upper[axis]);
-  detection.face_box.resize(surface.face.size());
+  detection.swept.resize(surface.face.size());
   team.for_ranges(candidates.face.size(), slaves_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const int f = candidates.face[i];
-      const auto index = static_cast<std::size_t>(f);
-      detection.face_box[index] = swept_box(nodes, surface.face[index].node, frame, approach_share * dt,
-                                            influence(surface, options, candidates, f));
+      const auto f = static_cast<std::size_t>(candidates.face[i]);
+      detection.swept[f] = swept_face(nodes, surface.face[f], frame, approach_share * dt,
+                                      influence(surface, options, candidates, candidates.face[i]),
+                                      influence_outside(surface, options, candidates, candidates.face[i]));
     }
   });
-  const Scenery scenery{surface, candidates, options, nodes, dt, frame, last, detection.face_box};
+  const Scenery scenery{surface, candidates, options, nodes, dt, frame, last, detection.swept};
   const std::size_t tasks = (surface.slaves() + slaves_per_task - 1) / slaves_per_task;
   detection.piece.resize(tasks);
   team.for_each(tasks, [&](std::size_t task) {

@@ -19,6 +19,16 @@
 
 namespace brio {
 
+/// The space that a face and what it influences sweep over within the step: a box, and a slab along the
+/// normal.
+struct SweptFace {
+  CaptureBox box;
+  Eigen::Vector3d normal;
+  double lower;
+  double upper;
+  double upper_outside;  ///< as far as nodes outside of a closed body matter
+};
+
 /// What the detailed check reads.
 struct Scenery {
   const Surface& surface;
@@ -26,9 +36,9 @@ struct Scenery {
   const ContactOptions& options;
   const Nodes& nodes;
   double dt;
-  Eigen::Vector3d frame;                 ///< velocity of the frame in which capture boxes move least
-  std::span<const Contact> last;         ///< contacts of the last step, by slave
-  std::span<const CaptureBox> face_box;  ///< swept over the step, of the faces that are candidates
+  Eigen::Vector3d frame;             ///< velocity of the frame in which capture boxes move least
+  std::span<const Contact> last;     ///< contacts of the last step, by slave
+  std::span<const SweptFace> swept;  ///< of the faces that are candidates
 };
 
 /// A face near one slave node.
@@ -46,7 +56,7 @@ struct DetectionPiece {
 };
 
 struct Detection {
-  std::vector<CaptureBox> face_box;
+  std::vector<SweptFace> swept;
   std::vector<DetectionPiece> piece;
 };
 

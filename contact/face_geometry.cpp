@@ -76,6 +76,29 @@ Vector3d pseudo_normal(const Surface& surface, const Nodes& nodes, int face, con
   return vertex_normal(surface, nodes, surface.slave(own.node[static_cast<std::size_t>(closest.index)]));
 }
 
+bool is_outside(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
+  if (closest.feature == Feature::vertex) {
+    const Face& own = surface.face[static_cast<std::size_t>(face)];
+    const int node = own.node[static_cast<std::size_t>(closest.index)];
+    bool above_some = false;
+    bool below_some = false;
+    for (int f : surface.faces_of.of(surface.slave(node))) {
+      const Face& around = surface.face[static_cast<std::size_t>(f)];
+      if (around.shell) continue;
+      const FaceVertices v = vertices(nodes, around);
+      const bool triangle = is_triangle(v);
+      for (int k = 0; k < (triangle ? 1 : 4); ++k) {
+        const bool touches = triangle || around.node[static_cast<std::size_t>(k)] == node ||
+                             around.node[static_cast<std::size_t>((k + 1) % 4)] == node;
+        if (!touches) continue;
+        (sub_triangle_area(v, k).dot(closest.separation) < 0 ? below_some : above_some) = true;
+      }
+    }
+    if (above_some != below_some) return above_some;
+  }
+  return closest.separation.dot(pseudo_normal(surface, nodes, face, closest)) >= 0;
+}
+
 double shortest_edge(const Nodes& nodes, const Face& face) {
   double shortest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < face.corners(); ++k) {

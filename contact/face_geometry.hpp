@@ -31,6 +31,10 @@ Eigen::Vector3d sub_triangle_area(const FaceVertices& vertices, int k);
 Eigen::Vector3d pseudo_normal(const Surface& surface, const Nodes& nodes, int face,
                               const ClosestPoint& closest);
 
+/// Whether the node is not inside the closed surface, as its pseudo-normal says at the closest point; the
+/// normals around a vertex are weighed only where they disagree.
+bool is_outside(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest);
+
 /// Angle-weighted normal of the hexahedron sides around a slave node.
 Eigen::Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave);
 

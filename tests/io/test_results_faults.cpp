@@ -102,7 +102,8 @@ int verified_rows(const std::filesystem::path& path) {
   const std::int64_t rows = file.dimensions("/history/values").at(0);
   const std::vector<double> values = file.read_rows("/history/values", 0, rows);
   for (std::int64_t row = 0; row < rows; ++row) {
-    const double dump = static_cast<double>(row / 3);
+    const std::int64_t batch = row / 3;
+    const auto dump = static_cast<double>(batch);
     const double part = static_cast<double>(row % 3);
     EXPECT_EQ(values[2 * static_cast<std::size_t>(row)], dump + part / 3.0);
     EXPECT_EQ(values[2 * static_cast<std::size_t>(row) + 1], 0.1 * part);

@@ -121,7 +121,7 @@ TEST(ResultInfo, TellsWhatIsInAResult) {
 
 TEST(ResultInfo, OfARunningJobHasNoEndState) {
   const Folder folder;
-  small_result(folder);
+  const ResultWriter writer = small_result(folder);
   const ResultInfo info = read_info(folder.path());
   EXPECT_EQ(info.status, "");
   EXPECT_EQ(info.history_rows, 0);
@@ -161,7 +161,7 @@ TEST(ResultInfo, OfARunBeforeItsFirstDumpSaysSo) {
 /// A damaged file is an error or a result, never a crash.
 TEST(ResultInfo, SurvivesDamagedFiles) {
   const Folder folder;
-  small_result(folder);
+  const ResultWriter writer = small_result(folder);
   std::ifstream stream(folder / "scene.vtkhdf", std::ios::binary);
   const std::string whole((std::istreambuf_iterator<char>(stream)), {});
   std::mt19937 random(7);

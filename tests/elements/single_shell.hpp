@@ -61,6 +61,27 @@ struct SingleShell {
   }
 };
 
+/// Tangent stiffness of an undeformed element: 12 translations, then 12 rotations; from forces of unit
+/// velocities over a step so short that the geometry does not change.
+inline Eigen::Matrix<double, 24, 24> stiffness_of(Shell4 shell, const Elastic& law, const Points4& x) {
+  shell.linear_bulk_viscosity = 0;  // viscous forces do not scale with the step
+  const SingleShell<> reference(shell, law, x);
+  constexpr double step = 1e-30;
+  Eigen::Matrix<double, 24, 24> stiffness;
+  for (int column = 0; column < 24; ++column) {
+    SingleShell<> element = reference;
+    Points4 v = SingleShell<>::none();
+    Points4 w = SingleShell<>::none();
+    (column < 12 ? v : w)[static_cast<std::size_t>(column % 12 / 3)][column % 3] = 1;
+    element.move(x, v, w, step);
+    for (int n = 0; n < 4; ++n) {
+      stiffness.block<3, 1>(3 * n, column) = element.force(n) / step;
+      stiffness.block<3, 1>(12 + 3 * n, column) = element.moment(n) / step;
+    }
+  }
+  return stiffness;
+}
+
 /// A quadrilateral of side about `side`: corners moved by up to `distortion` sides in the plane and `warp`
 /// sides out of it, then turned at random.
 inline Points4 random_quadrilateral(std::mt19937& random, double side, double aspect, double distortion,

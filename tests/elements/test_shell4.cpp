@@ -215,23 +215,8 @@ TEST(Shell4, BookedWorkMeetsTheNodesWorkToSecondOrderInTheStep) {
 }
 
 TEST(Shell4, EveryModeButRigidOnesAndDrillingIsResisted) {
-  Shell4 shell = plate(0.1);
-  shell.linear_bulk_viscosity = 0;  // a viscous force does not scale with the step
   const Points4 x = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1.2, 1, 0), Vector3d(0, 0.9, 0)};
-  const SingleShell<> reference(shell, steel(), x);
-  Eigen::Matrix<double, 24, 24> stiffness;
-  for (int column = 0; column < 24; ++column) {
-    SingleShell<> element = reference;
-    Points4 v = SingleShell<>::none();
-    Points4 w = SingleShell<>::none();
-    (column < 12 ? v : w)[static_cast<std::size_t>(column % 12 / 3)][column % 3] = 1;
-    element.move(x, v, w, 1e-30);
-    for (int n = 0; n < 4; ++n)
-      for (int i = 0; i < 3; ++i) {
-        stiffness(3 * n + i, column) = 1e30 * element.force(n)[i];
-        stiffness(12 + 3 * n + i, column) = 1e30 * element.moment(n)[i];
-      }
-  }
+  const Eigen::Matrix<double, 24, 24> stiffness = stiffness_of(plate(0.1), steel(), x);
   // 24 less six rigid motions, four drilling spins (the rigid spin about the normal among the motions moves
   // nodes without them), and the twist of rotations in the plane that no single-point element sees.
   Eigen::JacobiSVD<Eigen::Matrix<double, 24, 24>> svd(stiffness / stiffness.norm());

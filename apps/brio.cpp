@@ -1,5 +1,6 @@
 /// The command line.
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -33,11 +34,13 @@ int end_of_parsing(const CLI::App& program, const CLI::ParseError& end, int argu
 }  // namespace
 
 int main(int argument_count, char** arguments) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a file error like any other, not the end
   CLI::App program("Brio: explicit transient dynamics of solids and shells with contact", "brio");
   int exit_code = brio::exit_good;
   program.require_subcommand(1);
   brio::add_run_command(program, exit_code);
   brio::add_check_command(program, exit_code);
+  brio::add_info_command(program, exit_code);
   brio::add_schema_command(program, exit_code);
   for (CLI::App* command : program.get_subcommands({}))
     command->set_version_flag("--version", "brio " BRIO_VERSION);

@@ -14,6 +14,7 @@ inline constexpr int exit_file_failure = 4;       ///< what was written before s
 
 void add_run_command(CLI::App& program, int& exit_code);
 void add_check_command(CLI::App& program, int& exit_code);
+void add_info_command(CLI::App& program, int& exit_code);
 void add_schema_command(CLI::App& program, int& exit_code);
 
 }  // namespace brio

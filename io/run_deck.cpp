@@ -74,7 +74,7 @@ class Output {
                             : OutputSchedule::at(deck.output.fields_.times)),
         history_schedule_(OutputSchedule::every(deck.output.history.every.value_or(deck.time.end / 1000))) {}
 
-  void write_what_is_due(bool last) {
+  void write_what_is_due(bool last, ThreadTeam& team) {
     const bool row_due = history_schedule_.due(model_.times.time);
     const bool fields_due = field_schedule_.due(model_.times.time);
     if (!row_due && !fields_due && !last) return;
@@ -83,7 +83,10 @@ class Output {
       observe_history(model_, row_);
       history_.append(row_);
     }
-    if (fields_due || last) writer_.write(observer_.observe(model_));
+    if (fields_due || last) {
+      audit_contacts(model_, team);
+      writer_.write(observer_.observe(model_));
+    }
     if (fields_due || last || history_.full()) writer_.write(history_);
   }
 
@@ -107,12 +110,12 @@ std::string march(const Deck& deck, const RunOptions& options, Model& model, Out
     } catch (const Breakdown& breakdown) {
       state.status = "failed";
       state.exit_code = 3;
-      output.write_what_is_due(true);
+      output.write_what_is_due(true, team);
       return breakdown.what();
     }
     const int signal = options.stop != nullptr ? options.stop->load() : 0;
     const bool at_end = model.times.time >= deck.time.end;
-    output.write_what_is_due(at_end || signal != 0);
+    output.write_what_is_due(at_end || signal != 0, team);
     progress.report(model, at_end || signal != 0);
     if (at_end) return "";
     if (signal != 0) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "contact/audit.hpp"
 #include "src/motion.hpp"
 
 namespace brio {
@@ -184,6 +185,11 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   energy.kinetic = kinetic.now;
   energy.kinetic_half = kinetic.half;
   check_books(model, energy_error_limit);
+}
+
+void audit_contacts(Model& model, ThreadTeam& team) {
+  for (const ContactScene& scene : model.contacts)
+    if (scene.options.audit) model.missed_contacts += audit(scene, model.nodes, team).missed();
 }
 
 void update_positions(Model& model, ThreadTeam& team) {

@@ -12,6 +12,10 @@ namespace brio {
 /// energy error beyond `energy_error_limit`.
 void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team);
 
+/// Counts missed contacts at the present positions if a contact scene asks for its audit: what detection let
+/// through is found by other means. Costs like many steps; called where fields are written.
+void audit_contacts(Model& model, ThreadTeam& team);
+
 /// Second half: positions, and the time.
 void update_positions(Model& model, ThreadTeam& team);
 

@@ -53,6 +53,7 @@ struct Model {
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
   std::vector<ContactScene> contacts;            ///< one if the deck names contact, else none
+  std::int64_t missed_contacts = 0;              ///< counted by the audit, where the deck asks for it
   std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step
 
   EnergyBook energy;

@@ -216,7 +216,7 @@ Summary observe_end(Model& model) {
                        .candidate_pairs = static_cast<std::int64_t>(counts.candidate_pairs),
                        .active_max = scene.totals.most_contacts,
                        .penetration_max = scene.totals.deepest_overlap,
-                       .missed = 0};
+                       .missed = model.missed_contacts};
   }
   for (std::size_t stage = 0; stage < stage_names.size(); ++stage)
     summary.wall_s.by_stage[std::string(stage_names[stage])] = model.stages.seconds[stage];

@@ -1,0 +1,202 @@
+// The program as scripts use it: exit codes, messages with places, what a run leaves behind.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+
+namespace brio {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own for each test; its name has a space in it.
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("brio program " + std::to_string(getpid()) + " " +
+                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override {
+    fs::permissions(folder_, fs::perms::owner_all);
+    fs::remove_all(folder_);
+  }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+
+  struct Ending {
+    int exit_code;
+    std::string output, faults;
+  };
+  // Runs `brio ARGUMENTS` in the folder.
+  Ending brio(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = "cd '" + folder_.string() + "' && " + before + "'" BRIO_PROGRAM "' " +
+                                arguments + " > output.txt 2> faults.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("output.txt"), read("faults.txt")};
+  }
+  std::string read(const fs::path& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    return text.str();
+  }
+  nlohmann::json summary(const std::string& name) const {
+    return nlohmann::json::parse(read(fs::path(name + ".results") / (name + ".summary.json")));
+  }
+
+  fs::path folder_;
+};
+
+const std::string small_deck = R"(title: A cube that meets a wall
+materials:
+  rubber: {model: elastic, density: 1000, youngs_modulus: 1e9, poissons_ratio: 0.3}
+parts:
+  cube: {mesh: {box: {size: [1, 1, 1], elements: [4, 4, 4]}}, element: hex8, material: rubber}
+initial_conditions: [{part: cube, velocity: [0, 0, -10]}]
+boundary_conditions: [{rigid_wall: {point: [0, 0, -0.6], normal: [0, 0, 1]}}]
+time: {end: 0.03}
+)";
+
+TEST_F(Program, RunsADeckAndLeavesItsResults) {
+  write("cube.yaml", small_deck);
+  const Ending ending = brio("run cube.yaml");
+  EXPECT_EQ(ending.exit_code, 0) << ending.faults;
+  for (const char* file : {"cube.vtkhdf", "cube.xdmf2", "cube.history.csv", "cube.summary.json"})
+    EXPECT_TRUE(fs::exists(folder_ / "cube.results" / file)) << file;
+  const nlohmann::json end = summary("cube");
+  EXPECT_EQ(end["status"], "finished");
+  EXPECT_EQ(end["exit_code"], 0);
+  EXPECT_DOUBLE_EQ(end["time"].get<double>(), 0.03);
+  EXPECT_EQ(end["elements"]["hex8"], 64);
+  EXPECT_LT(std::abs(end["energy"]["error_relative"].get<double>()), 0.01);
+  EXPECT_NEAR(end["energy"]["total_start"].get<double>(), 0.5 * 1000 * 100, 1e-6);
+  const Ending info = brio("info cube.results");
+  EXPECT_EQ(info.exit_code, 0) << info.faults;
+  EXPECT_NE(info.output.find("A cube that meets a wall"), std::string::npos) << info.output;
+}
+
+TEST_F(Program, JsonPrintsTheSummaryAlone) {
+  write("cube.yaml", small_deck);
+  const Ending ending = brio("run cube.yaml --json --quiet --threads 1");
+  EXPECT_EQ(ending.exit_code, 0) << ending.faults;
+  EXPECT_EQ(nlohmann::json::parse(ending.output)["threads"], 1);
+}
+
+TEST_F(Program, CheckSaysWhatIsSwitchedOnAndWritesNothing) {
+  write("cube.yaml", small_deck);
+  const Ending ending = brio("check cube.yaml");
+  EXPECT_EQ(ending.exit_code, 0) << ending.faults;
+  EXPECT_NE(ending.output.find("switched on: elastic hex8 rigid_wall"), std::string::npos) << ending.output;
+  EXPECT_EQ(ending.output.find("contact"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "cube.results"));
+}
+
+TEST_F(Program, BadDecksEndWithTwoNameThePlaceAndLeaveNothing) {
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const std::vector<std::pair<std::string, std::string>> decks{
+      {with(small_deck, "density", "densitty"), "bad.yaml:3:28"},
+      {with(small_deck, "density: 1000", "density: -1"), "bad.yaml:3:"},
+      {with(small_deck, "density: 1000", "density: .nan"), "bad.yaml:3:"},
+      {with(small_deck, "poissons_ratio: 0.3", "poissons_ratio: 0.5"), "bad.yaml:3:"},
+      {with(small_deck, "material: rubber", "material: steel"), "bad.yaml:5:"},
+      {with(small_deck, "elements: [4, 4, 4]", "elements: many"), "bad.yaml:5:"},
+      {with(small_deck, "time: {end: 0.03}", ""), "bad.yaml:"},
+      {with(small_deck, "time: {end: 0.03}", "time: {end: 0.03, end: 1}"), "bad.yaml:8:"},
+      {"", "bad.yaml"},
+      {std::string("\x7f"
+                   "ELF\x00\x01\xff\xfe",
+                   8),
+       "bad.yaml"},
+  };
+  for (const auto& [text, place] : decks) {
+    write("bad.yaml", text);
+    for (const char* command : {"run", "check"}) {
+      const Ending ending = brio(std::string(command) + " bad.yaml");
+      EXPECT_EQ(ending.exit_code, 2) << text;
+      EXPECT_NE(ending.faults.find(place), std::string::npos) << ending.faults;
+      EXPECT_FALSE(fs::exists(folder_ / "bad.results"));
+    }
+  }
+}
+
+TEST_F(Program, BadCommandsEndWithTwo) {
+  write("cube.yaml", small_deck);
+  for (const char* arguments :
+       {"", "rum cube.yaml", "run", "run nothing.yaml", "run cube.yaml --threads 0",
+        "run cube.yaml --set time.ende=1", "run cube.yaml --set time.end=-1", "check"})
+    EXPECT_EQ(brio(arguments).exit_code, 2) << arguments;
+  EXPECT_NE(brio("rum cube.yaml").faults.find("run"), std::string::npos);
+}
+
+TEST_F(Program, OverridesAreCheckedLikeTheDeck) {
+  write("cube.yaml", small_deck);
+  EXPECT_EQ(brio("run cube.yaml --set time.end=1e-3 --set parts.cube.mesh.box.elements=[2,2,2]").exit_code,
+            0);
+  EXPECT_EQ(summary("cube")["elements"]["hex8"], 8);
+  EXPECT_EQ(summary("cube")["time"], 1e-3);
+}
+
+TEST_F(Program, NumericalFailureEndsWithThreeAndKeepsResults) {
+  write("cube.yaml", small_deck);
+  const Ending ending = brio("run cube.yaml --set time.step=1e-3");
+  EXPECT_EQ(ending.exit_code, 3);
+  EXPECT_NE(ending.faults.find("part 'cube'"), std::string::npos) << ending.faults;
+  EXPECT_EQ(summary("cube")["status"], "failed");
+  EXPECT_EQ(brio("info cube.results").exit_code, 0);
+}
+
+TEST_F(Program, UnwritableFolderEndsWithFour) {
+  write("cube.yaml", small_deck);
+  write("in the way", "");
+  EXPECT_EQ(brio("run cube.yaml --output 'in the way'").exit_code, 4);
+  EXPECT_EQ(brio("run cube.yaml --output /proc/brio").exit_code, 4);
+}
+
+TEST_F(Program, FileThatMayNotGrowEndsWithFourAndStaysReadable) {
+  write("cube.yaml", small_deck);
+  const Ending ending =
+      brio("run cube.yaml --set output.fields.every=1e-4 --set time.end=0.1", "ulimit -f 600; ");
+  EXPECT_EQ(ending.exit_code, 4) << ending.faults;
+  EXPECT_EQ(brio("info cube.results").exit_code, 0);
+}
+
+TEST_F(Program, TerminationClosesResultsFirst) {
+  write("cube.yaml", small_deck);
+  const fs::path here = fs::current_path();
+  const pid_t child = fork();
+  if (child == 0) {
+    fs::current_path(folder_);
+    execl(BRIO_PROGRAM, BRIO_PROGRAM, "run", "cube.yaml", "--quiet", "--set", "time.end=1e6", "--threads",
+          "1", nullptr);
+    _exit(99);
+  }
+  for (int i = 0; i < 200 && !fs::exists(folder_ / "cube.results" / "cube.vtkhdf"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  kill(child, SIGTERM);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 143);
+  EXPECT_EQ(summary("cube")["status"], "terminated");
+  EXPECT_EQ(brio("info cube.results").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace brio

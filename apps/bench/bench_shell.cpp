@@ -146,6 +146,7 @@ void measure(const Settings& settings, double speed, const Shell4& shell, const 
   ThreadTeam team(threads);
   seconds_per_step(scene, team);
   std::vector<double> seconds;
+  seconds.reserve(static_cast<std::size_t>(settings.repeats));
   for (int repeat = 0; repeat < settings.repeats; ++repeat) seconds.push_back(seconds_per_step(scene, team));
   std::sort(seconds.begin(), seconds.end());
   const double million = static_cast<double>(scene.blocks[0].element_count) * 1e-6;

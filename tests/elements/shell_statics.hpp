@@ -39,7 +39,7 @@ class ShellStatics {
       const Eigen::Matrix<double, 24, 24> k = stiffness_of(shell, law, x);
       const double bending = k.diagonal().tail<12>().mean();
       const auto place = [&](int c) {
-        return 6 * nodes[static_cast<std::size_t>(c % 12 / 3)] + c % 3 + (c < 12 ? 0 : 3);
+        return 6 * nodes[static_cast<std::size_t>(c) % 12 / 3] + c % 3 + (c < 12 ? 0 : 3);
       };
       for (int a = 0; a < 24; ++a) {
         for (int b = 0; b < 24; ++b) entries_.emplace_back(place(a), place(b), k(a, b));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace brio {
 
@@ -135,10 +136,19 @@ TrianglePoint closest_point_on_triangle(const Vector3d& node, const std::array<V
   return best;
 }
 
+double safe_length(const Vector3d& vector) {
+  const double squared = vector.squaredNorm();
+  if (squared > 0x1p-900 && squared < 0x1p900) return std::sqrt(squared);
+  const double largest = vector.lpNorm<Eigen::Infinity>();
+  return largest > 0 && largest < std::numeric_limits<double>::infinity()
+             ? largest * (vector / largest).norm()
+             : largest;
+}
+
 Vector3d unit_or(const Vector3d& area_vector, const Vector3d& otherwise) {
-  const double length = area_vector.stableNorm();
+  const double length = safe_length(area_vector);
   if (length > 0) return area_vector / length;
-  const double other_length = otherwise.stableNorm();
+  const double other_length = safe_length(otherwise);
   return other_length > 0 ? Vector3d(otherwise / other_length) : Vector3d::Zero();
 }
 

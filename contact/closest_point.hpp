@@ -61,6 +61,10 @@ double signed_gap(const ClosestPoint& closest, const Eigen::Vector3d& normal);
 /// plane.
 double normal_gap(const ClosestPoint& closest);
 
+/// Length without overflow or underflow of squares. Eigen's stableNorm sums in an order that depends on the
+/// address of the vector: its last bit differs from run to run.
+double safe_length(const Eigen::Vector3d& vector);
+
 /// Unit vector along `area_vector`, or along `otherwise` if that has no length, or zero if neither has.
 Eigen::Vector3d unit_or(const Eigen::Vector3d& area_vector, const Eigen::Vector3d& otherwise);
 

@@ -10,6 +10,8 @@ using Eigen::Vector3d;
 
 namespace {
 
+Vector3d unit(const Vector3d& vector) { return unit_or(vector, Vector3d::Zero()); }
+
 double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 Vector3d centroid(const FaceVertices& v) {
@@ -21,13 +23,13 @@ Vector3d corner_share(const FaceVertices& v, std::size_t corner) {
   if (is_triangle(v)) {
     const Vector3d to_next = v[(corner + 1) % 3] - v[corner];
     const Vector3d to_last = v[(corner + 2) % 3] - v[corner];
-    return angle_between(to_next, to_last) * to_next.cross(to_last).stableNormalized();
+    return angle_between(to_next, to_last) * unit(to_next.cross(to_last));
   }
   const Vector3d to_middle = centroid(v) - v[corner];
   const Vector3d to_next = v[(corner + 1) % 4] - v[corner];
   const Vector3d to_last = v[(corner + 3) % 4] - v[corner];
-  return angle_between(to_next, to_middle) * to_next.cross(to_middle).stableNormalized() +
-         angle_between(to_middle, to_last) * to_middle.cross(to_last).stableNormalized();
+  return angle_between(to_next, to_middle) * unit(to_next.cross(to_middle)) +
+         angle_between(to_middle, to_last) * unit(to_middle.cross(to_last));
 }
 
 Vector3d edge_normal(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
@@ -42,8 +44,7 @@ Vector3d edge_normal(const Surface& surface, const Nodes& nodes, int face, const
     const int a = across.node[static_cast<std::size_t>(j)];
     const int b = across.node[static_cast<std::size_t>((j + 1) % across.corners())];
     if (a == to && b == from)
-      return unit_or(closest.normal + sub_triangle_area(vertices(nodes, across), j).stableNormalized(),
-                     closest.normal);
+      return unit_or(closest.normal + unit(sub_triangle_area(vertices(nodes, across), j)), closest.normal);
   }
   return closest.normal;
 }

@@ -25,7 +25,7 @@ TEST(Impact, NodeOnFaceReceivesTheExactImpulse) {
   for (int n = block + 4; n < block + 8; ++n) EXPECT_EQ(model.v(n)[2], -3);
 }
 
-TEST(Impact, TwoEqualBlocksExchangeTheirVelocities) {
+TEST(ImpactSlow, TwoEqualBlocksExchangeTheirVelocities) {
   for (const bool lower_first : {true, false}) {
     SpringModel model;
     model.stiffness = 1e4;

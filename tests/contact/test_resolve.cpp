@@ -157,7 +157,7 @@ struct Slide {
   Vector3d speed() const { return model.mean_velocity(block, model.count()); }
 };
 
-TEST(Friction, BlockStopsWhereCoulombSays) {
+TEST(FrictionSlow, BlockStopsWhereCoulombSays) {
   Slide slide(0.3, 6);
   slide.model.damping = 0;
   for (int i = 0; i < 24000; ++i) slide.model.step(1e-4);
@@ -167,7 +167,7 @@ TEST(Friction, BlockStopsWhereCoulombSays) {
   EXPECT_NEAR(slide.travelled(), there, 1e-3);
 }
 
-TEST(Friction, FrictionlessBlockKeepsItsSpeedOverSeams) {
+TEST(FrictionSlow, FrictionlessBlockKeepsItsSpeedOverSeams) {
   Slide slide(0, 6);
   for (int i = 0; i < 24000; ++i) slide.model.step(1e-4);
   EXPECT_GT(slide.travelled(), 14);
@@ -175,7 +175,7 @@ TEST(Friction, FrictionlessBlockKeepsItsSpeedOverSeams) {
   EXPECT_NEAR(slide.speed()[1], 0, 1e-3 * 6);
 }
 
-TEST(Friction, DampedStackRestsWithoutDrift) {
+TEST(FrictionSlow, DampedStackRestsWithoutDrift) {
   SpringModel model;
   model.add_box({2, 2, 1}, {3, 3, 1}, 1, shifted({-1, -1, -1}));
   const int floor_end = model.count();

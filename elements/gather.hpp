@@ -1,6 +1,10 @@
 #pragma once
 /// Rows of nodal records to lanes and back: whole rows are loaded and transposed in registers, which beats
 /// hardware gathers. `node` lists one node a lane.
+///
+/// Every loop here is unrolled by order: where GCC 12 keeps such arrays of registers on the stack, at -O2 it
+/// has been seen to let two of them that are in use share a place (held by the tests of the sweep;
+/// -fstack-reuse=none cures it too).
 
 #include "src/base/lanes.hpp"
 #include "src/base/nodes.hpp"
@@ -22,6 +26,7 @@ BRIO_INLINE void store_row(double* row, Row4 r) {
 /// First three entries of eight rows: x, y, z with one row a lane.
 BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z) {
   Row8 pair[4];
+#pragma GCC unroll 8
   for (int k = 0; k < 4; ++k) pair[k] = __builtin_shufflevector(rows[k], rows[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
   const Row8 xz01 = __builtin_shufflevector(pair[0], pair[1], 0, 8, 2, 10, 4, 12, 6, 14);
   const Row8 xz23 = __builtin_shufflevector(pair[2], pair[3], 0, 8, 2, 10, 4, 12, 6, 14);
@@ -54,14 +59,27 @@ template <Floating Real>
 struct WideVector {
   static constexpr int groups = lane_count<Real> / 8;
   Row8 x[groups], y[groups], z[groups];
+
+  friend BRIO_INLINE WideVector operator-(const WideVector& a, const WideVector& b) {
+    WideVector c;
+#pragma GCC unroll 8
+    for (int group = 0; group < groups; ++group) {
+      c.x[group] = a.x[group] - b.x[group];
+      c.y[group] = a.y[group] - b.y[group];
+      c.z[group] = a.z[group] - b.z[group];
+    }
+    return c;
+  }
 };
 
 /// `first` points at row 0 of an array whose rows are `stride` doubles apart.
 template <Floating Real>
 BRIO_INLINE WideVector<Real> gather_rows(const double* first, std::size_t stride, const int* node) {
   WideVector<Real> wide;
+#pragma GCC unroll 8
   for (int group = 0; group < WideVector<Real>::groups; ++group) {
     Row4 rows[8];
+#pragma GCC unroll 8
     for (int lane = 0; lane < 8; ++lane)
       rows[lane] = load_row(first + stride * static_cast<std::size_t>(node[8 * group + lane]));
     transpose_rows(rows, wide.x[group], wide.y[group], wide.z[group]);
@@ -102,9 +120,11 @@ BRIO_INLINE void subtract_from_rows(NodeVector* first, const int* node, int coun
   widen(x, wide.x);
   widen(y, wide.y);
   widen(z, wide.z);
+#pragma GCC unroll 8
   for (int group = 0; group < WideVector<Real>::groups; ++group) {
     Row4 rows[8];
     transpose_lanes(wide.x[group], wide.y[group], wide.z[group], rows);
+#pragma GCC unroll 8
     for (int lane = 0; lane < 8; ++lane) {
       if (!is_full && 8 * group + lane >= count) break;
       double* row = first[node[8 * group + lane]].component;

@@ -68,25 +68,16 @@ BRIO_INLINE MotionOf<Kind, Lanes<Real>> gather_motion(const Nodes& nodes, const 
   MotionOf<Kind, Lanes<Real>> motion;
   const double* position = nodes.record.data()->position;
   const double* velocity = nodes.record.data()->velocity;
-  WideVector<Real> first_position, first_velocity;
+  const WideVector<Real> first_position = gather_rows<Real>(position, stride, connectivity);
+  const WideVector<Real> first_velocity = gather_rows<Real>(velocity, stride, connectivity);
 #pragma GCC unroll 8
   for (int corner = 0; corner < Kind::nodes; ++corner) {
     const int* node = connectivity + corner * width;
-    WideVector<Real> x = gather_rows<Real>(position, stride, node);
-    WideVector<Real> v = gather_rows<Real>(velocity, stride, node);
-    if (corner == 0) {
-      first_position = x;
-      first_velocity = v;
-    }
+    WideVector<Real> x = corner == 0 ? first_position : gather_rows<Real>(position, stride, node);
+    WideVector<Real> v = corner == 0 ? first_velocity : gather_rows<Real>(velocity, stride, node);
     if constexpr (makes_relative<Kind, Real>) {
-      for (int group = 0; group < WideVector<Real>::groups; ++group) {
-        x.x[group] -= first_position.x[group];
-        x.y[group] -= first_position.y[group];
-        x.z[group] -= first_position.z[group];
-        v.x[group] -= first_velocity.x[group];
-        v.y[group] -= first_velocity.y[group];
-        v.z[group] -= first_velocity.z[group];
-      }
+      x = x - first_position;
+      v = v - first_velocity;
     }
     motion.position[0][corner] = narrow<Real>(x.x);
     motion.position[1][corner] = narrow<Real>(x.y);

@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <random>
+#include <vector>
+
+#include "elements/hex8_kernel.hpp"
+#include "elements/sweep.hpp"
+
+namespace brio {
+namespace {
+
+/// Every lane of every corner holds its own node, relative to the first node of its element where that is
+/// asked for.
+template <class Kind, Floating Real>
+void expect_gathered() {
+  constexpr int width = lane_count<Real>;
+  std::mt19937 generator(3);
+  std::uniform_int_distribution<int> any_node(0, 199);
+  Nodes nodes(200, false);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      nodes.record[i].position[k] = static_cast<double>(1000 * k + i);
+      nodes.record[i].velocity[k] = -static_cast<double>(5000 * k + 2 * i);
+    }
+  std::vector<int> connectivity(8 * width);
+  for (int& node : connectivity) node = any_node(generator);
+  const auto motion = gather_motion<Kind, Real>(nodes, connectivity.data());
+  for (int corner = 0; corner < 8; ++corner)
+    for (int lane = 0; lane < width; ++lane)
+      for (int k = 0; k < 3; ++k) {
+        const auto at = [&](int c) {
+          return nodes
+              .record[static_cast<std::size_t>(connectivity[static_cast<std::size_t>(c * width + lane)])];
+        };
+        const double x = at(corner).position[k], v = at(corner).velocity[k];
+        const double origin = makes_relative<Kind, Real> ? at(0).position[k] : 0;
+        const double speed = makes_relative<Kind, Real> ? at(0).velocity[k] : 0;
+        EXPECT_EQ(static_cast<double>(motion.position[k][corner][lane]), x - origin) << corner << ' ' << lane;
+        EXPECT_EQ(static_cast<double>(motion.velocity[k][corner][lane]), v - speed) << corner << ' ' << lane;
+      }
+}
+
+TEST(Sweep, GathersTheMotionOfEachLane) {
+  expect_gathered<Hex8Kernel<ObjectiveRate::jaumann>, double>();
+  expect_gathered<Hex8Kernel<ObjectiveRate::jaumann>, float>();
+}
+
+TEST(Sweep, ScattersEveryCornerOfFullAndPartialPacks) {
+  constexpr int width = lane_count<float>;
+  std::vector<int> connectivity(8 * width);
+  for (std::size_t i = 0; i < connectivity.size(); ++i) connectivity[i] = static_cast<int>(i * 7 % 100);
+  NodalForces<Lanes<float>, 8> forces;
+  for (int k = 0; k < 3; ++k)
+    for (int corner = 0; corner < 8; ++corner)
+      for (int lane = 0; lane < width; ++lane)
+        forces.force[k][corner].set(lane, static_cast<float>(k + 3 * corner + 24 * lane));
+  for (const int count : {1, 7, 8, 9, width}) {
+    Nodes nodes(100, false);
+    if (count == width) {
+      scatter<Hex8Kernel<ObjectiveRate::jaumann>, float, true>(nodes, connectivity.data(), count, forces);
+    } else {
+      scatter<Hex8Kernel<ObjectiveRate::jaumann>, float, false>(nodes, connectivity.data(), count, forces);
+    }
+    std::vector<double> expected(300, 0.0);
+    for (int corner = 0; corner < 8; ++corner)
+      for (int lane = 0; lane < count; ++lane)
+        for (int k = 0; k < 3; ++k)
+          expected[static_cast<std::size_t>(
+              3 * connectivity[static_cast<std::size_t>(corner * width + lane)] + k)] -=
+              k + 3 * corner + 24 * lane;
+    for (std::size_t i = 0; i < 100; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(nodes.force[i].component[k], expected[3 * i + k]) << count;
+  }
+}
+
+}  // namespace
+}  // namespace brio

@@ -17,7 +17,7 @@ struct ContactOptions {
   SearchStrategy search = SearchStrategy::automatic;
   /// Length by which capture boxes are grown so that the search can be skipped, over the mean edge of the
   /// surface.
-  double reach_buffer = 0.5;
+  double reach_buffer = 0.2;
   /// Find first touches along the motion of the step as well; without it a fast node can pass through a thin
   /// body.
   bool velocity_check = true;

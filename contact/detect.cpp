@@ -24,6 +24,10 @@ constexpr double continued_direction = 0.5;
 constexpr double opposing = -0.1;
 /// Overlaps below this share of an edge are rounding and impulses not yet converged, not penetration.
 constexpr double touching_share = 1e-6;
+/// Width, over an edge, within which faces that end at the same place count as meeting edge on edge, ...
+constexpr double hair_share = 1e-5;
+/// ... and how deep a node may then be.
+constexpr double hair_depth = 0.05;
 /// Directions are formed from positions only where these are farther apart than this share of an edge.
 constexpr double direction_share = 1e-8;
 
@@ -254,10 +258,32 @@ class NodeCheck {
     return closest.separation / (outside ? near.distance : -near.distance);
   }
 
+  // Blocks that meet edge on edge: rounding decides whether a node is over a face or a hair beside it, and
+  // which side it is closest to when it is inside. A face that the node looks at, and that ends no more than
+  // that hair beside it, is what it touches.
+  bool meets_edge_on_edge(std::size_t i, std::size_t first) {
+    const NearFace& near = piece_.near[i];
+    const Vector3d& normal = near.closest.normal;
+    const double height = near.closest.separation.dot(normal);
+    if (height < -hair_depth * edge(near.face)) return false;
+    const bool over_face = near.closest.feature == Feature::interior;
+    const double beside = (near.closest.separation - height * normal).norm();
+    if (beside > hair_share * edge(near.face) || !faces_towards(normal)) return false;
+    if (over_face && (height >= 0 || i == first)) return false;  // nothing that rounding could have turned
+    const NearFace& closest = piece_.near[first];
+    if (closest.distance <= hair_share * edge(closest.face)) return true;
+    return over_face && closest.inside && !faces_towards(closest.closest.normal);
+  }
+
   void judge_solid(std::size_t i) {
     const std::size_t first = closest_of_body(i);
     NearFace& near = piece_.near[i];
     const bool self = face(near.face).body == scene_.surface.body[static_cast<std::size_t>(slave_)];
+    if (!self && meets_edge_on_edge(i, first)) {
+      const Vector3d normal = near.closest.normal;
+      add(near, normal, near.closest.separation.dot(normal) - touching(near.face));
+      return;
+    }
     const bool overlap_matters = !history_.empty() || (!self && first == i);
     if (!within_band(near) && !overlap_matters) return;
     const bool outside = near.distance <= touching_share * edge(near.face) ||

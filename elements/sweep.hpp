@@ -38,6 +38,16 @@ Kind kernel_of(const Element& element) {
   }
 }
 
+/// The law of a kernel: the deck's material itself, or its reduced form.
+template <class Law>
+Law law_of(const Material& material) {
+  if constexpr (requires { typename Law::Settings; }) {
+    return Law{std::get<typename Law::Settings>(material)};
+  } else {
+    return std::get<Law>(material);
+  }
+}
+
 template <class Kind, class Law, Floating Real>
 struct PackLayout {
   using Number = Lanes<Real>;
@@ -137,7 +147,7 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   constexpr int width = lane_count<Real>;
   // Copies that nothing else can alias, so that what depends on parameters alone leaves the loop.
   const Kind kind = kernel_of<Kind>(block.element);
-  const Law law = std::get<Law>(block.material);
+  const Law law = law_of<Law>(block.material);
   LaneSum<Real> internal_energy, hourglass_energy, viscous_energy;
   SweepResult result;
   result.stable_step = HUGE_VAL;
@@ -179,7 +189,7 @@ void initialize_block(Block& block, Nodes& nodes) {
   using Layout = PackLayout<Kind, Law, Real>;
   constexpr int width = lane_count<Real>;
   const Kind kind = kernel_of<Kind>(block.element);
-  const Law& law = std::get<Law>(block.material);
+  const Law law = law_of<Law>(block.material);
   for (std::size_t pack = 0; pack < block.pack_count; ++pack) {
     const int* connectivity =
         block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
@@ -239,7 +249,7 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
         motion.angular_velocity[i][corner] = nodes.angular_velocity[node].component[i];
     }
   }
-  return kind.sample(motion, std::get<Law>(block.material), header, points.data());
+  return kind.sample(motion, law_of<Law>(block.material), header, points.data());
 }
 
 template <class Kind, class Law, Floating Real>
@@ -249,22 +259,33 @@ void set_kernel(Block& block) {
                   sample_element<Kind, Law, Real>};
 }
 
+template <class Kind, class Law>
+void set_kernel(Block& block) {
+  if (block.precision == Precision::double_precision) {
+    set_kernel<Kind, Law, double>(block);
+  } else {
+    set_kernel<Kind, Law, float>(block);
+  }
+}
+
 /// Sets block.kernel and block.pack_bytes; instantiates every accepted law in both precisions.
 template <class Kind>
 void choose_kernel_of(Block& block) {
   std::visit(
       [&](const auto& law) {
         using Law = std::decay_t<decltype(law)>;
-        if constexpr (Kind::template accepts<Law>) {
-          if (block.precision == Precision::double_precision) {
-            set_kernel<Kind, Law, double>(block);
-          } else {
-            set_kernel<Kind, Law, float>(block);
-          }
-        } else {
+        if constexpr (!Kind::template accepts<Law>) {
           throw std::invalid_argument("material model '" + std::string(Law::name) +
                                       "' cannot be used by element '" + std::string(Kind::name) +
                                       "' with these settings");
+        } else if constexpr (requires { typename Law::Reduced; }) {
+          if (law.is_reduced()) {
+            set_kernel<Kind, typename Law::Reduced>(block);
+          } else {
+            set_kernel<Kind, Law>(block);
+          }
+        } else {
+          set_kernel<Kind, Law>(block);
         }
       },
       block.material);

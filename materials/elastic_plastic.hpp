@@ -8,7 +8,14 @@
 
 namespace brio {
 
+struct IsotropicElasticPlastic;
+
 struct ElasticPlastic {
+  /// What runs where nothing is kinematic: no back stress to store and stream, a third of the state of a
+  /// brick.
+  using Reduced = IsotropicElasticPlastic;
+  bool is_reduced() const { return hardening_mix == 0; }
+
   static constexpr std::string_view name = "elastic_plastic";
   double density = 0;
   double youngs_modulus = 0;
@@ -40,6 +47,34 @@ struct ElasticPlastic {
   ElasticConstants elastic() const { return {youngs_modulus, poissons_ratio}; }
   LinearHardening hardening() const { return {yield_stress, (1 - hardening_mix) * hardening_modulus}; }
   double kinematic_modulus() const { return hardening_mix * hardening_modulus; }
+
+  template <class T>
+  ElasticModuli<T> moduli(const History<T>&) const {
+    return elastic().template moduli<T>();
+  }
+
+  template <class T>
+  BRIO_INLINE void update(const SymmetricTensor<T>& strain_increment, SymmetricTensor<T>& stress,
+                          History<T>& history) const {
+    plastic_update(*this, strain_increment, stress, history);
+  }
+
+  template <class T>
+  BRIO_INLINE void update_plane_stress(const ShellTensor<T>& strain_increment, double shear_factor,
+                                       ShellTensor<T>& stress, History<T>& history,
+                                       T& thickness_strain_increment) const {
+    plastic_update_plane_stress(*this, strain_increment, shear_factor, stress, history,
+                                thickness_strain_increment);
+  }
+};
+
+struct IsotropicElasticPlastic : ElasticPlastic {
+  using Settings = ElasticPlastic;
+
+  template <class T>
+  struct History {
+    T equivalent_plastic_strain;
+  };
 
   template <class T>
   ElasticModuli<T> moduli(const History<T>&) const {

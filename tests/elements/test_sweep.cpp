@@ -74,5 +74,46 @@ TEST(Sweep, ScattersEveryCornerOfFullAndPartialPacks) {
   }
 }
 
+/// Forces of one brick through a few steps, by way of a block.
+std::vector<double> forces_of_block(const ElasticPlastic& material) {
+  Nodes nodes(8, false);
+  std::vector<int> connectivity;
+  for (int n = 0; n < 8; ++n) {
+    connectivity.push_back(n);
+    NodeRecord& record = nodes.record[static_cast<std::size_t>(n)];
+    const int i = n % 4;
+    record.position[0] = i == 1 || i == 2 ? 1 : 0;
+    record.position[1] = i >= 2 ? 1 : 0;
+    record.position[2] = n / 4;
+    for (int k = 0; k < 3; ++k) record.velocity[k] = (n * (k + 2)) % 5;
+  }
+  Block block = make_block("brick", Hex8{}, material, Precision::double_precision, connectivity);
+  block.kernel.initialize(block, nodes);
+  std::vector<double> forces;
+  for (int step = 0; step < 5; ++step) {
+    for (NodeRecord& record : nodes.record)
+      for (int k = 0; k < 3; ++k) record.position[k] += 1e-3 * record.velocity[k];
+    block.kernel.sweep(block, {0, 1}, nodes, 1e-3);
+  }
+  for (const NodeVector& force : nodes.force)
+    forces.insert(forces.end(), force.component, force.component + 3);
+  forces.push_back(block.kernel.sample(block, nodes, 0).equivalent_plastic_strain);
+  return forces;
+}
+
+TEST(Sweep, ReducedLawIsTheLimitOfTheFullOne) {
+  ElasticPlastic material{.density = 1000,
+                          .youngs_modulus = 1e6,
+                          .poissons_ratio = 0.3,
+                          .yield_stress = 1e3,
+                          .hardening_modulus = 1e4};
+  const std::vector<double> reduced = forces_of_block(material);
+  material.hardening_mix = 1e-14;
+  const std::vector<double> full = forces_of_block(material);
+  EXPECT_GT(reduced.back(), 1e-3);
+  for (std::size_t i = 0; i < full.size(); ++i)
+    EXPECT_NEAR(full[i], reduced[i], 1e-9 * std::abs(reduced[i]) + 1e-9);
+}
+
 }  // namespace
 }  // namespace brio

@@ -22,15 +22,15 @@ void expect_gathered() {
       nodes.record[i].position[k] = static_cast<double>(1000 * k + i);
       nodes.record[i].velocity[k] = -static_cast<double>(5000 * k + 2 * i);
     }
-  std::vector<int> connectivity(8 * width);
+  std::vector<int> connectivity(std::size_t{8} * width);
   for (int& node : connectivity) node = any_node(generator);
   const auto motion = gather_motion<Kind, Real>(nodes, connectivity.data());
   for (int corner = 0; corner < 8; ++corner)
     for (int lane = 0; lane < width; ++lane)
       for (int k = 0; k < 3; ++k) {
         const auto at = [&](int c) {
-          return nodes
-              .record[static_cast<std::size_t>(connectivity[static_cast<std::size_t>(c * width + lane)])];
+          const int* node = connectivity.data() + c * width + lane;
+          return nodes.record[static_cast<std::size_t>(*node)];
         };
         const double x = at(corner).position[k], v = at(corner).velocity[k];
         const double origin = makes_relative<Kind, Real> ? at(0).position[k] : 0;
@@ -47,7 +47,7 @@ TEST(Sweep, GathersTheMotionOfEachLane) {
 
 TEST(Sweep, ScattersEveryCornerOfFullAndPartialPacks) {
   constexpr int width = lane_count<float>;
-  std::vector<int> connectivity(8 * width);
+  std::vector<int> connectivity(std::size_t{8} * width);
   for (std::size_t i = 0; i < connectivity.size(); ++i) connectivity[i] = static_cast<int>(i * 7 % 100);
   NodalForces<Lanes<float>, 8> forces;
   for (int k = 0; k < 3; ++k)
@@ -64,10 +64,11 @@ TEST(Sweep, ScattersEveryCornerOfFullAndPartialPacks) {
     std::vector<double> expected(300, 0.0);
     for (int corner = 0; corner < 8; ++corner)
       for (int lane = 0; lane < count; ++lane)
-        for (int k = 0; k < 3; ++k)
-          expected[static_cast<std::size_t>(
-              3 * connectivity[static_cast<std::size_t>(corner * width + lane)] + k)] -=
-              k + 3 * corner + 24 * lane;
+        for (int k = 0; k < 3; ++k) {
+          const int* node = connectivity.data() + corner * width + lane;
+          double* row = expected.data() + 3 * *node;
+          row[k] -= k + 3 * corner + 24 * lane;
+        }
     for (std::size_t i = 0; i < 100; ++i)
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_EQ(nodes.force[i].component[k], expected[3 * i + k]) << count;
@@ -84,7 +85,7 @@ std::vector<double> forces_of_block(const ElasticPlastic& material) {
     const int i = n % 4;
     record.position[0] = i == 1 || i == 2 ? 1 : 0;
     record.position[1] = i >= 2 ? 1 : 0;
-    record.position[2] = n / 4;
+    record.position[2] = n < 4 ? 0 : 1;
     for (int k = 0; k < 3; ++k) record.velocity[k] = (n * (k + 2)) % 5;
   }
   Block block = make_block("brick", Hex8{}, material, Precision::double_precision, connectivity);

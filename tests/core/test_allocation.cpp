@@ -1,0 +1,125 @@
+// The step allocates nothing once it has warmed up, whatever the scene and the number of threads.
+
+#include <gtest/gtest.h>
+
+#include "tests/contact/allocation_count.hpp"
+#include "tests/core/scene.hpp"
+
+namespace brio {
+namespace {
+
+using namespace test;
+
+// A block under gravity and pressure that falls onto a rigid wall and slides there.
+Deck block_on_wall(const Element& element) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  deck.parts = {box("block", {1, 1, 0.5}, {8, 8, 4}, {0, 0, 0.25}, element)};
+  deck.initial_conditions = {moving("block", {5, 0, 0})};
+  RigidWall floor;
+  floor.normal = {0, 0, 1};
+  floor.friction = 0.2;
+  deck.boundary_conditions = {floor};
+  Gravity gravity;
+  gravity.acceleration = {0, 0, -100};
+  deck.loads = {gravity, Pressure{"block.zmax", Curve{{{0, 0}, {1e-2, 1e5}}}}};
+  deck.time.end = 1;
+  return deck;
+}
+
+// A can of shells, held at its bottom, under a block that comes down: faces touch, nodes rub.
+Deck can_under_block() {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}, {"heavy", elastic(0.3)}};
+  std::get<Elastic>(deck.materials[1].second).density *= 10;
+  Shell4 shell;
+  shell.thickness = 0.02;
+  deck.parts = {{"can", CylinderMesh{0.5, 1, {24, 8}}, {}, shell, "material"},
+                box("block", {1.5, 1.5, 0.2}, {6, 6, 1}, {0, 0, 1.12}, hex8(), "heavy")};
+  deck.initial_conditions = {moving("block", {3, 0, -20})};
+  deck.boundary_conditions = {fix("can.bottom", {0, 1, 2, 3, 4, 5})};
+  deck.contact.emplace();
+  deck.contact->options.friction = 0.3;
+  deck.time.end = 1;
+  return deck;
+}
+
+// A block that slides over a floor of another mesh: contact changes faces all the time.
+Deck block_on_floor() {
+  Deck deck = block_on_wall(hex8());
+  deck.initial_conditions = {moving("block", {15, 0, 0})};
+  deck.parts.push_back(box("floor", {4, 2, 0.25}, {17, 7, 1}, {0.5, 0, -0.125}, hex8()));
+  deck.boundary_conditions = {fix("floor.zmin", {0, 1, 2})};
+  deck.contact.emplace();
+  deck.contact->options.friction = 0.2;
+  return deck;
+}
+
+struct Counted {
+  std::size_t allocations = 0;
+  int searches = 0;
+  int active = 0;  ///< contacts with an impulse, over all counted steps
+};
+
+// The scene runs once, so that every buffer has seen what the scene holds, and again from the start, counted
+// after a few steps.
+Counted count(const Deck& deck, int threads, int steps) {
+  Model model = build_model(deck);
+  ThreadTeam team(threads);
+  const auto advance = [&] {
+    update_velocities(model, deck.numerics.energy_error_limit, team);
+    update_positions(model, team);
+  };
+  const Model start = model;
+  for (int step = 0; step < steps; ++step) advance();
+  model.step = start.step;
+  model.times = start.times;
+  model.nodes = start.nodes;
+  model.blocks = start.blocks;
+  model.energy = start.energy;
+  for (int step = 0; step < 10; ++step) advance();
+  Counted counted;
+  const AllocationCount allocations;
+  for (int step = 10; step < steps; ++step) {
+    advance();
+    for (const ContactScene& scene : model.contacts) {
+      counted.searches += scene.step.searched ? 1 : 0;
+      counted.active += scene.step.active;
+    }
+  }
+  counted.allocations = allocations.count();
+  return counted;
+}
+
+TEST(StepAllocation, NoneInASceneOfHexahedraWithWallGravityAndPressure) {
+  for (int threads : {1, 2})
+    for (const Element& element : {Element(Hex8{}), Element(Hex8Full{})})
+      EXPECT_EQ(count(block_on_wall(element), threads, 100).allocations, 0u) << threads;
+}
+
+TEST(StepAllocation, NoneWhereBlocksSlideOverEachOther) {
+  for (int threads : {1, 2}) {
+    const Counted counted = count(block_on_floor(), threads, 300);
+    EXPECT_EQ(counted.allocations, 0u) << threads;
+    EXPECT_GT(counted.searches, 3);
+    EXPECT_GT(counted.active, 200);
+  }
+}
+
+TEST(StepAllocation, NoneInASceneOfShellsWithContactAndFriction) {
+  for (int threads : {1, 2}) {
+    const Counted counted = count(can_under_block(), threads, 300);
+    EXPECT_EQ(counted.allocations, 0u) << threads;
+    EXPECT_GT(counted.searches, 1);
+    EXPECT_GT(counted.active, 200);
+  }
+}
+
+TEST(StepAllocation, CounterSeesWhatIsAllocated) {
+  const AllocationCount allocations;
+  const Model model = build_model(can_under_block());
+  EXPECT_GT(allocations.count(), 0u);
+}
+
+}  // namespace
+}  // namespace brio

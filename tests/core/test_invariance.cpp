@@ -1,0 +1,119 @@
+// What a change of frame, of units or of place must leave alone.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/core/scene.hpp"
+
+namespace brio {
+namespace {
+
+using namespace test;
+
+/// Units as multiples of those of the scene below.
+struct Units {
+  double length = 1, time = 1, mass = 1;
+};
+
+// Two bars of different meshes that collide askew with friction, seen from a frame, at a place, in units.
+Deck collision(const Units& units = {}, const Triple& frame = {}, const Triple& place = {}) {
+  const double speed = units.length / units.time;
+  Elastic law = elastic(0.3);
+  law.density *= units.mass / (units.length * units.length * units.length);
+  law.youngs_modulus *= units.mass / (units.length * units.time * units.time);
+  const auto scaled = [](const Triple& v, double factor, const Triple& shift) {
+    return Triple{v[0] * factor + shift[0], v[1] * factor + shift[1], v[2] * factor + shift[2]};
+  };
+  Deck deck;
+  deck.materials = {{"material", law}};
+  deck.parts = {box("left", scaled({0.5, 0.125, 0.125}, units.length, {}), {10, 3, 3},
+                    scaled({-0.251, 0, 0}, units.length, place), hex8()),
+                box("right", scaled({0.5, 0.125, 0.125}, units.length, {}), {10, 2, 2},
+                    scaled({0.251, 0.01, 0.003}, units.length, place), hex8())};
+  deck.initial_conditions = {moving("left", scaled({10, 0, 0}, speed, frame)),
+                             moving("right", scaled({-10, -3, 1}, speed, frame))};
+  deck.contact.emplace();
+  deck.contact->options.friction = 0.3;
+  deck.time.end = 1.5e-3 * units.time;
+  return deck;
+}
+
+struct Watched {
+  Model model;
+  std::vector<int> contacts;  ///< at every step
+  std::vector<int> active;
+  explicit Watched(const Deck& deck) : model(build_model(deck)) {
+    ThreadTeam team(1);
+    test::run(model, deck, team, [&](Model& m) {
+      contacts.push_back(m.contacts[0].step.contacts);
+      active.push_back(m.contacts[0].step.active);
+    });
+  }
+};
+
+// Largest difference of velocities relative to the frame, and of positions less the motion of the frame.
+struct Difference {
+  double velocity = 0, position = 0;
+};
+Difference difference(const Model& a, const Model& b, const Triple& frame, const Triple& place) {
+  Difference result;
+  for (std::size_t i = 0; i < a.nodes.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const NodeRecord& p = a.nodes.record[i];
+      const NodeRecord& q = b.nodes.record[i];
+      const double moved = q.position[axis] - frame[axis] * b.times.time - place[axis];
+      result.velocity =
+          std::max(result.velocity, std::abs(p.velocity[axis] - (q.velocity[axis] - frame[axis])));
+      result.position = std::max(result.position, std::abs(p.position[axis] - moved));
+    }
+  return result;
+}
+
+TEST(Invariance, PowersOfTwoInLengthTimeAndMassGiveTheSameBits) {
+  const Watched reference(collision());
+  EXPECT_LT(reference.model.energy.friction.at_step(), 0);
+  for (const Units& units : {Units{1024, 1, 1}, Units{1, 0.0078125, 1}, Units{1, 1, 4096},
+                             Units{0.0009765625, 0.125, 0.00048828125}}) {
+    SCOPED_TRACE(testing::Message() << units.length << ' ' << units.time << ' ' << units.mass);
+    const Watched other(collision(units));
+    ASSERT_EQ(reference.model.step, other.model.step);
+    EXPECT_EQ(reference.contacts, other.contacts);
+    const double speed = units.length / units.time;
+    const double energy = units.mass * speed * speed;
+    for (std::size_t i = 0; i < reference.model.nodes.size(); ++i)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const NodeRecord& a = reference.model.nodes.record[i];
+        const NodeRecord& b = other.model.nodes.record[i];
+        ASSERT_EQ(a.position[axis] * units.length, b.position[axis]) << i;
+        ASSERT_EQ(a.velocity[axis] * speed, b.velocity[axis]) << i;
+      }
+    EXPECT_EQ(reference.model.energy.internal * energy, other.model.energy.internal);
+    EXPECT_EQ(reference.model.energy.friction.half * energy, other.model.energy.friction.half);
+  }
+}
+
+TEST(Invariance, FrameAtAThousandTimesTheSpeedOfTheImpactSeesTheSameContacts) {
+  const Triple frame{10000, -8000, 6000};
+  const Watched reference(collision());
+  const Watched other(collision({}, frame));
+  EXPECT_EQ(reference.contacts, other.contacts);
+  EXPECT_EQ(reference.active, other.active);
+  const Difference found = difference(reference.model, other.model, frame, {});
+  EXPECT_LE(found.velocity, 1e-9 * 10);
+  EXPECT_LE(found.position, 1e-9);
+}
+
+// Positions have an ulp of 1e-10 there, and an element an edge of 0.05.
+TEST(Invariance, PlaceAMillionSizesAwaySeesTheSameImpact) {
+  const Triple place{1048576, -524288, 786432};
+  const Watched reference(collision());
+  const Watched other(collision({}, {}, place));
+  const Difference found = difference(reference.model, other.model, {}, place);
+  EXPECT_LE(found.velocity, 1e-3 * 10);
+  EXPECT_LE(found.position, 1e-6);
+  EXPECT_NEAR(mean_velocity(reference.model, 0, 0), mean_velocity(other.model, 0, 0), 1e-5 * 10);
+}
+
+}  // namespace
+}  // namespace brio

@@ -1,0 +1,160 @@
+// Sliding: Coulomb's law stops a block where it must, and seams between facets do not hold one without
+// friction.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/core/scene.hpp"
+
+namespace brio {
+namespace {
+
+using namespace test;
+
+constexpr double weight = 100;  // acceleration of gravity
+
+Gravity gravity(double acceleration) {
+  Gravity result;
+  result.acceleration = {0, 0, -acceleration};
+  return result;
+}
+
+// A block on z = 0 that moves along x; what it lies on is added by the caller.
+Deck sliding_block(const Triple& velocity) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  deck.parts = {box("block", {1, 1, 0.5}, {4, 4, 2}, {0, 0, 0.25}, hex8())};
+  deck.initial_conditions = {moving("block", velocity)};
+  deck.loads = {gravity(weight)};
+  return deck;
+}
+
+Deck on_floor(Deck deck, double friction) {
+  deck.parts.push_back(box("floor", {3, 2, 0.25}, {11, 7, 1}, {0.5, 0, -0.125}, hex8()));
+  deck.boundary_conditions = {fix("floor.zmin", {0, 1, 2})};
+  deck.contact.emplace();
+  deck.contact->options.friction = friction;
+  return deck;
+}
+
+Deck on_wall(Deck deck, double friction) {
+  RigidWall floor;
+  floor.normal = {0, 0, 1};
+  floor.friction = friction;
+  deck.boundary_conditions = {floor};
+  return deck;
+}
+
+Vector centre_of(const Model& model, std::size_t part) {
+  Vector sum{};
+  for (int entry : model.parts[part].node) {
+    const auto node = static_cast<std::size_t>(entry);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sum[axis] += model.nodes.mass[node] * model.nodes.record[node].position[axis] / model.parts[part].mass;
+  }
+  return sum;
+}
+
+struct Slide {
+  double distance = 0;  ///< along the initial velocity
+  double aside = 0;     ///< across it
+  double drift = 0;     ///< after 1.2 times the time to stop, in as much time again
+};
+
+// Slides until well after the block stands.
+Slide slide(Deck deck, const Triple& velocity, double friction) {
+  const double speed = std::hypot(velocity[0], velocity[1]);
+  const double stop = speed / (friction * weight);
+  deck.time.end = 2.4 * stop;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  const Vector start = centre_of(model, 0);
+  Vector rest{};
+  run(model, deck, team, [&](Model& m) {
+    if (m.times.time < 1.2 * stop) rest = centre_of(m, 0);
+  });
+  const Vector end = centre_of(model, 0);
+  Slide result;
+  result.distance = ((end[0] - start[0]) * velocity[0] + (end[1] - start[1]) * velocity[1]) / speed;
+  result.aside = ((end[1] - start[1]) * velocity[0] - (end[0] - start[0]) * velocity[1]) / speed;
+  result.drift = std::hypot(end[0] - rest[0], end[1] - rest[1]);
+  return result;
+}
+
+void expect_coulomb(const Slide& result, double speed, double friction) {
+  const double distance = speed * speed / (2 * friction * weight);
+  EXPECT_LE(std::hypot(result.distance - distance, result.aside), 0.01 * distance);
+  EXPECT_LE(result.drift, 1e-5 * distance);
+}
+
+TEST(SlidingBlock, StopsOnAFloorAfterTheDistanceOfCoulomb) {
+  for (const Triple& velocity : {Triple{4, 0, 0}, Triple{2.4, -3.2, 0}}) {
+    const Slide result = slide(on_floor(sliding_block(velocity), 0.3), velocity, 0.3);
+    expect_coulomb(result, 4, 0.3);
+  }
+}
+
+TEST(SlidingBlock, StopsOnARigidWallAfterTheDistanceOfCoulomb) {
+  for (const Triple& velocity : {Triple{4, 0, 0}, Triple{2.4, -3.2, 0}}) {
+    const Slide result = slide(on_wall(sliding_block(velocity), 0.3), velocity, 0.3);
+    expect_coulomb(result, 4, 0.3);
+  }
+}
+
+// ---- seams
+
+// Moves the inner nodes of a floor within its plane by up to `share` of an edge, each column alike.
+void jitter(Mesh& mesh, const Triple& low, const Triple& high, double share, double edge) {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> shift(-share * edge, share * edge);
+  for (std::array<double, 3>& x : mesh.position) {
+    const double dx = shift(generator), dy = shift(generator);
+    const bool inner =
+        x[0] > low[0] + 1e-9 && x[0] < high[0] - 1e-9 && x[1] > low[1] + 1e-9 && x[1] < high[1] - 1e-9;
+    if (!inner || x[2] < -1e-9) continue;  // the lower side is held and may stay as it is
+    x[0] += dx;
+    x[1] += dy;
+  }
+}
+
+struct Passage {
+  double speed_change = 0;  ///< largest change of the mean velocity along x, over the speed
+  double aside = 0;         ///< largest mean velocity along y, over the speed
+  double travelled = 0;
+};
+
+Passage pass_over(const Deck& deck, const std::vector<Mesh>& meshes, double speed) {
+  Model model = build(deck, meshes);
+  ThreadTeam team(1);
+  Passage passage;
+  const double start = centre_of(model, 0)[0];
+  run(model, deck, team, [&](Model& m) {
+    passage.speed_change = std::max(passage.speed_change, std::abs(mean_velocity(m, 0, 0) / speed - 1));
+    passage.aside = std::max(passage.aside, std::abs(mean_velocity(m, 0, 1) / speed));
+  });
+  passage.travelled = centre_of(model, 0)[0] - start;
+  return passage;
+}
+
+void expect_no_snagging(const Passage& passage) {
+  EXPECT_LE(passage.speed_change, 1e-3);
+  EXPECT_LE(passage.aside, 1e-3);
+  EXPECT_GT(passage.travelled, 1.5);
+}
+
+TEST(FrictionlessBlock, KeepsItsSpeedOverAFloorOfRandomFacets) {
+  Deck deck = sliding_block({10, 0, 0});
+  deck.parts.push_back(box("floor", {5, 2, 0.25}, {20, 8, 1}, {1.5, 0, -0.125}, hex8()));
+  deck.boundary_conditions = {fix("floor.zmin", {0, 1, 2})};
+  deck.contact.emplace();
+  deck.time.end = 0.2;
+  std::vector<Mesh> meshes;
+  for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
+  jitter(meshes[1], {-1, -1, 0}, {4, 1, 0}, 0.3, 0.25);
+  expect_no_snagging(pass_over(deck, meshes, 10));
+}
+
+}  // namespace
+}  // namespace brio

@@ -81,6 +81,12 @@ SweptFace swept_face(const Nodes& nodes, const Face& face, const Vector3d& frame
   return swept;
 }
 
+ShellExtent extent_of(const Nodes& nodes, const Face& face, double margin) {
+  FaceVertices velocities;
+  for (std::size_t k = 0; k < 4; ++k) velocities[k] = velocity(nodes, face.node[k]);
+  return shell_extent(vertices(nodes, face), velocities, margin);
+}
+
 bool apart(const CaptureBox& a, const CaptureBox& b) {
   bool separated = false;
   for (int axis = 0; axis < 3; ++axis)
@@ -135,14 +141,20 @@ class NodeCheck {
     const Vector3d& x = sweep.start;
     CaptureBox own = box_of({&sweep, 1});
     grow(own, radius);
-    for (int f : faces) {
+    const Vector3d own_velocity = velocity(scene_.nodes, node_);
+    const auto left_out = [&](int f) {
+      if (face(f).shell)
+        return surely_out_of_reach(scene_.shell[static_cast<std::size_t>(f)], x, own_velocity, radius,
+                                   approach_share * scene_.dt);
       const SweptFace& swept = scene_.swept[static_cast<std::size_t>(f)];
-      if (apart(own, swept.box)) continue;
+      if (apart(own, swept.box)) return true;
       const double from = swept.normal.dot(sweep.start);
       const double to = swept.normal.dot(sweep.end);
-      if (std::min(from, to) - radius > (everything ? swept.upper : swept.upper_outside) ||
-          std::max(from, to) + radius < swept.lower)
-        continue;
+      return std::min(from, to) - radius > (everything ? swept.upper : swept.upper_outside) ||
+             std::max(from, to) + radius < swept.lower;
+    };
+    for (int f : faces) {
+      if (left_out(f)) continue;
       const ClosestPoint closest = closest_point_on_quad(x, vertices(scene_.nodes, face(f)));
       piece_.near.push_back({.face = f, .distance = std::sqrt(closest.squared_distance), .closest = closest});
     }
@@ -445,15 +457,20 @@ void detect(Detection& detection, const Surface& surface, const Candidates& cand
   Vector3d frame;
   for (int axis = 0; axis < 3; ++axis) frame[axis] = 0.5 * (velocities.lower[axis] + velocities.upper[axis]);
   detection.swept.resize(surface.face.size());
+  detection.shell.resize(surface.face.size());
   team.for_ranges(candidates.face.size(), slaves_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto f = static_cast<std::size_t>(candidates.face[i]);
-      detection.swept[f] = swept_face(nodes, surface.face[f], frame, approach_share * dt,
-                                      influence(surface, options, candidates, candidates.face[i]),
-                                      influence_outside(surface, options, candidates, candidates.face[i]));
+      const double outside = influence_outside(surface, options, candidates, candidates.face[i]);
+      if (surface.face[f].shell)
+        detection.shell[f] = extent_of(nodes, surface.face[f], outside);
+      else
+        detection.swept[f] = swept_face(nodes, surface.face[f], frame, approach_share * dt,
+                                        influence(surface, options, candidates, candidates.face[i]), outside);
     }
   });
-  const Scenery scenery{surface, candidates, options, nodes, dt, frame, last, detection.swept};
+  const Scenery scenery{surface, candidates, options,         nodes,          dt,
+                        frame,   last,       detection.swept, detection.shell};
   const std::size_t tasks = (surface.slaves() + slaves_per_task - 1) / slaves_per_task;
   detection.piece.resize(tasks);
   team.for_each(tasks, [&](std::size_t task) {

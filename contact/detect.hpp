@@ -13,6 +13,7 @@
 #include "contact/candidates.hpp"
 #include "contact/closest_point.hpp"
 #include "contact/pair.hpp"
+#include "contact/shell_extent.hpp"
 #include "contact/surface.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
@@ -36,9 +37,10 @@ struct Scenery {
   const ContactOptions& options;
   const Nodes& nodes;
   double dt;
-  Eigen::Vector3d frame;             ///< velocity of the frame in which capture boxes move least
-  std::span<const Contact> last;     ///< contacts of the last step, by slave
-  std::span<const SweptFace> swept;  ///< of the faces that are candidates
+  Eigen::Vector3d frame;               ///< velocity of the frame in which capture boxes move least
+  std::span<const Contact> last;       ///< contacts of the last step, by slave
+  std::span<const SweptFace> swept;    ///< of the sides of hexahedra that are candidates
+  std::span<const ShellExtent> shell;  ///< of the shells that are candidates
 };
 
 /// A face near one slave node.
@@ -57,6 +59,7 @@ struct DetectionPiece {
 
 struct Detection {
   std::vector<SweptFace> swept;
+  std::vector<ShellExtent> shell;
   std::vector<DetectionPiece> piece;
 };
 

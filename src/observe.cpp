@@ -68,6 +68,7 @@ FieldObserver::FieldObserver(const Model& model) {
   snapshot_.points.resize(3 * points);
   snapshot_.point_fields = {field("displacement", 3, points, Storage::double_precision),
                             field("velocity", 3, points)};
+  if (!model.contacts.empty()) snapshot_.point_fields.push_back(field("contact_force", 3, points));
   snapshot_.cell_fields = {field("stress", 6, cells), field("equivalent_plastic_strain", 1, cells),
                            field("part", 1, cells, Storage::integer, true),
                            field("element_id", 1, cells, Storage::integer, true)};
@@ -80,6 +81,22 @@ void FieldObserver::fill_points(const Model& model) {
   for (std::size_t p = 0; p < node_of_point_.size(); ++p) {
     const NodeRecord& record = model.nodes.record[static_cast<std::size_t>(node_of_point_[p])];
     for (std::size_t i = 0; i < 3; ++i) snapshot_.points[3 * p + i] = record.position[i];
+  }
+}
+
+// Impulse of contact over the step, by the step: the mean force.
+void FieldObserver::fill_contact_force(const Model& model) {
+  std::vector<double>& values = snapshot_.point_fields.back().values;
+  for (std::size_t p = 0; p < node_of_point_.size(); ++p) {
+    for (std::size_t i = 0; i < 3; ++i) values[3 * p + i] = 0;
+    for (const ContactScene& scene : model.contacts) {
+      const int slave = scene.surface.slave(node_of_point_[p]);
+      if (slave < 0) continue;
+      const Eigen::Vector3d impulse = scene.normal_impulse[static_cast<std::size_t>(slave)] +
+                                      scene.friction_impulse[static_cast<std::size_t>(slave)];
+      for (std::size_t i = 0; i < 3; ++i)
+        values[3 * p + i] += impulse[static_cast<Eigen::Index>(i)] / model.times.mean();
+    }
   }
 }
 
@@ -112,6 +129,7 @@ const Snapshot& FieldObserver::observe(const Model& model) {
     for (std::size_t i = 0; i < 3; ++i)
       snapshot_.point_fields[1].values[3 * p + i] =
           model.nodes.record[static_cast<std::size_t>(node_of_point_[p])].velocity[i];
+  if (!model.contacts.empty()) fill_contact_force(model);
   fill_cells(model);
   return snapshot_;
 }

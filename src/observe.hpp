@@ -24,6 +24,7 @@ class FieldObserver {
 
  private:
   void fill_points(const Model& model);
+  void fill_contact_force(const Model& model);
   void fill_cells(const Model& model);
 
   Snapshot snapshot_;

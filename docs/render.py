@@ -230,6 +230,7 @@ def main():
         displays.append(display)
     if colour:
         colour_by(displays, colour[0], options.color, colour[1], limits, view)
+    simple.Render(view)  # the first picture places a camera of its own
     place_camera(view, box, options.camera, options.zoom, options.size[0] / options.size[1])
 
     label = simple.Text()

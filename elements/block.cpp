@@ -18,8 +18,8 @@ bool accepts(const Element& element, const Material& material) {
 Block make_block(std::string part, const Element& element, const Material& material, Precision precision,
                  std::span<const int> connectivity) {
   if (!accepts(element, material))
-    throw std::invalid_argument("material model '" + std::string(name_of(material)) + "' cannot be used by element '" +
-                                std::string(name_of(element)) + "'");
+    throw std::invalid_argument("material model '" + std::string(name_of(material)) +
+                                "' cannot be used by element '" + std::string(name_of(element)) + "'");
   Block block;
   block.part = std::move(part);
   block.element = element;
@@ -34,7 +34,8 @@ Block make_block(std::string part, const Element& element, const Material& mater
   for (std::size_t slot = 0; slot < block.pack_count * width; ++slot) {
     const std::size_t e = slot < block.element_count ? slot : block.element_count - 1;
     for (std::size_t corner = 0; corner < corners; ++corner)
-      block.connectivity[((slot / width) * corners + corner) * width + slot % width] = connectivity[e * corners + corner];
+      block.connectivity[((slot / width) * corners + corner) * width + slot % width] =
+          connectivity[e * corners + corner];
   }
   std::visit([&](const auto& kind) { choose_kernel(kind, block); }, element);
   block.state = AlignedBuffer<std::byte>(block.pack_count * block.pack_bytes);

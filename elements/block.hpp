@@ -44,8 +44,8 @@ struct SweepResult {
   double internal_energy = 0;
   double hourglass_energy = 0;
   double viscous_energy = 0;
-  double stable_step = 0;              ///< smallest over the chunk; not positive: an element has broken down
-  std::size_t critical_element = 0;    ///< index within the block of the element that sets it
+  double stable_step = 0;            ///< smallest over the chunk; not positive: an element has broken down
+  std::size_t critical_element = 0;  ///< index within the block of the element that sets it
 };
 
 struct Block;
@@ -67,11 +67,11 @@ struct Block {
   BlockKernel kernel{};
 
   std::size_t element_count = 0;
-  int lanes = 0;                        ///< elements to a pack
+  int lanes = 0;  ///< elements to a pack
   std::size_t pack_count = 0;
   std::size_t pack_bytes = 0;
-  AlignedBuffer<int> connectivity;      ///< [pack][node][lane]; padding lanes repeat the last element
-  AlignedBuffer<std::byte> state;       ///< [pack][component][lane]
+  AlignedBuffer<int> connectivity;  ///< [pack][node][lane]; padding lanes repeat the last element
+  AlignedBuffer<std::byte> state;   ///< [pack][component][lane]
 
   int node(std::size_t e, int corner) const {
     const auto width = static_cast<std::size_t>(lanes);

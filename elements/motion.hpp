@@ -5,8 +5,8 @@
 
 namespace brio {
 
-/// Positions at step n and velocities at n-1/2, [component][node]; both relative to the element's first node, so that
-/// precision does not depend on where the model stands or how fast its frame moves.
+/// Positions at step n and velocities at n-1/2, [component][node]; both relative to the element's first node,
+/// so that precision does not depend on where the model stands or how fast its frame moves.
 template <class T, int N>
 struct NodalMotion {
   T position[3][N];
@@ -32,9 +32,9 @@ struct RotatingNodalForces : NodalForces<T, N> {
 /// A stable step that is not positive says that the element has inverted.
 template <class T>
 struct Increment {
-  T internal_energy;   ///< elastic and plastic
+  T internal_energy;  ///< elastic and plastic
   T hourglass_energy;
-  T viscous_energy;    ///< bulk viscosity and viscous hourglass control
+  T viscous_energy;  ///< bulk viscosity and viscous hourglass control
   T stable_step;
 };
 
@@ -47,10 +47,10 @@ struct NodalMass {
 
 /// What output asks of an element, on global axes.
 struct ElementSample {
-  SymmetricTensor<double> stress{};        ///< Cauchy stress; mean over the points
-  double equivalent_plastic_strain = 0;    ///< largest over the points
+  SymmetricTensor<double> stress{};      ///< Cauchy stress; mean over the points
+  double equivalent_plastic_strain = 0;  ///< largest over the points
   double internal_energy = 0;
-  double thickness = 0;                    ///< shells; 0 for solids
+  double thickness = 0;  ///< shells; 0 for solids
 };
 
 template <class Element, class T>

@@ -1,6 +1,6 @@
 #pragma once
-/// One table of fields per thing that a deck can name. The reader, its range checks, the refusal of unknown keys,
-/// the printed reference and the JSON schema all come from the same table: nothing is listed twice.
+/// One table of fields per thing that a deck can name. The reader, its range checks, the refusal of unknown
+/// keys, the printed reference and the JSON schema all come from the same table: nothing is listed twice.
 ///
 ///     struct Elastic {
 ///       static constexpr std::string_view name = "elastic";
@@ -10,9 +10,9 @@
 ///       }
 ///     };
 ///
-/// A member may be double, int, bool, std::string, an enumeration with `named_values`, a std::array or std::vector
-/// of these, a struct with `fields()`, or a std::optional of any of them. The initial value of an optional member is
-/// its default.
+/// A member may be double, int, bool, std::string, an enumeration with `named_values`, a std::array or
+/// std::vector of these, a struct with `fields()`, or a std::optional of any of them. The initial value of an
+/// optional member is its default.
 
 #include <array>
 #include <limits>
@@ -68,8 +68,12 @@ struct NamedValue {
 };
 
 template <class T>
-concept HasFields = requires { T::fields(); };
+concept HasFields = requires {
+  T::fields();
+};
 template <class T>
-concept HasNamedValues = requires(T value) { named_values(value); };
+concept HasNamedValues = requires(T value) {
+  named_values(value);
+};
 
 }  // namespace brio

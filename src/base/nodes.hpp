@@ -10,9 +10,9 @@
 namespace brio {
 
 struct alignas(64) NodeRecord {
-  double position[4];      ///< x y z, unused
-  double velocity[3];      ///< at the last half step
-  double inverse_mass;     ///< 0 where a node has no mass
+  double position[4];   ///< x y z, unused
+  double velocity[3];   ///< at the last half step
+  double inverse_mass;  ///< 0 where a node has no mass
 };
 
 /// Force, moment, angular velocity: three components and a fourth that keeps rows aligned.
@@ -22,7 +22,7 @@ struct alignas(32) NodeVector {
 
 struct Nodes {
   AlignedBuffer<NodeRecord> record;
-  AlignedBuffer<NodeVector> force;             ///< external minus internal, of the current step
+  AlignedBuffer<NodeVector> force;  ///< external minus internal, of the current step
   AlignedBuffer<double> mass;
   AlignedBuffer<NodeVector> angular_velocity;  ///< component[3] holds the inverse rotational inertia
   AlignedBuffer<NodeVector> moment;
@@ -30,7 +30,8 @@ struct Nodes {
   /// Bit i: velocity component i is prescribed (infinite mass along axis i); bits 3 to 5: the rotations.
   /// Empty where no deck entry prescribes anything.
   AlignedBuffer<std::uint8_t> prescribed;
-  /// Velocities at the half step before, for the work of impulses; empty where nothing but forces acts on nodes.
+  /// Velocities at the half step before, for the work of impulses; empty where nothing but forces acts on
+  /// nodes.
   AlignedBuffer<NodeVector> velocity_before;
 
   Nodes() = default;

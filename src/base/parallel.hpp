@@ -1,7 +1,7 @@
 #pragma once
-/// The only mention of threads. Work is cut into numbered tasks whatever the number of threads, and what a task
-/// computes does not depend on who runs it; sums over tasks are formed in task order by the caller. So results
-/// are the same bits for any number of threads.
+/// The only mention of threads. Work is cut into numbered tasks whatever the number of threads, and what a
+/// task computes does not depend on who runs it; sums over tasks are formed in task order by the caller. So
+/// results are the same bits for any number of threads.
 
 #include <atomic>
 #include <condition_variable>

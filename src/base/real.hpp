@@ -1,6 +1,6 @@
 #pragma once
-/// Precision of the element state. Positions, velocities, forces, time, energies and sums are double in every run;
-/// the deck's `numerics.precision` chooses what the element and material kernels compute and store.
+/// Precision of the element state. Positions, velocities, forces, time, energies and sums are double in every
+/// run; the deck's `numerics.precision` chooses what the element and material kernels compute and store.
 
 #include <array>
 #include <concepts>

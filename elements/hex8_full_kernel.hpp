@@ -130,7 +130,7 @@ struct Hex8FullKernel : Hex8Full {
       is_valid = is_valid & has_volume & (determinant > T(0.0));
       MaterialAxes<T> axes;
       increment.internal_energy +=
-          volume * where(determinant > T(0.0), determinant, T(1.0)) * update(law, n, point[p], axes);
+          volume * where(determinant > T(0.0), determinant, T(1.0)) * update(law, n, point[p], axes).work;
       const SymmetricTensor<T> stress = fixed_stress(point[p], axes);
       const T mean_stress = trace(stress) * (1.0 / 3.0);
       pressure_force += volume * mean_stress;

@@ -58,7 +58,8 @@ struct Hex8Kernel : Hex8 {
     HourglassVectors<T> q = hourglass_motion(x, v, half_step, half_l);
     MaterialAxes<T> axes;
     Increment<T> increment;
-    increment.internal_energy = volume.middle * update(law, n, *point, axes);
+    const PointStep<T> point_step = update(law, n, *point, axes);
+    increment.internal_energy = volume.middle * point_step.work;
     header.internal_energy += increment.internal_energy;
 
     const ElasticModuli<T> moduli = law.moduli(point->history);
@@ -74,14 +75,16 @@ struct Hex8Kernel : Hex8 {
     header.viscous_pressure = viscosity.pressure;
 
     const T distortion = hourglass_distortion(x, g);
-    const T stiffness =
-        brio::hourglass_stiffness(hourglass_stiffness, moduli, volume.end, trace_g, distortion);
+    const T stiffness = brio::hourglass_stiffness(hourglass_stiffness, moduli, volume.end, distortion);
+    SymmetricTensor<T> material_g = g;
     if constexpr (is_unrotated) {
+      material_g = turned_back(axes.middle, g);
       for (Vector3<T>& mode : q.mode) mode = turned_back(axes.middle, mode);
     } else {
       for (Vector3<T>& mode : header.hourglass.mode) mode = turned(axes.end, mode);
     }
-    increment.hourglass_energy = stretch_hourglass(header.hourglass, stiffness, q);
+    const T share = max(point_step.tangent_share, T(plastic_hourglass_share));
+    increment.hourglass_energy = stretch_hourglass(header.hourglass, (share * stiffness) * material_g, q);
     if constexpr (is_unrotated)
       for (Vector3<T>& mode : q.mode) mode = turned(axes.end, mode);
     T damping = viscosity.damping;
@@ -95,8 +98,9 @@ struct Hex8Kernel : Hex8 {
     }
     const SymmetricTensor<T> stress = fixed_stress(*point, axes) - isotropic(viscosity.pressure);
     nodal_forces(x, b, stress, q, scaled_inverse_volume, forces);
-    const T frequency_squared = max(spectrum.uniform, 64.0 * inverse_mass * stiffness) +
-                                (8.0 * hourglass_overlap) * inverse_mass * stiffness * distortion;
+    const T largest_stiffness = inverse_mass * stiffness * largest_eigenvalue_bound(g);
+    const T frequency_squared = max(spectrum.uniform, 64.0 * largest_stiffness) +
+                                (8.0 * hourglass_overlap) * largest_stiffness * distortion;
     increment.stable_step = where(volume.is_valid, damped_stable_step(frequency_squared, damping), T(-1.0));
     return increment;
   }

@@ -59,24 +59,33 @@ BRIO_INLINE T largest_gamma(T distortion) {
 /// proportion to p, and the factor is held against assembled stiffness matrices in the tests.
 inline constexpr double hourglass_overlap = 6;
 
-/// Force per hourglass displacement, force/length. For a parallelepiped the hourglass frequency squared is
-/// then `coefficient` times 8 V / m tr G times the modulus of plane-strain bending, 4 mu (lambda + mu) /
-/// (lambda + 2 mu), which stays finite for incompressible materials; distorted bricks get less, so that
-/// |gamma| does not raise it.
+/// Stiffness S of the hourglass forces S G q, a volume times a modulus. The tensor G makes each component of
+/// q meet the stiffness of its own direction, as it does in an assumed-strain element (Belytschko & Bindeman
+/// 1993): the bending of a flat brick is resisted over its length, not over its thickness. For a cube G is a
+/// third of tr G, and the frequency squared is `coefficient` times 8 V / m tr G times the modulus of
+/// plane-strain bending, 4 mu (lambda + mu) / (lambda + 2 mu), which stays finite for incompressible
+/// materials; distorted bricks get less, so that |gamma| does not raise it.
 template <class T>
-BRIO_INLINE T hourglass_stiffness(double coefficient, const ElasticModuli<T>& moduli, T volume, T trace_g,
+BRIO_INLINE T hourglass_stiffness(double coefficient, const ElasticModuli<T>& moduli, T volume,
                                   T distortion) {
   const T bending_modulus =
       4.0 * moduli.shear * (moduli.first_lame + moduli.shear) / (moduli.first_lame + 2.0 * moduli.shear);
-  return coefficient * bending_modulus * volume * trace_g / (8.0 + distortion);
+  return 3.0 * coefficient * bending_modulus * volume / (8.0 + distortion);
 }
 
-/// Elastic forces of one step. \param q in: half of the step's hourglass displacement; out: the forces.
-/// \return their work.
 template <class T>
-BRIO_INLINE T stretch_hourglass(HourglassVectors<T>& force, T stiffness, HourglassVectors<T>& q) {
+BRIO_INLINE Vector3<T> operator*(const SymmetricTensor<T>& a, const Vector3<T>& b) {
+  return {a.xx * b.x + a.xy * b.y + a.xz * b.z, a.xy * b.x + a.yy * b.y + a.yz * b.z,
+          a.xz * b.x + a.yz * b.y + a.zz * b.z};
+}
+
+/// Elastic forces of one step. \param stiffness S G. \param q in: half of the step's hourglass displacement;
+/// out: the forces. \return their work.
+template <class T>
+BRIO_INLINE T stretch_hourglass(HourglassVectors<T>& force, const SymmetricTensor<T>& stiffness,
+                                HourglassVectors<T>& q) {
   T work(0.0);
-  const T twice_stiffness = 2.0 * stiffness;
+  const SymmetricTensor<T> twice_stiffness = T(2.0) * stiffness;
   for (int a = 0; a < hourglass_modes; ++a) {
     const Vector3<T> change = twice_stiffness * q.mode[a];
     const Vector3<T> old_force = force.mode[a];

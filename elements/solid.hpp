@@ -49,11 +49,30 @@ BRIO_INLINE void start(SolidPoint<T, Law, rate>& point) {
   }
 }
 
+/// What a step does to a material point.
+template <class T>
+struct PointStep {
+  T work;           ///< per volume of the middle of the step
+  T tangent_share;  ///< tangent over elastic shear modulus, as the step met it; 1 for laws without flow
+};
+
+/// Change of deviatoric stress along the strain of the step, over 2 mu times that strain: 1 in elastic steps,
+/// near 0 where the material flows.
+template <class T>
+BRIO_INLINE T tangent_share(const SymmetricTensor<T>& stress_change, const SymmetricTensor<T>& strain,
+                            T shear) {
+  const SymmetricTensor<T> e = deviator(strain);
+  const T elastic = 2.0 * shear * contract(e, e);
+  const MaskOf<T> strained = elastic > T(0.0);
+  const T share = contract(stress_change, e) / where(strained, elastic, T(1.0));
+  return where(strained, min(max(share, T(0.0)), T(1.0)), T(1.0));
+}
+
 /// Turns the axes of the point and updates its stress. \param n dt/2 times the velocity gradient of the
-/// middle of the step. \param axes out. \return work of the step per volume of its middle.
+/// middle of the step. \param axes out.
 template <class T, class Law, ObjectiveRate rate>
-BRIO_INLINE T update(const Law& law, const Tensor<T>& n, SolidPoint<T, Law, rate>& point,
-                     MaterialAxes<T>& axes) {
+BRIO_INLINE PointStep<T> update(const Law& law, const Tensor<T>& n, SolidPoint<T, Law, rate>& point,
+                                MaterialAxes<T>& axes) {
   if constexpr (rate == ObjectiveRate::green_naghdi) {
     axes = advance(point.rotation.axes, n);
   } else {
@@ -68,7 +87,11 @@ BRIO_INLINE T update(const Law& law, const Tensor<T>& n, SolidPoint<T, Law, rate
   } else {
     law.update_from_stretch(point.rotation.axes.stretch, point.stress, point.history);
   }
-  return contract(old_stress + point.stress, axes.half_strain);
+  PointStep<T> step{contract(old_stress + point.stress, axes.half_strain), T(1.0)};
+  if constexpr (requires { point.history.equivalent_plastic_strain; })
+    step.tangent_share =
+        tangent_share(point.stress - old_stress, T(2.0) * axes.half_strain, law.moduli(point.history).shear);
+  return step;
 }
 
 /// Cauchy stress on fixed axes. \param axes of the end of the last step.

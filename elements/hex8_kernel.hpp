@@ -56,6 +56,12 @@ struct Hex8Kernel : Hex8 {
     const StepVolume<T> volume = step_volume(b.volume, determinant);
 
     HourglassVectors<T> q = hourglass_motion(x, v, half_step, half_l);
+    // Taken on the end configuration it stands on the axes of the start; those of the middle are (I - dt/2
+    // L)^-1 ahead, and without that a turning body gains energy.
+    for (Vector3<T>& mode : q.mode)
+      mode = {mode.x + n.m[0][0] * mode.x + n.m[0][1] * mode.y + n.m[0][2] * mode.z,
+              mode.y + n.m[1][0] * mode.x + n.m[1][1] * mode.y + n.m[1][2] * mode.z,
+              mode.z + n.m[2][0] * mode.x + n.m[2][1] * mode.y + n.m[2][2] * mode.z};
     MaterialAxes<T> axes;
     Increment<T> increment;
     const PointStep<T> point_step = update(law, n, *point, axes);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +16,7 @@ namespace brio {
 /// A box around a face at the beginning of a step and what bounds the motion of the face.
 struct ShellExtent {
   Eigen::Vector3d centre;
-  Eigen::Vector3d along[3];  ///< orthonormal: two directions in the face, its normal
+  std::array<Eigen::Vector3d, 3> along;  ///< orthonormal: two directions in the face, its normal
   double half[3];            ///< half the size of the box; infinite where the face has hardly any area
   Eigen::Vector3d velocity;  ///< mean of the corners
   double spread;             ///< no corner's velocity differs more from the mean
@@ -41,7 +42,7 @@ inline ShellExtent shell_extent(const FaceVertices& vertices, const FaceVertices
   const double size = std::sqrt(first.squaredNorm() * second.squaredNorm());
   if (!(length > least_sine_of_diagonals * size)) {
     std::fill_n(extent.half, 3, std::numeric_limits<double>::infinity());
-    std::fill_n(extent.along, 3, Eigen::Vector3d::Zero());
+    extent.along.fill(Eigen::Vector3d::Zero());
     return extent;
   }
   extent.along[2] = area / length;
@@ -50,7 +51,8 @@ inline ShellExtent shell_extent(const FaceVertices& vertices, const FaceVertices
   for (int axis = 0; axis < 3; ++axis) {
     extent.half[axis] = 0;
     for (const Eigen::Vector3d& x : vertices)
-      extent.half[axis] = std::max(extent.half[axis], std::abs(extent.along[axis].dot(x - extent.centre)));
+      extent.half[axis] = std::max(
+          extent.half[axis], std::abs(extent.along[static_cast<std::size_t>(axis)].dot(x - extent.centre)));
   }
   return extent;
 }
@@ -66,7 +68,8 @@ inline bool surely_out_of_reach(const ShellExtent& extent, const Eigen::Vector3d
   const Eigen::Vector3d to = position - extent.centre;
   double squared = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double beside = std::max(std::abs(extent.along[axis].dot(to)) - extent.half[axis], 0.0);
+    const double beside =
+        std::max(std::abs(extent.along[static_cast<std::size_t>(axis)].dot(to)) - extent.half[axis], 0.0);
     squared += beside * beside;
   }
   return squared > reach * reach;

@@ -22,8 +22,8 @@ double comparisons_of_global_search(int bodies, int nodes_per_body) {
   return all * std::log2(all);
 }
 
-/// The order of the last search is nearly that of this one, and sorts in about half the time of an arbitrary
-/// one.
+/// The order of the last search is nearly that of this one; std::sort starts from it instead of from an
+/// arbitrary one.
 void SortedListSearch::sort(const SearchNodes& nodes, int axis) {
   std::vector<int>& order = order_[axis];
   std::vector<int>& rank = rank_[axis];

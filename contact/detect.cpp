@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact/face_geometry.hpp"
 #include "contact/velocity_check.hpp"
@@ -31,69 +30,6 @@ constexpr double hair_depth = 0.05;
 /// Directions are formed from positions only where these are farther apart than this share of an edge.
 constexpr double direction_share = 1e-8;
 
-struct Sweep {
-  Vector3d start, end;
-};
-
-Sweep sweep_of(const Nodes& nodes, int node, const Vector3d& frame, double ahead) {
-  const Vector3d x = position(nodes, node);
-  return {x, x + ahead * (velocity(nodes, node) - frame)};
-}
-
-void grow(CaptureBox& box, double by) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] -= by;
-    box.upper[axis] += by;
-  }
-}
-
-CaptureBox box_of(std::span<const Sweep> sweeps) {
-  Vector3d lower = sweeps[0].start.cwiseMin(sweeps[0].end);
-  Vector3d upper = sweeps[0].start.cwiseMax(sweeps[0].end);
-  for (const Sweep& sweep : sweeps.subspan(1)) {
-    lower = lower.cwiseMin(sweep.start).cwiseMin(sweep.end);
-    upper = upper.cwiseMax(sweep.start).cwiseMax(sweep.end);
-  }
-  return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
-}
-
-SweptFace swept_face(const Nodes& nodes, const Face& face, const Vector3d& frame, double ahead,
-                     double influence, double outside) {
-  std::array<Sweep, 4> sweeps;
-  for (std::size_t k = 0; k < 4; ++k) sweeps[k] = sweep_of(nodes, face.node[k], frame, ahead);
-  SweptFace swept{};
-  swept.box = box_of(sweeps);
-  grow(swept.box, influence);
-  const Vector3d area = (sweeps[2].start - sweeps[0].start).cross(sweeps[3].start - sweeps[1].start);
-  const double length = area.norm();
-  swept.normal = length > 0 ? Vector3d(area / length) : Vector3d::UnitX();
-  swept.lower = std::numeric_limits<double>::infinity();
-  swept.upper = -swept.lower;
-  for (const Sweep& sweep : sweeps)
-    for (const Vector3d& x : {sweep.start, sweep.end}) {
-      const double height = swept.normal.dot(x);
-      swept.lower = std::min(swept.lower, height);
-      swept.upper = std::max(swept.upper, height);
-    }
-  swept.lower -= influence;
-  swept.upper_outside = swept.upper + outside;
-  swept.upper += influence;
-  return swept;
-}
-
-ShellExtent extent_of(const Nodes& nodes, const Face& face, double margin) {
-  FaceVertices velocities;
-  for (std::size_t k = 0; k < 4; ++k) velocities[k] = velocity(nodes, face.node[k]);
-  return shell_extent(vertices(nodes, face), velocities, margin);
-}
-
-bool apart(const CaptureBox& a, const CaptureBox& b) {
-  bool separated = false;
-  for (int axis = 0; axis < 3; ++axis)
-    separated |= a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis];
-  return separated;
-}
-
 /// The detailed check of one slave node.
 class NodeCheck {
  public:
@@ -101,28 +37,28 @@ class NodeCheck {
 
   void run(int slave) {
     slave_ = slave;
-    const auto faces = scene_.candidates.faces_of.of(slave);
-    if (faces.empty()) return;
+    if (scene_.candidates.faces_of.of(slave).empty()) return;
     const auto s = static_cast<std::size_t>(slave);
     node_ = scene_.surface.node[s];
     solid_ = scene_.surface.of_solid[s] != 0;
     normal_known_ = false;
     begin_ = piece_.contact.size();
     // Whoever seems to be inside a body is judged once more with all that is near in sight.
-    if (!judge_all(faces, false)) {
+    if (!judge_all(false)) {
       piece_.contact.resize(begin_);
-      judge_all(faces, true);
+      judge_all(true);
     }
     if (scene_.options.velocity_check) check_motion();
   }
 
  private:
-  // ---- what is near
+  // ---- all that is near
 
   // \returns false where the node seems to be inside a body but faces that might prove otherwise were left
   // out.
-  bool judge_all(std::span<const int> faces, bool everything) {
-    gather(faces, everything);
+  bool judge_all(bool everything) {
+    find_near_faces(scene_.swept, scene_.surface, scene_.candidates, scene_.options, scene_.nodes, slave_,
+                    everything, piece_.near);
     if (piece_.near.empty()) return true;
     find_history();
     for (std::size_t i = 0; i < piece_.near.size(); ++i) {
@@ -130,37 +66,6 @@ class NodeCheck {
       if (piece_.near[i].inside && !everything) return false;
     }
     return true;
-  }
-
-  // Faces of closed bodies that the node is well outside of are left out, but where everything is asked for.
-  void gather(std::span<const int> faces, bool everything) {
-    piece_.near.clear();
-    const double radius =
-        scene_.options.shell_thickness_scale * scene_.surface.radius[static_cast<std::size_t>(slave_)];
-    const Sweep sweep = sweep_of(scene_.nodes, node_, scene_.frame, approach_share * scene_.dt);
-    const Vector3d& x = sweep.start;
-    CaptureBox own = box_of({&sweep, 1});
-    grow(own, radius);
-    const Vector3d own_velocity = velocity(scene_.nodes, node_);
-    const auto left_out = [&](int f) {
-      if (face(f).shell)
-        return surely_out_of_reach(scene_.shell[static_cast<std::size_t>(f)], x, own_velocity, radius,
-                                   approach_share * scene_.dt);
-      const SweptFace& swept = scene_.swept[static_cast<std::size_t>(f)];
-      if (apart(own, swept.box)) return true;
-      const double from = swept.normal.dot(sweep.start);
-      const double to = swept.normal.dot(sweep.end);
-      return std::min(from, to) - radius > (everything ? swept.upper : swept.upper_outside) ||
-             std::max(from, to) + radius < swept.lower;
-    };
-    for (int f : faces) {
-      if (left_out(f)) continue;
-      const ClosestPoint closest = closest_point_on_quad(x, vertices(scene_.nodes, face(f)));
-      piece_.near.push_back({.face = f, .distance = std::sqrt(closest.squared_distance), .closest = closest});
-    }
-    std::sort(piece_.near.begin(), piece_.near.end(), [](const NearFace& a, const NearFace& b) {
-      return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
-    });
   }
 
   void find_history() {
@@ -255,7 +160,8 @@ class NodeCheck {
   bool within_band(const NearFace& near) const {
     const double beyond = near.distance - touching(near.face) - band_share * edge(near.face);
     if (beyond <= 0) return true;
-    return beyond <= approach_share * scene_.dt * relative_velocity(near.face, near.closest.weights).norm();
+    return beyond <=
+           approach_share * scene_.swept.dt * relative_velocity(near.face, near.closest.weights).norm();
   }
 
   // Unit vector that leads the node out of the body, from the closest point to the node if that is outside.
@@ -358,7 +264,7 @@ class NodeCheck {
 
   void add(const NearFace& near, const Vector3d& push, double gap) {
     const double approach = relative_velocity(near.face, near.closest.weights).dot(push);
-    if (gap > band_share * edge(near.face) + approach_share * std::abs(approach) * scene_.dt) return;
+    if (gap > band_share * edge(near.face) + approach_share * std::abs(approach) * scene_.swept.dt) return;
     if (faces_towards(push)) append(near.face, near.closest.weights, push, gap);
   }
 
@@ -409,16 +315,18 @@ class NodeCheck {
     const Vector3d own = velocity(scene_.nodes, node_);
     for (int corner : face(f).node)
       farthest = std::max(farthest, (own - velocity(scene_.nodes, corner)).norm());
-    return farthest * scene_.dt;
+    return farthest * scene_.swept.dt;
   }
 
   MovingNode moving_node() const {
-    return {position(scene_.nodes, node_), scene_.dt * (velocity(scene_.nodes, node_) - scene_.frame)};
+    return {position(scene_.nodes, node_),
+            scene_.swept.dt * (velocity(scene_.nodes, node_) - scene_.swept.frame)};
   }
   MovingFace moving_face(int f) const {
     MovingFace moving{.start = vertices(scene_.nodes, face(f)), .displacement = {}};
     for (std::size_t k = 0; k < 4; ++k)
-      moving.displacement[k] = scene_.dt * (velocity(scene_.nodes, face(f).node[k]) - scene_.frame);
+      moving.displacement[k] =
+          scene_.swept.dt * (velocity(scene_.nodes, face(f).node[k]) - scene_.swept.frame);
     return moving;
   }
 
@@ -454,23 +362,8 @@ class NodeCheck {
 void detect(Detection& detection, const Surface& surface, const Candidates& candidates,
             const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
             std::span<const Contact> last, ThreadTeam& team, std::vector<Contact>& contacts) {
-  Vector3d frame;
-  for (int axis = 0; axis < 3; ++axis) frame[axis] = 0.5 * (velocities.lower[axis] + velocities.upper[axis]);
-  detection.swept.resize(surface.face.size());
-  detection.shell.resize(surface.face.size());
-  team.for_ranges(candidates.face.size(), slaves_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto f = static_cast<std::size_t>(candidates.face[i]);
-      const double outside = influence_outside(surface, options, candidates, candidates.face[i]);
-      if (surface.face[f].shell)
-        detection.shell[f] = extent_of(nodes, surface.face[f], outside);
-      else
-        detection.swept[f] = swept_face(nodes, surface.face[f], frame, approach_share * dt,
-                                        influence(surface, options, candidates, candidates.face[i]), outside);
-    }
-  });
-  const Scenery scenery{surface, candidates, options,         nodes,          dt,
-                        frame,   last,       detection.swept, detection.shell};
+  sweep(detection.swept, surface, candidates, options, nodes, velocities, dt, team);
+  const Scenery scenery{surface, candidates, options, nodes, last, detection.swept};
   const std::size_t tasks = (surface.slaves() + slaves_per_task - 1) / slaves_per_task;
   detection.piece.resize(tasks);
   team.for_each(tasks, [&](std::size_t task) {

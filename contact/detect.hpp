@@ -11,24 +11,13 @@
 #include <vector>
 
 #include "contact/candidates.hpp"
-#include "contact/closest_point.hpp"
+#include "contact/near_faces.hpp"
 #include "contact/pair.hpp"
-#include "contact/shell_extent.hpp"
 #include "contact/surface.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 
 namespace brio {
-
-/// The space that a face and what it influences sweep over within the step: a box, and a slab along the
-/// normal.
-struct SweptFace {
-  CaptureBox box;
-  Eigen::Vector3d normal;
-  double lower;
-  double upper;
-  double upper_outside;  ///< as far as nodes outside of a closed body matter
-};
 
 /// What the detailed check reads.
 struct Scenery {
@@ -36,19 +25,8 @@ struct Scenery {
   const Candidates& candidates;
   const ContactOptions& options;
   const Nodes& nodes;
-  double dt;
-  Eigen::Vector3d frame;               ///< velocity of the frame in which capture boxes move least
-  std::span<const Contact> last;       ///< contacts of the last step, by slave
-  std::span<const SweptFace> swept;    ///< of the sides of hexahedra that are candidates
-  std::span<const ShellExtent> shell;  ///< of the shells that are candidates
-};
-
-/// A face near one slave node.
-struct NearFace {
-  int face;
-  double distance;
-  ClosestPoint closest;
-  bool inside = false;  ///< of the closest face of a closed body: the node is inside that body
+  std::span<const Contact> last;  ///< contacts of the last step, by slave
+  const SweptFaces& swept;
 };
 
 /// Contacts of consecutive slave nodes, found by one task.
@@ -58,8 +36,7 @@ struct DetectionPiece {
 };
 
 struct Detection {
-  std::vector<SweptFace> swept;
-  std::vector<ShellExtent> shell;
+  SweptFaces swept;
   std::vector<DetectionPiece> piece;
 };
 

@@ -16,7 +16,12 @@
 
 #include "src/base/real.hpp"
 
+// Kernels are inlined whole into the loop over packs; under sanitizers that takes minutes to compile.
+#if defined(BRIO_SANITIZED)
+#define BRIO_INLINE inline
+#else
 #define BRIO_INLINE inline __attribute__((always_inline))
+#endif
 
 namespace brio {
 

@@ -4,6 +4,8 @@
 
 #include "tests/elements/single_shell.hpp"
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Sparse>
 #include <functional>
 

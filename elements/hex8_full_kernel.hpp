@@ -146,11 +146,12 @@ struct Hex8FullKernel : Hex8Full {
     const T volume = where(is_valid, b.volume, T(1.0));
     const T inverse_mass = 1.0 / header.mass;
     const SolidSpectrum<T> spectrum = solid_spectrum(moduli, g, volume * inverse_mass);
-    const BulkViscosity<T> viscosity =
-        bulk_viscosity(linear_bulk_viscosity, quadratic_bulk_viscosity, dilatation_rate, trace_g,
-                       header.mass * (scaled_inverse_volume / gradient_scale), sqrt(spectrum.reference));
     T determinant;
     const Tensor<T> n = centered((half_step * scaled_inverse_volume) * scaled_l, determinant);
+    const BulkViscosity<T> viscosity =
+        bulk_viscosity(linear_bulk_viscosity, quadratic_bulk_viscosity,
+                       middle_dilatation_rate(n, half_step, dilatation_rate), trace_g,
+                       header.mass * (scaled_inverse_volume / gradient_scale), sqrt(spectrum.reference));
     increment.viscous_energy = -(header.viscous_pressure + viscosity.pressure) * trace(n) *
                                (volume * where(determinant > T(0.0), determinant, T(1.0)));
     header.viscous_pressure = viscosity.pressure;

@@ -56,12 +56,11 @@ struct Hex8Kernel : Hex8 {
     const StepVolume<T> volume = step_volume(b.volume, determinant);
 
     HourglassVectors<T> q = hourglass_motion(x, v, half_step, half_l);
-    // Taken on the end configuration it stands on the axes of the start; those of the middle are (I - dt/2
-    // L)^-1 ahead, and without that a turning body gains energy.
-    for (Vector3<T>& mode : q.mode)
-      mode = {mode.x + n.m[0][0] * mode.x + n.m[0][1] * mode.y + n.m[0][2] * mode.z,
-              mode.y + n.m[1][0] * mode.x + n.m[1][1] * mode.y + n.m[1][2] * mode.z,
-              mode.z + n.m[2][0] * mode.x + n.m[2][1] * mode.y + n.m[2][2] * mode.z};
+    // Taken on the end configuration it stands on the axes of the start, from which it is carried to those on
+    // which the forces stand, of the middle or the end: forces that lag behind the turning feed a turning
+    // body with energy.
+    const Tensor<T> ahead = is_unrotated ? n : with_more_spin(n);
+    for (Vector3<T>& mode : q.mode) mode = mode + turned(ahead, mode);
     MaterialAxes<T> axes;
     Increment<T> increment;
     const PointStep<T> point_step = update(law, n, *point, axes);
@@ -74,9 +73,10 @@ struct Hex8Kernel : Hex8 {
     const T inverse_mass = 1.0 / header.mass;
     const SolidSpectrum<T> spectrum = solid_spectrum(moduli, g, volume.end * inverse_mass);
     const T reference_frequency = sqrt(spectrum.reference);
-    const BulkViscosity<T> viscosity = bulk_viscosity(
-        linear_bulk_viscosity, quadratic_bulk_viscosity, scaled_inverse_volume * trace(scaled_l), trace_g,
-        header.mass * (scaled_inverse_volume / gradient_scale), reference_frequency);
+    const T dilatation_rate = middle_dilatation_rate(n, half_step, scaled_inverse_volume * trace(scaled_l));
+    const BulkViscosity<T> viscosity =
+        bulk_viscosity(linear_bulk_viscosity, quadratic_bulk_viscosity, dilatation_rate, trace_g,
+                       header.mass * (scaled_inverse_volume / gradient_scale), reference_frequency);
     increment.viscous_energy = -(header.viscous_pressure + viscosity.pressure) * trace(n) * volume.middle;
     header.viscous_pressure = viscosity.pressure;
 
@@ -84,7 +84,7 @@ struct Hex8Kernel : Hex8 {
     const T stiffness = brio::hourglass_stiffness(hourglass_stiffness, moduli, volume.end, distortion);
     SymmetricTensor<T> material_g = g;
     if constexpr (is_unrotated) {
-      material_g = turned_back(axes.middle, g);
+      material_g = turned_back(axes.end, g);
       for (Vector3<T>& mode : q.mode) mode = turned_back(axes.middle, mode);
     } else {
       for (Vector3<T>& mode : header.hourglass.mode) mode = turned(axes.end, mode);

@@ -165,6 +165,14 @@ BRIO_INLINE SolidSpectrum<T> solid_spectrum(const ElasticModuli<T>& moduli, cons
           factor * (moduli.first_lame + 2.0 * moduli.shear) * trace_g};
 }
 
+/// tr D of the middle of the step, where a rigid rotation has none; at the start of a run, where there is no
+/// step yet, that of the velocities. \param n dt/2 times the velocity gradient of the middle.
+template <class T>
+BRIO_INLINE T middle_dilatation_rate(const Tensor<T>& n, T half_step, T rate_at_start) {
+  const MaskOf<T> moved = half_step > T(0.0);
+  return where(moved, trace(n) / where(moved, half_step, T(1.0)), rate_at_start);
+}
+
 /// Bulk viscosity on the length l = 1/sqrt(2 tr G), for which l c is a quarter of the reference frequency
 /// over tr G.
 template <class T>

@@ -35,6 +35,9 @@ struct StepControl {
   double stable = 0;               ///< of all elements, at the present time
   std::size_t critical_block = 0;  ///< where it is set
   std::size_t critical_element = 0;
+  double held = 0;          ///< what the bound has left since it last grew
+  double window_least = 0;  ///< least bound of the steps counted in `window`
+  int window = 0;
   double first = 0;  ///< first step made
   double least = 0;
   double largest = 0;

@@ -74,6 +74,7 @@ Counted count(const Deck& deck, int threads, int steps) {
   for (int step = 0; step < steps; ++step) advance();
   model.step = start.step;
   model.times = start.times;
+  model.control = start.control;
   model.nodes = start.nodes;
   model.blocks = start.blocks;
   model.energy = start.energy;

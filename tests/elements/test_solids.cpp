@@ -311,6 +311,17 @@ TYPED_TEST(Solids, RigidRotationKeepsTheStressOfAStretchedBrick) {
   EXPECT_LT(work, 1e-9 * energy);
 }
 
+TYPED_TEST(Solids, RigidRotationMeetsNoViscosity) {
+  SingleElement<TypeParam, Elastic> element({}, steel, testing::box(1, 1, 1));
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3;
+  for (int step = 1; step <= 20; ++step) {
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.3 * step, axis).toRotationMatrix();
+    element.move_to(turned * testing::box(1, 1, 1), 1e-4);
+    // What a rate of dilatation of 1 / step would meet is of the order of the moduli.
+    EXPECT_LT(element.force.norm(), 1e-12 * steel.youngs_modulus);
+  }
+}
+
 TYPED_TEST(Solids, InvertedBrickHasNoStableStep) {
   SingleElement<TypeParam, Elastic> element({}, steel, testing::box(1, 1, 1));
   element.move_to(testing::box(1, 1, -0.1), 1e-3);

@@ -69,7 +69,7 @@ CaptureBox capture_box(const Nodes& nodes, const Face& face, const double (&grow
 void sort_by_slave(Candidates& candidates, const Surface& surface, const Lists& excluded) {
   const std::size_t slaves = surface.slaves();
   Lists& lists = candidates.faces_of;
-  lists.first.assign(slaves + 1, 0);
+  lists.start_packed(slaves);
   candidates.face.clear();
   CandidatePairs& pairs = candidates.pairs;
   std::size_t kept = 0;

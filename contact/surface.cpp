@@ -3,40 +3,21 @@
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
+
+#include "contact/disjoint_sets.hpp"
+#include "contact/element_sides.hpp"
 
 namespace brio {
 
 namespace {
-
-// Sides of a hexahedron in VTK's order, counterclockwise from outside.
-constexpr int side_corner[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
-                                   {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
-
-// Repeated nodes removed, the order kept; fewer than three left: the side has collapsed.
-bool make_face(std::array<int, 4> corner, Face& face) {
-  std::array<int, 4> distinct{};
-  std::size_t count = 0;
-  for (int node : corner)
-    if (std::find(distinct.begin(), distinct.begin() + count, node) == distinct.begin() + count)
-      distinct[count++] = node;
-  if (count < 3) return false;
-  if (count == 3) distinct[3] = distinct[2];
-  face.node = distinct;
-  return true;
-}
-
-std::array<int, 4> sorted_nodes(const Face& face) {
-  std::array<int, 4> key = face.node;
-  std::sort(key.begin(), key.end());
-  return key;
-}
 
 // Sides that occur once. Sides are put into the bucket of their smallest node, where only a few meet.
 std::vector<Face> exterior(const std::vector<Face>& sides, std::size_t node_count) {
   std::vector<int> first(node_count + 1, 0);
   std::vector<std::array<int, 4>> key(sides.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    key[i] = sorted_nodes(sides[i]);
+    key[i] = side_key(sides[i].node);
     ++first[static_cast<std::size_t>(key[i][0]) + 1];
   }
   std::partial_sum(first.begin(), first.end(), first.begin());
@@ -54,25 +35,6 @@ std::vector<Face> exterior(const std::vector<Face>& sides, std::size_t node_coun
   }
   return open;
 }
-
-// Roots of the trees that join nodes into bodies.
-class Bodies {
- public:
-  explicit Bodies(std::size_t nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int node) {
-    while (at(node) != node) node = at(node) = at(at(node));
-    return node;
-  }
-  void join(int a, int b) {
-    a = root(a);
-    b = root(b);
-    at(std::max(a, b)) = std::min(a, b);
-  }
-
- private:
-  int& at(int node) { return parent_[static_cast<std::size_t>(node)]; }
-  std::vector<int> parent_;
-};
 
 void check(const SurfacePart& part, std::size_t node_count) {
   const auto per_element = static_cast<std::size_t>(part.nodes_per_element);
@@ -92,11 +54,12 @@ void collect_faces(std::span<const SurfacePart> parts, std::size_t node_count, S
     const SurfacePart& part = parts[p];
     if (part.shell) continue;
     for (std::size_t e = 0; e < part.connectivity.size() / 8; ++e)
-      for (const auto& corner : side_corner) {
-        Face face{.node = {}, .part = static_cast<int>(p), .element = static_cast<int>(e)};
-        const int* node = part.connectivity.data() + 8 * e;
-        if (make_face({node[corner[0]], node[corner[1]], node[corner[2]], node[corner[3]]}, face))
-          sides.push_back(face);
+      for (int side = 0; side < sides_of_hexahedron; ++side) {
+        Face face{.node = {},
+                  .part = static_cast<int>(p),
+                  .element = static_cast<int>(e),
+                  .side = static_cast<std::uint8_t>(side)};
+        if (side_nodes(part.connectivity.data() + 8 * e, side, face.node)) sides.push_back(face);
       }
   }
   surface.face = exterior(sides, node_count);
@@ -108,7 +71,7 @@ void collect_faces(std::span<const SurfacePart> parts, std::size_t node_count, S
       Face face{
           .node = {}, .part = static_cast<int>(p), .element = static_cast<int>(e), .body = 0, .shell = true};
       const int* node = part.connectivity.data() + 4 * e;
-      if (!make_face({node[0], node[1], node[2], node[3]}, face)) continue;
+      if (!distinct_nodes({node[0], node[1], node[2], node[3]}, face.node)) continue;
       surface.face.push_back(face);
       surface.thickness.push_back(part.thickness[e]);
     }
@@ -116,7 +79,7 @@ void collect_faces(std::span<const SurfacePart> parts, std::size_t node_count, S
 }
 
 void number_bodies(std::span<const SurfacePart> parts, std::size_t node_count, Surface& surface) {
-  Bodies bodies(node_count);
+  DisjointSets bodies(node_count);
   for (const SurfacePart& part : parts) {
     const auto per_element = static_cast<std::size_t>(part.nodes_per_element);
     for (std::size_t i = 0; i < part.connectivity.size(); ++i)
@@ -142,7 +105,7 @@ void collect_slaves(std::size_t node_count, Surface& surface) {
     surface.node.push_back(static_cast<int>(n));
   }
   const std::size_t slaves = surface.slaves();
-  surface.faces_of.first.assign(slaves + 1, 0);
+  surface.faces_of.start_packed(slaves);
   for (const Face& face : surface.face)
     for (int k = 0; k < face.corners(); ++k)
       ++surface.faces_of
@@ -152,62 +115,73 @@ void collect_slaves(std::size_t node_count, Surface& surface) {
   surface.faces_of.item.resize(static_cast<std::size_t>(first.back()));
   std::vector<int> fill(first.begin(), first.end() - 1);
   surface.body.assign(slaves, 0);
-  surface.of_solid.assign(slaves, 0);
   for (std::size_t f = 0; f < surface.face.size(); ++f) {
     const Face& face = surface.face[f];
     for (int k = 0; k < face.corners(); ++k) {
       const auto slave = static_cast<std::size_t>(surface.slave(face.node[static_cast<std::size_t>(k)]));
       surface.faces_of.item[static_cast<std::size_t>(fill[slave]++)] = static_cast<int>(f);
       surface.body[slave] = face.body;
-      if (!face.shell) surface.of_solid[slave] = 1;
     }
   }
 }
 
-// The face across the edge from a to b: the first that runs it the other way; for shells, whose normals need
-// not agree, else one that runs it the same way.
+// The face across the edge from a to b: one that runs it the other way; for shells, whose normals need not
+// agree, else one that runs it the same way. Where several do, one of the same element, which bounds the same
+// piece of solid, else the first by part, element, side.
 int face_across(const Surface& surface, int self, int a, int b) {
-  int same_way = -1;
   const Face& own = surface.face[static_cast<std::size_t>(self)];
+  const auto rank = [&](const Face& face, bool same_way) {
+    const bool other_element = face.part != own.part || face.element != own.element;
+    return std::tuple(same_way, other_element, face.part, face.element, face.side);
+  };
+  int across = -1;
+  bool across_same_way = false;
   for (int other : surface.faces_of.of(surface.slave(a))) {
     const Face& face = surface.face[static_cast<std::size_t>(other)];
     if (other == self || face.shell != own.shell) continue;
     for (int k = 0; k < face.corners(); ++k) {
       const int from = face.node[static_cast<std::size_t>(k)];
       const int to = face.node[static_cast<std::size_t>((k + 1) % face.corners())];
-      if (from == b && to == a) return other;
-      if (from == a && to == b && same_way < 0) same_way = other;
+      const bool same_way = from == a && to == b;
+      if (!(from == b && to == a) && !(same_way && own.shell)) continue;
+      if (across >= 0 &&
+          rank(surface.face[static_cast<std::size_t>(across)], across_same_way) <= rank(face, same_way))
+        continue;
+      across = other;
+      across_same_way = same_way;
     }
   }
-  return own.shell ? same_way : -1;
-}
-
-void connect(Surface& surface) {
-  surface.neighbor.assign(surface.face.size(), {-1, -1, -1, -1});
-  for (std::size_t f = 0; f < surface.face.size(); ++f) {
-    const Face& face = surface.face[f];
-    for (int k = 0; k < face.corners(); ++k)
-      surface.neighbor[f][static_cast<std::size_t>(k)] =
-          face_across(surface, static_cast<int>(f), face.node[static_cast<std::size_t>(k)],
-                      face.node[static_cast<std::size_t>((k + 1) % face.corners())]);
-  }
-}
-
-void update_radius(Surface& surface) {
-  surface.radius.assign(surface.slaves(), 0.0);
-  for (std::size_t s = 0; s < surface.slaves(); ++s) {
-    double sum = 0;
-    int shells = 0;
-    for (int f : surface.faces_of.of(static_cast<int>(s))) {
-      if (!surface.face[static_cast<std::size_t>(f)].shell) continue;
-      sum += surface.thickness[static_cast<std::size_t>(f)];
-      ++shells;
-    }
-    if (shells > 0) surface.radius[s] = 0.5 * sum / shells;
-  }
+  return across;
 }
 
 }  // namespace
+
+void connect(Surface& surface, int face) {
+  const Face& own = surface.face[static_cast<std::size_t>(face)];
+  std::array<int, 4>& neighbor = surface.neighbor[static_cast<std::size_t>(face)];
+  neighbor = {-1, -1, -1, -1};
+  for (int k = 0; k < own.corners(); ++k)
+    neighbor[static_cast<std::size_t>(k)] =
+        face_across(surface, face, own.node[static_cast<std::size_t>(k)],
+                    own.node[static_cast<std::size_t>((k + 1) % own.corners())]);
+}
+
+void update_slave(Surface& surface, int slave) {
+  const auto s = static_cast<std::size_t>(slave);
+  if (surface.faces_of.of(slave).empty()) return;  // debris keeps its radius
+  double sum = 0;
+  int shells = 0;
+  surface.of_solid[s] = 0;
+  for (int f : surface.faces_of.of(slave)) {
+    if (surface.face[static_cast<std::size_t>(f)].shell) {
+      sum += surface.thickness[static_cast<std::size_t>(f)];
+      ++shells;
+    } else {
+      surface.of_solid[s] = 1;
+    }
+  }
+  surface.radius[s] = shells > 0 ? 0.5 * sum / shells : 0;
+}
 
 Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count) {
   Surface surface;
@@ -218,8 +192,11 @@ Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count)
   collect_faces(parts, node_count, surface);
   number_bodies(parts, node_count, surface);
   collect_slaves(node_count, surface);
-  connect(surface);
-  update_radius(surface);
+  surface.neighbor.resize(surface.face.size());
+  for (std::size_t f = 0; f < surface.face.size(); ++f) connect(surface, static_cast<int>(f));
+  surface.radius.resize(surface.slaves());
+  surface.of_solid.resize(surface.slaves());
+  for (std::size_t s = 0; s < surface.slaves(); ++s) update_slave(surface, static_cast<int>(s));
   return surface;
 }
 
@@ -229,7 +206,7 @@ void update_thickness(Surface& surface, int part, std::span<const double> thickn
     if (face.part == part && face.shell)
       surface.thickness[f] = thickness[static_cast<std::size_t>(face.element)];
   }
-  update_radius(surface);
+  for (std::size_t s = 0; s < surface.slaves(); ++s) update_slave(surface, static_cast<int>(s));
 }
 
 }  // namespace brio

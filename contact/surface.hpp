@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "contact/lists.hpp"
+
 namespace brio {
 
 /// What the surface is made of: the elements of one part.
@@ -22,11 +24,13 @@ struct SurfacePart {
 
 struct Face {
   std::array<int, 4> node;  ///< global, counterclockwise from outside; a triangle repeats its third node
-  int part = 0;
-  int element = 0;  ///< within its part
-  int body = 0;     ///< elements connected through nodes are one body
+  int part = 0;             ///< -1: the face is no more; its nodes stay known to the contacts it had
+  int element = 0;          ///< within its part
+  int body = 0;             ///< elements connected through nodes are one body
   bool shell = false;
+  std::uint8_t side = 0;  ///< of its element
 
+  bool alive() const { return part >= 0; }
   bool has(int global_node) const {
     return node[0] == global_node || node[1] == global_node || node[2] == global_node ||
            node[3] == global_node;
@@ -34,25 +38,15 @@ struct Face {
   int corners() const { return node[3] == node[2] ? 3 : 4; }
 };
 
-/// Lists of different lengths in one array: of(i) is list i.
-struct Lists {
-  std::vector<int> first;  ///< lists + 1 entries
-  std::vector<int> item;
-
-  std::span<const int> of(int list) const {
-    const auto begin = static_cast<std::size_t>(first[static_cast<std::size_t>(list)]);
-    const auto end = static_cast<std::size_t>(first[static_cast<std::size_t>(list) + 1]);
-    return {item.data() + begin, end - begin};
-  }
-};
-
 struct Surface {
   std::vector<std::string> part_name;
-  std::vector<Face> face;         ///< ordered by part, element, side
+  /// As built ordered by part (those of hexahedra first), element, side; after deletions in no order, with
+  /// dead ones among them.
+  std::vector<Face> face;
   std::vector<double> thickness;  ///< of each face; 0 for sides of hexahedra
   std::vector<std::array<int, 4>>
       neighbor;                        ///< face across the edge from corner k to the next; -1: free edge
-  std::vector<int> node;               ///< global numbers of the slave nodes, ascending
+  std::vector<int> node;               ///< global numbers of the slave nodes, as built ascending; -1: no more
   std::vector<int> slave_of;           ///< of each global node: its index in `node`; -1: not on the surface
   std::vector<double> radius;          ///< of each slave node: half the mean thickness of its shells
   std::vector<std::uint8_t> of_solid;  ///< of each slave node: 1 where it belongs to a side of a hexahedron
@@ -66,6 +60,12 @@ struct Surface {
 
 /// \throws std::invalid_argument when a shell has no thickness or a node number is out of range.
 Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count);
+
+/// Find the neighbours of a face, from `faces_of`.
+void connect(Surface& surface, int face);
+
+/// Find the radius of a slave node and whether it is of a solid, from `faces_of`.
+void update_slave(Surface& surface, int slave);
 
 /// Take over the current thickness of the shells of a part, in the order of its elements.
 void update_thickness(Surface& surface, int part, std::span<const double> thickness);

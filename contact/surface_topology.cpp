@@ -1,0 +1,389 @@
+#include "contact/surface_topology.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "contact/disjoint_sets.hpp"
+#include "contact/element_sides.hpp"
+
+namespace brio {
+
+namespace {
+
+const TopologyPart& part_of_side(const SurfaceTopology& topology, int side) {
+  std::size_t p = topology.part.size() - 1;
+  while (topology.part[p].first_side > side) --p;
+  return topology.part[p];
+}
+
+struct ElementNodes {
+  const int* node;
+  int corners;
+};
+ElementNodes nodes_of(const TopologyPart& part, int element) {
+  return {part.connectivity.data() + static_cast<std::ptrdiff_t>(part.corners()) * element, part.corners()};
+}
+
+/// Nodes of a side of a hexahedron. \returns false where it has collapsed.
+bool nodes_of_side(const TopologyPart& part, int side, std::array<int, 4>& nodes) {
+  const int local = side - part.first_side;
+  return side_nodes(nodes_of(part, local / sides_of_hexahedron).node, local % sides_of_hexahedron, nodes);
+}
+
+void number_elements(std::span<const SurfacePart> parts, SurfaceTopology& topology) {
+  std::int64_t elements = 0;
+  std::int64_t sides = 0;
+  for (const SurfacePart& given : parts) {
+    TopologyPart& part = topology.part.emplace_back();
+    part.shell = given.shell;
+    part.connectivity.assign(given.connectivity.begin(), given.connectivity.end());
+    part.first_element = static_cast<int>(elements);
+    part.first_side = static_cast<int>(sides);
+    const std::int64_t count = std::ssize(part.connectivity) / part.corners();
+    elements += count;
+    sides += count * part.sides();
+    if (sides > std::numeric_limits<int>::max())
+      throw std::length_error("contact: more element sides than an int can number");
+  }
+  topology.side.assign(static_cast<std::size_t>(sides), side_state::none);
+  topology.body.assign(static_cast<std::size_t>(elements), 0);
+}
+
+template <class Visit>
+void for_sides_of_hexahedra(const SurfaceTopology& topology, const Visit& visit) {
+  for (const TopologyPart& part : topology.part) {
+    if (part.shell) continue;
+    const int sides = static_cast<int>(part.connectivity.size()) / 8 * sides_of_hexahedron;
+    std::array<int, 4> nodes{};
+    for (int side = part.first_side; side < part.first_side + sides; ++side)
+      if (nodes_of_side(part, side, nodes)) visit(side, side_key(nodes));
+  }
+}
+
+// Close a ring of the sides with equal keys, one after the other in a bucket.
+void close_rings(std::span<const int> bucket, std::span<const std::array<int, 4>> key,
+                 std::vector<int>& side) {
+  for (std::size_t i = 0; i < bucket.size(); ++i) {
+    std::size_t next = i;
+    do next = (next + 1) % bucket.size();
+    while (key[next] != key[i]);
+    side[static_cast<std::size_t>(bucket[i])] = next == i ? side_state::alone : bucket[next];
+  }
+}
+
+void link_sides(std::size_t node_count, SurfaceTopology& topology) {
+  std::vector<int> first(node_count + 1, 0);
+  for_sides_of_hexahedra(
+      topology, [&](int, const std::array<int, 4>& key) { ++first[static_cast<std::size_t>(key[0]) + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> bucket(static_cast<std::size_t>(first.back()));
+  std::vector<std::array<int, 4>> keys(bucket.size());
+  std::vector<int> fill(first.begin(), first.end() - 1);
+  for_sides_of_hexahedra(topology, [&](int side, const std::array<int, 4>& key) {
+    const auto place = static_cast<std::size_t>(fill[static_cast<std::size_t>(key[0])]++);
+    bucket[place] = side;
+    keys[place] = key;
+  });
+  for (std::size_t n = 0; n < node_count; ++n) {
+    const auto begin = static_cast<std::size_t>(first[n]);
+    const auto count = static_cast<std::size_t>(first[n + 1]) - begin;
+    close_rings(std::span(bucket).subspan(begin, count), std::span(keys).subspan(begin, count),
+                topology.side);
+  }
+}
+
+void give_faces(const Surface& surface, SurfaceTopology& topology) {
+  for (std::size_t f = 0; f < surface.face.size(); ++f) {
+    const Face& face = surface.face[f];
+    const TopologyPart& part = topology.part[static_cast<std::size_t>(face.part)];
+    int& state =
+        topology.side[static_cast<std::size_t>(part.first_side + part.sides() * face.element + face.side)];
+    assert(part.shell || state == side_state::alone);
+    state = side_state::of_face(static_cast<int>(f));
+  }
+}
+
+// Numbers from 0 of the elements of a part, with their places among all.
+template <class Visit>
+void for_living_elements(const SurfaceTopology& topology, const Visit& visit) {
+  for (const TopologyPart& part : topology.part) {
+    const int count = static_cast<int>(part.connectivity.size()) / part.corners();
+    for (int e = 0; e < count; ++e) {
+      const auto place = static_cast<std::size_t>(part.first_element + e);
+      if (topology.body[place] >= 0) visit(place, nodes_of(part, e));
+    }
+  }
+}
+
+DisjointSets connected_nodes(const SurfaceTopology& topology, std::size_t node_count) {
+  DisjointSets sets(node_count);
+  for_living_elements(topology, [&](std::size_t, const ElementNodes& element) {
+    for (int k = 1; k < element.corners; ++k) sets.join(element.node[0], element.node[k]);
+  });
+  return sets;
+}
+
+void number_bodies(Surface& surface, SurfaceTopology& topology) {
+  DisjointSets sets = connected_nodes(topology, surface.slave_of.size());
+  std::vector<int> number(surface.slave_of.size(), -1);
+  for (const Face& face : surface.face) number[static_cast<std::size_t>(sets.root(face.node[0]))] = face.body;
+  for_living_elements(topology, [&](std::size_t place, const ElementNodes& element) {
+    int& own = number[static_cast<std::size_t>(sets.root(element.node[0]))];
+    if (own < 0) own = surface.body_count++;
+    topology.body[place] = own;
+  });
+}
+
+void sort_out(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// One deletion.
+class Deletion {
+ public:
+  Deletion(Surface& surface, SurfaceTopology& topology, SurfaceChange& change)
+      : surface_(surface), topology_(topology), change_(change) {}
+
+  void run(std::span<const DeletedElement> deleted) {
+    surface_.faces_of.loosen();
+    for (const DeletedElement& element : deleted) remove(element);
+    for (int side : exposed_)
+      if (state(side) == side_state::alone) add_face(side);
+    settle();
+    look_for_splits();
+  }
+
+ private:
+  int& state(int side) { return topology_.side[static_cast<std::size_t>(side)]; }
+  Face& face(int f) { return surface_.face[static_cast<std::size_t>(f)]; }
+
+  void remove(const DeletedElement& deleted) {
+    const TopologyPart& part = topology_.part[static_cast<std::size_t>(deleted.part)];
+    int& body = topology_.body[static_cast<std::size_t>(part.first_element + deleted.element)];
+    if (body < 0) return;
+    body = -1;
+    const ElementNodes element = nodes_of(part, deleted.element);
+    corner_.insert(corner_.end(), element.node, element.node + element.corners);
+    removed_.push_back(element);
+    const int first = part.first_side + part.sides() * deleted.element;
+    for (int side = first; side < first + part.sides(); ++side) {
+      ++topology_.visits;
+      const int was = state(side);
+      if (side_state::is_face(was))
+        remove_face(side_state::face_of(was));
+      else if (was >= 0)
+        leave_ring(side);
+      state(side) = side_state::none;
+    }
+  }
+
+  void leave_ring(int side) {
+    int before = side;
+    while (state(before) != side) {
+      before = state(before);
+      ++topology_.visits;
+    }
+    const int next = state(side);
+    state(before) = next;
+    if (before != next) return;
+    state(before) = side_state::alone;
+    exposed_.push_back(before);
+  }
+
+  void remove_face(int f) {
+    change_.dead_face.push_back(f);
+    topology_.faces.retired.push_back(f);
+    for (int k = 0; k < face(f).corners(); ++k) {
+      const int slave = surface_.slave(face(f).node[static_cast<std::size_t>(k)]);
+      surface_.faces_of.erase(slave, f);
+      touched_.push_back(slave);
+    }
+    face(f).part = -1;
+    topology_.visits += 4;
+  }
+
+  void add_face(int side) {
+    const TopologyPart& part = part_of_side(topology_, side);
+    const int local = side - part.first_side;
+    Face added{.node = {},
+               .part = static_cast<int>(&part - topology_.part.data()),
+               .element = local / sides_of_hexahedron,
+               .side = static_cast<std::uint8_t>(local % sides_of_hexahedron)};
+    nodes_of_side(part, side, added.node);
+    added.body = topology_.body[static_cast<std::size_t>(part.first_element + added.element)];
+    const int f = face_number();
+    face(f) = added;
+    surface_.thickness[static_cast<std::size_t>(f)] = 0;
+    state(side) = side_state::of_face(f);
+    change_.new_face.push_back(f);
+    for (int k = 0; k < added.corners(); ++k) {
+      const int slave = slave_at(added.node[static_cast<std::size_t>(k)], added);
+      surface_.faces_of.insert(slave, f);
+      touched_.push_back(slave);
+    }
+    topology_.visits += 4;
+  }
+
+  int face_number() {
+    if (!topology_.faces.free.empty()) {
+      const int f = topology_.faces.free.back();
+      topology_.faces.free.pop_back();
+      return f;
+    }
+    surface_.face.emplace_back();
+    surface_.thickness.push_back(0);
+    surface_.neighbor.push_back({-1, -1, -1, -1});
+    return static_cast<int>(surface_.face.size()) - 1;
+  }
+
+  int slave_at(int node, const Face& of) {
+    int& slave = surface_.slave_of[static_cast<std::size_t>(node)];
+    if (slave >= 0) return slave;
+    slave = slave_number();
+    const auto s = static_cast<std::size_t>(slave);
+    surface_.node[s] = node;
+    surface_.body[s] = of.body;
+    change_.new_slave.push_back(slave);
+    return slave;
+  }
+
+  int slave_number() {
+    if (!topology_.slaves.free.empty()) {
+      const int s = topology_.slaves.free.back();
+      topology_.slaves.free.pop_back();
+      return s;
+    }
+    surface_.node.push_back(-1);
+    surface_.body.push_back(-1);
+    surface_.radius.push_back(0);
+    surface_.of_solid.push_back(0);
+    surface_.faces_of.add_list();
+    return static_cast<int>(surface_.slaves()) - 1;
+  }
+
+  // Slave nodes whose faces changed, and the neighbours of the faces around them.
+  void settle() {
+    sort_out(touched_);
+    for (int slave : touched_) {
+      if (surface_.faces_of.of(slave).empty()) {
+        leave(slave);
+        continue;
+      }
+      update_slave(surface_, slave);
+      change_.changed_slave.push_back(slave);
+    }
+    for (int slave : change_.changed_slave)
+      for (int f : surface_.faces_of.of(slave)) {
+        connect(surface_, f);
+        ++topology_.visits;
+      }
+  }
+
+  // A node left without elements.
+  void leave(int slave) {
+    const auto s = static_cast<std::size_t>(slave);
+    surface_.of_solid[s] = 0;
+    surface_.radius[s] = topology_.debris_radius;
+    surface_.body[s] = -1;
+    if (topology_.debris_radius > 0) {
+      change_.changed_slave.push_back(slave);
+      return;
+    }
+    surface_.slave_of[static_cast<std::size_t>(surface_.node[s])] = -1;
+    surface_.node[s] = -1;
+    change_.dead_slave.push_back(slave);
+    topology_.slaves.retired.push_back(slave);
+  }
+
+  // Nothing has split if all nodes left of each cluster of deleted elements are still connected among
+  // themselves, through faces around; else something may have.
+  void look_for_splits() {
+    sort_out(corner_);
+    const auto place = [&](int node) {
+      const auto at = std::lower_bound(corner_.begin(), corner_.end(), node);
+      return at != corner_.end() && *at == node ? static_cast<int>(at - corner_.begin()) : -1;
+    };
+    DisjointSets before(corner_.size());
+    for (const ElementNodes& element : removed_)
+      for (int k = 1; k < element.corners; ++k) before.join(place(element.node[0]), place(element.node[k]));
+    DisjointSets now(corner_.size());
+    std::vector<int> piece_of(corner_.size(), -1);
+    for (std::size_t i = 0; i < corner_.size(); ++i) {
+      const int slave = surface_.slave(corner_[i]);
+      if (slave < 0) continue;
+      for (int f : surface_.faces_of.of(slave))
+        for (int node : face(f).node) {
+          ++topology_.visits;
+          if (const int other = place(node); other >= 0) now.join(static_cast<int>(i), other);
+        }
+    }
+    for (std::size_t i = 0; i < corner_.size(); ++i) {
+      const int slave = surface_.slave(corner_[i]);
+      if (slave < 0 || surface_.faces_of.of(slave).empty()) continue;
+      const int piece = now.root(static_cast<int>(i));
+      int& known = piece_of[static_cast<std::size_t>(before.root(static_cast<int>(i)))];
+      if (known < 0) known = piece;
+      if (known != piece) topology_.may_have_split = true;
+    }
+  }
+
+  Surface& surface_;
+  SurfaceTopology& topology_;
+  SurfaceChange& change_;
+  std::vector<ElementNodes> removed_;
+  std::vector<int> corner_;   // their nodes
+  std::vector<int> exposed_;  // sides that stand alone now
+  std::vector<int> touched_;  // slave nodes that lost or gained a face
+};
+
+}  // namespace
+
+SurfaceTopology make_topology(Surface& surface, std::span<const SurfacePart> parts) {
+  SurfaceTopology topology;
+  number_elements(parts, topology);
+  link_sides(surface.slave_of.size(), topology);
+  give_faces(surface, topology);
+  number_bodies(surface, topology);
+  return topology;
+}
+
+void delete_elements(Surface& surface, SurfaceTopology& topology, std::span<const DeletedElement> deleted,
+                     SurfaceChange& change) {
+  change.clear();
+  if (!deleted.empty()) Deletion(surface, topology, change).run(deleted);
+}
+
+bool number_pieces(Surface& surface, SurfaceTopology& topology) {
+  if (!topology.may_have_split) return false;
+  topology.may_have_split = false;
+  DisjointSets sets = connected_nodes(topology, surface.slave_of.size());
+  std::vector<int> number(surface.slave_of.size(), -1);
+  std::vector<char> taken(static_cast<std::size_t>(surface.body_count), 0);
+  bool changed = false;
+  for_living_elements(topology, [&](std::size_t place, const ElementNodes& element) {
+    int& own = number[static_cast<std::size_t>(sets.root(element.node[0]))];
+    if (own < 0) {
+      char& old_taken = taken[static_cast<std::size_t>(topology.body[place])];
+      own = old_taken != 0 ? surface.body_count++ : topology.body[place];
+      old_taken = 1;
+    }
+    changed |= topology.body[place] != own;
+    topology.body[place] = own;
+  });
+  if (!changed) return false;
+  for (Face& face : surface.face) {
+    if (!face.alive()) continue;
+    const TopologyPart& part = topology.part[static_cast<std::size_t>(face.part)];
+    face.body = topology.body[static_cast<std::size_t>(part.first_element + face.element)];
+  }
+  for (int s = 0; s < static_cast<int>(surface.slaves()); ++s)
+    for (int f : surface.faces_of.of(s))
+      surface.body[static_cast<std::size_t>(s)] = surface.face[static_cast<std::size_t>(f)].body;
+  return true;
+}
+
+}  // namespace brio

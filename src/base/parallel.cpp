@@ -9,6 +9,15 @@ namespace {
 // Waiting spins briefly, because the next loop of a step follows within microseconds, then sleeps.
 constexpr int spins_before_sleep = 2000;
 
+constexpr int task_bits = 32;
+constexpr std::uint64_t task_mask = (std::uint64_t{1} << task_bits) - 1;
+
+constexpr std::uint64_t ticket_of(std::uint32_t loop, std::uint64_t task) {
+  return static_cast<std::uint64_t>(loop) << task_bits | task;
+}
+std::uint32_t loop_of(std::uint64_t ticket) { return static_cast<std::uint32_t>(ticket >> task_bits); }
+std::size_t task_of(std::uint64_t ticket) { return static_cast<std::size_t>(ticket & task_mask); }
+
 inline void pause_briefly() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
@@ -27,29 +36,44 @@ ThreadTeam::~ThreadTeam() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
-    generation_.fetch_add(1);
   }
   wake_.notify_all();
   for (auto& worker : workers_) worker.join();
 }
 
-void ThreadTeam::drain() {
-  for (std::size_t i = next_.fetch_add(1); i < count_; i = next_.fetch_add(1)) call_(context_, i);
+// Who takes a task holds the values of its loop: they were written before its ticket was published and are
+// not written again before all its tasks are finished and the ticket is closed. A thread that reads values of
+// the next loop fails to take a task with the ticket of the last.
+void ThreadTeam::drain(std::uint32_t loop) {
+  std::uint64_t ticket = ticket_.load(std::memory_order_acquire);
+  while (loop_of(ticket) == loop) {
+    const Call call = call_.load(std::memory_order_relaxed);
+    void* const context = context_.load(std::memory_order_relaxed);
+    const std::size_t task = task_of(ticket);
+    if (task >= count_.load(std::memory_order_acquire)) return;
+    if (!ticket_.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acquire)) continue;
+    call(context, task);
+    done_.fetch_add(1, std::memory_order_release);
+    ticket = ticket_.load(std::memory_order_acquire);
+  }
 }
 
 void ThreadTeam::run(std::size_t count, Call call, void* context) {
+  assert(count < task_mask);
+  const std::uint32_t last = loop_of(ticket_.load(std::memory_order_relaxed));
+  const std::uint32_t loop = last + 1;
+  ticket_.store(ticket_of(last, task_mask));
+  call_.store(call, std::memory_order_relaxed);
+  context_.store(context, std::memory_order_relaxed);
+  done_.store(0, std::memory_order_relaxed);
+  count_.store(count, std::memory_order_release);
   {
     const std::lock_guard lock(mutex_);
-    call_ = call;
-    context_ = context;
-    count_ = count;
-    next_ = 0;
-    busy_ = static_cast<int>(workers_.size());
-    generation_.fetch_add(1);
+    ticket_.store(ticket_of(loop, 0), std::memory_order_release);
   }
   wake_.notify_all();
-  drain();
-  for (int spin = 0; busy_.load() != 0; ++spin) {
+  drain(loop);
+  for (int spin = 0; done_.load(std::memory_order_acquire) != count; ++spin) {
     if (spin < spins_before_sleep) {
       pause_briefly();
     } else {
@@ -59,17 +83,17 @@ void ThreadTeam::run(std::size_t count, Call call, void* context) {
 }
 
 void ThreadTeam::work() {
-  std::size_t seen = 0;
+  std::uint32_t seen = 0;
+  const auto now = [&] { return loop_of(ticket_.load(std::memory_order_acquire)); };
   while (true) {
-    for (int spin = 0; generation_.load() == seen && spin < spins_before_sleep; ++spin) pause_briefly();
-    if (generation_.load() == seen) {
+    for (int spin = 0; now() == seen && !stop_ && spin < spins_before_sleep; ++spin) pause_briefly();
+    if (now() == seen) {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return generation_.load() != seen; });
+      wake_.wait(lock, [&] { return now() != seen || stop_; });
     }
-    ++seen;
     if (stop_) return;
-    drain();
-    busy_.fetch_sub(1);
+    seen = now();
+    drain(seen);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <thread>
 #include <type_traits>
@@ -51,18 +52,19 @@ class ThreadTeam {
   using Call = void (*)(void*, std::size_t);
   void run(std::size_t count, Call call, void* context);
   void work();
-  void drain();
+  void drain(std::uint32_t loop);
 
   std::vector<std::thread> workers_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::atomic<std::size_t> generation_{0};
-  std::atomic<std::size_t> next_{0};
-  std::atomic<int> busy_{0};
+  /// The loop that runs (upper half) and its next task (lower half): a thread that wakes late, when others
+  /// have done all tasks of its loop, takes none, and nobody waits for it.
+  std::atomic<std::uint64_t> ticket_{0};
+  std::atomic<std::size_t> done_{0};  ///< tasks of the loop that are finished
   std::atomic<bool> stop_{false};
-  Call call_ = nullptr;
-  void* context_ = nullptr;
-  std::size_t count_ = 0;
+  std::atomic<Call> call_{nullptr};
+  std::atomic<void*> context_{nullptr};
+  std::atomic<std::size_t> count_{0};
 };
 
 }  // namespace brio

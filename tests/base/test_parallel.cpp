@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "src/base/parallel.hpp"
@@ -14,6 +15,20 @@ TEST(ThreadTeam, RunsEveryTaskOnceForAnyNumberOfThreads) {
       std::vector<int> runs(count, 0);
       for (int repeat = 0; repeat < 20; ++repeat) team.for_each(count, [&](std::size_t i) { ++runs[i]; });
       for (int n : runs) ASSERT_EQ(n, 20);
+    }
+  }
+}
+
+// More threads than cores, and loops that end at once: threads wake while another loop, of another size, is
+// being set up.
+TEST(ThreadTeam, ThreadsThatWakeLateTakeNoTaskOfAnotherLoop) {
+  for (int threads : {2, 16}) {
+    ThreadTeam team(threads);
+    std::vector<std::size_t> seen(64);
+    for (std::size_t loop = 1; loop <= 100000; ++loop) {
+      const std::size_t count = 2 + loop * 7 % 60;
+      team.for_each(count, [&](std::size_t i) { seen[i] += i < count ? loop : 1; });
+      for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(std::exchange(seen[i], 0), loop);
     }
   }
 }

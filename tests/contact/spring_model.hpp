@@ -37,7 +37,7 @@ class SpringModel {
   /// Box of cells with its lowest corner at the origin, placed by `map`. \returns its first node.
   int add_box(std::array<int, 3> cells, const Vector3d& size, double density, const Map& map) {
     const int first = static_cast<int>(position_.size());
-    const auto [nx, ny, nz] = cells;
+    const int nx = cells[0], ny = cells[1], nz = cells[2];
     for (int k = 0; k <= nz; ++k)
       for (int j = 0; j <= ny; ++j)
         for (int i = 0; i <= nx; ++i) {
@@ -66,7 +66,7 @@ class SpringModel {
   int add_sheet(std::array<int, 2> cells, std::array<double, 2> size, double thickness, double density,
                 const Map& map) {
     const int first = static_cast<int>(position_.size());
-    const auto [nx, ny] = cells;
+    const int nx = cells[0], ny = cells[1];
     for (int j = 0; j <= ny; ++j)
       for (int i = 0; i <= nx; ++i) {
         add_node(map(Vector3d(size[0] * i / nx, size[1] * j / ny, 0)));
@@ -80,7 +80,7 @@ class SpringModel {
   /// Closed tube of shells about the z axis. \returns its first node.
   int add_tube(std::array<int, 2> cells, double radius, double height, double thickness, double density) {
     const int first = static_cast<int>(position_.size());
-    const auto [nc, nz] = cells;
+    const int nc = cells[0], nz = cells[1];
     for (int j = 0; j <= nz; ++j)
       for (int i = 0; i < nc; ++i) {
         const double angle = 2 * std::numbers::pi * i / nc;

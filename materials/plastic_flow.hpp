@@ -8,6 +8,8 @@
 /// law, and the effective stress is that of xi = dev(stress) - alpha. Prager's rule: d(alpha) = 2/3
 /// kinematic_modulus d(eps_p).
 
+#include <limits>
+
 #include "materials/elastic_constants.hpp"
 #include "materials/hardening.hpp"
 #include "materials/stress_state.hpp"
@@ -114,22 +116,31 @@ struct PlaneStressEnd {
   T multiplier;  ///< r times unit
 };
 
-/// No return needs more steps: they converge as the third power, in two or three where strain increments are
-/// small.
-inline constexpr int most_return_iterations = 40;
-
 /// r at which the effective stress has come down to the yield stress. The line that touches q(p), which is
 /// convex, gives the yield stress to come down to; r follows by Chebyshev's method on 1/q, which is nearly
-/// linear in r. Lanes that start on the yield surface stay there with r = 0.
+/// linear in r: two or three steps where strain increments are small. Lanes that start on the yield surface
+/// stay there with r = 0.
+///
+/// q falls and p rises with r, so that there is one root, on the side to which the step points. It is kept in
+/// a bracket that, after `free_steps`, is halved every other step: the loop ends at the latest when no number
+/// is left between its ends, and at once for what is not a number.
 template <class T, class Hardening>
 BRIO_INLINE PlaneStressEnd<T> solve_plane_stress(const PlaneStressReturn<T>& flow, const Hardening& hardening,
                                                  const HardeningPoint<T>& start) {
   // What is left after a relative change of this size is below round-off.
   constexpr double small_change = sizeof(RealOf<T>) == 8 ? 1e-6 : 1e-3;
+  constexpr int free_steps = 8;
   PlaneStressEnd<T> end{start, T(0.0)};
   typename PlaneStressReturn<T>::Factors factors{T(1.0), T(1.0), T(1.0)};
-  for (int iteration = 0; iteration < most_return_iterations; ++iteration) {
+  T low(0.0);
+  T high(std::numeric_limits<RealOf<T>>::max());
+  for (int step = 0;; ++step) {
     const auto point = flow.at(factors);
+    if (step == 0) {
+      // There q has come down to the yield stress without hardening, even at the slowest of the rates.
+      const T slowest = min(flow.sum_rate, min(flow.shear_rate, flow.transverse_rate));
+      high = max(point.effective_stress / start.stress - 1.0, 0.0) / slowest;
+    }
     const T ahead = (start.plastic_strain - end.hardening.plastic_strain) +
                     flow.plastic_unit * end.multiplier * point.effective_stress;
     const T line = point.effective_stress + point.stiffness * ahead;
@@ -137,13 +148,20 @@ BRIO_INLINE PlaneStressEnd<T> solve_plane_stress(const PlaneStressReturn<T>& flo
     const T stress = end.hardening.stress;
     const T newton = (point.effective_stress - stress) * point.squared / (stress * point.first);
     const T bend = 1.5 * newton * (point.second / point.first - point.first / point.squared);
-    const T multiplier = max(end.multiplier + newton * (1.0 + min(max(bend, -0.5), 1.0)), 0.0);
-    const T change = abs(multiplier - end.multiplier);
-    end.multiplier = multiplier;
-    if (all(change * flow.shear_rate <= small_change * (1.0 + flow.shear_rate * multiplier))) break;
-    factors = flow.factors(multiplier);
+    const T old = end.multiplier;
+    end.multiplier = max(old + newton * (1.0 + min(max(bend, -0.5), 1.0)), 0.0);
+    const auto moves =
+        abs(end.multiplier - old) * flow.shear_rate > small_change * (1.0 + flow.shear_rate * end.multiplier);
+    low = where(newton > T(0.0), old, low);
+    high = where(newton < T(0.0), old, high);
+    const T middle = 0.5 * (low + high);
+    const auto goes_on = moves & (middle > low) & (middle < high);
+    if (!any(goes_on)) return end;
+    const auto leaves = (end.multiplier < low) | (end.multiplier > high);
+    const bool halves = step >= free_steps && step % 2 == 0;
+    end.multiplier = where(halves ? goes_on : goes_on & leaves, middle, end.multiplier);
+    factors = flow.factors(end.multiplier);
   }
-  return end;
 }
 
 /// xi of a state of plane stress: the back stress enters with the plane-stress components whose deviator it

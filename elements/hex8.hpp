@@ -23,7 +23,6 @@ struct Hex8 {
 
   ObjectiveRate objective_rate = ObjectiveRate::green_naghdi;
   double hourglass_stiffness = 0.05;
-  double plastic_hourglass_share = 0.1;
   double hourglass_viscosity = 0;
   double linear_bulk_viscosity = 0.06;
   double quadratic_bulk_viscosity = 1.2;
@@ -33,8 +32,6 @@ struct Hex8 {
         optional("objective_rate", &Hex8::objective_rate, any_number, "how stress follows rotation"),
         optional("hourglass_stiffness", &Hex8::hourglass_stiffness, hourglass_stiffness_range,
                  "elastic hourglass control, share of the modulus of bending, -"),
-        optional("plastic_hourglass_share", &Hex8::plastic_hourglass_share, fraction,
-                 "least share of hourglass stiffness that stays while the material flows, -"),
         optional("hourglass_viscosity", &Hex8::hourglass_viscosity, fraction,
                  "viscous hourglass control, share of critical damping, -"),
         optional("linear_bulk_viscosity", &Hex8::linear_bulk_viscosity, non_negative,

@@ -26,8 +26,8 @@ struct Hex8Kernel : Hex8 {
   struct Header {
     T mass;
     T internal_energy;
-    T viscous_pressure;             ///< of the last step
-    HourglassVectors<T> hourglass;  ///< elastic generalized forces, on the axes of the stress
+    T viscous_pressure;  ///< of the last step
+    HourglassState<T> hourglass;
   };
   template <class T, class Law>
   using Point = SolidPoint<T, Law, rate>;
@@ -65,7 +65,6 @@ struct Hex8Kernel : Hex8 {
     Increment<T> increment;
     const PointStep<T> point_step = update(law, n, *point, axes);
     increment.internal_energy = volume.middle * point_step.work;
-    header.internal_energy += increment.internal_energy;
 
     const ElasticModuli<T> moduli = law.moduli(point->history);
     const SymmetricTensor<T> g = gradient_product(b, scaled_inverse_volume);
@@ -87,10 +86,14 @@ struct Hex8Kernel : Hex8 {
       material_g = turned_back(axes.end, g);
       for (Vector3<T>& mode : q.mode) mode = turned_back(axes.middle, mode);
     } else {
-      for (Vector3<T>& mode : header.hourglass.mode) mode = turned(axes.end, mode);
+      for (Vector3<T>& mode : header.hourglass.force.mode) mode = turned(axes.end, mode);
     }
-    const T share = max(point_step.tangent_share, T(plastic_hourglass_share));
-    increment.hourglass_energy = stretch_hourglass(header.hourglass, (share * stiffness) * material_g, q);
+    const HourglassWork<T> hourglass = resist_hourglass_motion(
+        law, *point, point_step, axes, moduli.shear, stiffness, volume.end, material_g, q, header.hourglass);
+    increment.hourglass_energy = hourglass.stored;
+    increment.internal_energy += hourglass.dissipated;
+    header.internal_energy += increment.internal_energy;
+    q = header.hourglass.force;
     if constexpr (is_unrotated)
       for (Vector3<T>& mode : q.mode) mode = turned(axes.end, mode);
     T damping = viscosity.damping;
@@ -109,6 +112,43 @@ struct Hex8Kernel : Hex8 {
                                 (8.0 * hourglass_overlap) * largest_stiffness * distortion;
     increment.stable_step = where(volume.is_valid, damped_stable_step(frequency_squared, damping), T(-1.0));
     return increment;
+  }
+
+  /// Hourglass stress meets flow as the stress of the point does: it shrinks by the share by which flow
+  /// returns stress to the yield surface, and stays below that of a section that yields all over. Work that
+  /// is not stored is plastic work. Where nothing flows in a pack, flow costs nothing.
+  template <class T, class Law>
+  BRIO_INLINE HourglassWork<T> resist_hourglass_motion(const Law& law, const Point<T, Law>& point,
+                                                       const PointStep<T>& step, const MaterialAxes<T>& axes,
+                                                       T shear, T stiffness, T volume,
+                                                       const SymmetricTensor<T>& g,
+                                                       const HourglassVectors<T>& q,
+                                                       HourglassState<T>& state) const {
+    const T elastic_work = stretch_hourglass(state.force, stiffness * g, q);
+    const T old_energy = state.energy;
+    state.energy += elastic_work;
+    if constexpr (flows<Law>) {
+      const auto hardening = law.hardening();
+      const T plastic_strain = point.history.equivalent_plastic_strain;
+      const MaskOf<T> has_flowed = plastic_strain > step.old_plastic_strain;
+      const T at_first_yield =
+          hourglass_energy_at_yield(T(hardening.initial_yield_stress()), volume, stiffness);
+      const bool any_yields = any(state.energy > at_first_yield);
+      if (any(has_flowed) || any_yields) {
+        T left =
+            share_left_by_flow(step.old_stress, point.stress, T(2.0) * axes.half_strain, shear, has_flowed);
+        if (any_yields) {
+          const T most = hourglass_energy_at_yield(hardening.at(plastic_strain).stress, volume, stiffness);
+          const MaskOf<T> yields = state.energy > most;
+          left *= where(yields, sqrt(most / where(yields, state.energy, T(1.0))), T(1.0));
+        }
+        const T work = elastic_work - shrink_hourglass(state.force, left, q);
+        state.energy *= square(left);
+        const T stored = state.energy - old_energy;
+        return {stored, work - stored};
+      }
+    }
+    return {elastic_work, T(0.0)};
   }
 
   template <class Law>

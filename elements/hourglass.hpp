@@ -79,21 +79,52 @@ BRIO_INLINE Vector3<T> operator*(const SymmetricTensor<T>& a, const Vector3<T>& 
           a.xz * b.x + a.yz * b.y + a.zz * b.z};
 }
 
-/// Elastic forces of one step. \param stiffness S G. \param q in: half of the step's hourglass displacement;
-/// out: the forces. \return their work.
+/// What resists hourglass motion, as part of the state of an element.
+template <class T>
+struct HourglassState {
+  HourglassVectors<T> force;  ///< generalized forces, on the axes of the stress
+  T energy;                   ///< stored
+};
+
+/// Work of one step against the elastic hourglass forces; plastic work is dissipated.
+template <class T>
+struct HourglassWork {
+  T stored, dissipated;
+};
+
+/// Forces grow by S G times the displacement. \param stiffness S G. \param q half of the step's hourglass
+/// displacement. \return the work.
 template <class T>
 BRIO_INLINE T stretch_hourglass(HourglassVectors<T>& force, const SymmetricTensor<T>& stiffness,
-                                HourglassVectors<T>& q) {
+                                const HourglassVectors<T>& q) {
   T work(0.0);
   const SymmetricTensor<T> twice_stiffness = T(2.0) * stiffness;
   for (int a = 0; a < hourglass_modes; ++a) {
-    const Vector3<T> change = twice_stiffness * q.mode[a];
     const Vector3<T> old_force = force.mode[a];
-    force.mode[a] = old_force + change;
+    force.mode[a] = old_force + twice_stiffness * q.mode[a];
     work += dot(old_force + force.mode[a], q.mode[a]);
-    q.mode[a] = force.mode[a];
   }
   return work;
+}
+
+/// Energy that hourglass stress can store at yield. Bending stress +-s over a brick of edges L, E its plane
+/// modulus, is Q = s V / (12 L), and the yield stress over all of the section carries 3/2 of the Q at first
+/// yield: Q G^-1 Q = V^2 yield^2 / 32, and twice S times the energy is Q G^-1 Q.
+template <class T>
+BRIO_INLINE T hourglass_energy_at_yield(T yield_stress, T volume, T stiffness) {
+  return square(yield_stress * volume) / (64.0 * stiffness);
+}
+
+/// Forces shrink to a share of what they are. \return their work on the displacement of the step, of which
+/// half is q, that they then miss.
+template <class T>
+BRIO_INLINE T shrink_hourglass(HourglassVectors<T>& force, T share, const HourglassVectors<T>& q) {
+  T missed(0.0);
+  for (int a = 0; a < hourglass_modes; ++a) {
+    missed += dot(force.mode[a], q.mode[a]);
+    force.mode[a] = share * force.mode[a];
+  }
+  return (1.0 - share) * missed;
 }
 
 /// Viscous forces, added to `q`. \return their power.

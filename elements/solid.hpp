@@ -21,6 +21,11 @@ concept StretchLaw = requires(const Law& law, const SymmetricTensor<double>& str
                               typename Law::template History<double>& history) {
   law.update_from_stretch(stretch, stress, history);
 };
+/// A law with a yield stress (plastic_flow.hpp).
+template <class Law>
+inline constexpr bool flows = requires(const Law& law) {
+  law.hardening();
+};
 template <class Law>
 inline constexpr bool is_solid_law = RateLaw<Law> || StretchLaw<Law>;
 
@@ -52,20 +57,20 @@ BRIO_INLINE void start(SolidPoint<T, Law, rate>& point) {
 /// What a step does to a material point.
 template <class T>
 struct PointStep {
-  T work;           ///< per volume of the middle of the step
-  T tangent_share;  ///< tangent over elastic shear modulus, as the step met it; 1 for laws without flow
+  T work;  ///< per volume of the middle of the step
+  SymmetricTensor<T> old_stress;
+  T old_plastic_strain;  ///< 0 for laws without flow
 };
 
-/// Change of deviatoric stress along the strain of the step, over 2 mu times that strain: 1 in elastic steps,
-/// near 0 where the material flows.
+/// Deviatoric stress that flow leaves of the elastic trial, 1 in elastic steps: what varies over an element
+/// beside the stress of its point is returned with it. \param shear elastic shear modulus. \param has_flowed
+/// lanes with plastic strain in this step.
 template <class T>
-BRIO_INLINE T tangent_share(const SymmetricTensor<T>& stress_change, const SymmetricTensor<T>& strain,
-                            T shear) {
-  const SymmetricTensor<T> e = deviator(strain);
-  const T elastic = 2.0 * shear * contract(e, e);
-  const MaskOf<T> strained = elastic > T(0.0);
-  const T share = contract(stress_change, e) / where(strained, elastic, T(1.0));
-  return where(strained, min(max(share, T(0.0)), T(1.0)), T(1.0));
+BRIO_INLINE T share_left_by_flow(const SymmetricTensor<T>& old_stress, const SymmetricTensor<T>& stress,
+                                 const SymmetricTensor<T>& strain, T shear, MaskOf<T> has_flowed) {
+  const SymmetricTensor<T> trial = deviator(old_stress) + (2.0 * shear) * deviator(strain);
+  const T left = contract(stress, trial) / where(has_flowed, contract(trial, trial), T(1.0));
+  return where(has_flowed, min(max(left, T(0.0)), T(1.0)), T(1.0));
 }
 
 /// Turns the axes of the point and updates its stress. \param n dt/2 times the velocity gradient of the
@@ -81,16 +86,14 @@ BRIO_INLINE PointStep<T> update(const Law& law, const Tensor<T>& n, SolidPoint<T
     if constexpr (requires { point.history.back_stress; })
       point.history.back_stress = turned(axes.end, point.history.back_stress);
   }
-  const SymmetricTensor<T> old_stress = point.stress;
+  PointStep<T> step{T(0.0), point.stress, T(0.0)};
+  if constexpr (flows<Law>) step.old_plastic_strain = point.history.equivalent_plastic_strain;
   if constexpr (RateLaw<Law>) {
     law.update(T(2.0) * axes.half_strain, point.stress, point.history);
   } else {
     law.update_from_stretch(point.rotation.axes.stretch, point.stress, point.history);
   }
-  PointStep<T> step{contract(old_stress + point.stress, axes.half_strain), T(1.0)};
-  if constexpr (requires { point.history.equivalent_plastic_strain; })
-    step.tangent_share =
-        tangent_share(point.stress - old_stress, T(2.0) * axes.half_strain, law.moduli(point.history).shear);
+  step.work = contract(step.old_stress + point.stress, axes.half_strain);
   return step;
 }
 

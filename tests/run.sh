@@ -1,26 +1,37 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds Brio and runs its tests; those of base and contact a second time under sanitizers.
+# Installs what is missing, builds Brio and runs its tests; the fast ones of src/base, materials, elements and contact a
+# second time under the address and undefined-behaviour sanitizers.
 # Usage: tests/run.sh [--fast]       --fast leaves out the slow tests and the sanitizers
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-.ci/install.sh test
+stage() { echo; printf '== %s (after %d min %02d s)\n' "$1" $((SECONDS / 60)) $((SECONDS % 60)); }
 jobs=$(nproc)
-generator=()
-[ -f build/release/CMakeCache.txt ] || generator=(-G Ninja)
-cmake --preset release "${generator[@]}" -DBRIO_TESTS=ON -DBRIO_BENCH=ON
-cmake --build --preset release -j "$jobs"
+# build PRESET BENCH [TARGET]...: these targets of a preset, or everything.
+build() {
+  local generator=()
+  [ -f "build/$1/CMakeCache.txt" ] || generator=(-G Ninja)
+  cmake --preset "$1" "${generator[@]}" -DBRIO_TESTS=ON -DBRIO_BENCH="$2"
+  cmake --build --preset "$1" -j "$jobs" ${3:+--target "${@:3}"}
+}
+
+stage "install"
+.ci/install.sh test
+stage "build"
+build release ON
 if [ "${1:-}" = --fast ]; then
+  stage "fast tests"
   exec ctest --test-dir build/release --output-on-failure -j "$jobs" -L fast
 fi
+stage "format"
 git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
-
-# Under sanitizers the kernels take minutes to compile: only what is free of them is instrumented here.
-generator=()
-[ -f build/debug-sanitized/CMakeCache.txt ] || generator=(-G Ninja)
-cmake --preset debug-sanitized "${generator[@]}" -DBRIO_TESTS=ON -DBRIO_BENCH=OFF
-cmake --build --preset debug-sanitized -j "$jobs" --target test_base test_contact
-build/debug-sanitized/tests/test_base
-build/debug-sanitized/tests/test_contact --gtest_filter=-*Slow*
-
+stage "all tests"
 ctest --test-dir build/release --output-on-failure -j "$jobs"
+instrumented=(test_base test_materials test_elements test_contact)
+stage "build with sanitizers"
+build debug-sanitized OFF "${instrumented[@]}"
+for program in "${instrumented[@]}"; do
+  stage "$program with sanitizers"
+  "build/debug-sanitized/tests/$program" --gtest_filter=-*Slow.*
+done
+stage "done"

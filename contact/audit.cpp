@@ -44,16 +44,24 @@ class Auditor {
  public:
   Auditor(const ContactScene& scene, const Nodes& nodes)
       : scene_(scene), surface_(scene.surface), nodes_(nodes) {
-    for (const Face& face : surface_.face) {
-      corners_.push_back(vertices(nodes, face));
-      box_.push_back(box_of(corners_.back()));
-      edge_.push_back(shortest_edge(nodes, face));
+    corners_.resize(surface_.face.size());
+    box_.resize(surface_.face.size());
+    edge_.resize(surface_.face.size());
+    solid_of_.resize(static_cast<std::size_t>(surface_.body_count));
+    for (std::size_t f = 0; f < surface_.face.size(); ++f) {
+      const Face& face = surface_.face[f];
+      if (!face.alive()) continue;
+      corners_[f] = vertices(nodes, face);
+      box_[f] = box_of(corners_[f]);
+      edge_[f] = shortest_edge(nodes, face);
+      (face.shell ? shell_ : solid_of_[static_cast<std::size_t>(face.body)]).push_back(f);
     }
   }
 
   Audit of_node(int slave) const {
     Audit found;
     const auto s = static_cast<std::size_t>(slave);
+    if (surface_.node[s] < 0) return found;
     const Vector3d x = position(nodes_, surface_.node[s]);
     if (too_close_to_shell(slave, x, found)) ++found.shells_too_close;
     for (int body = 0; body < surface_.body_count; ++body)
@@ -71,6 +79,7 @@ class Auditor {
     Audit found;
     const auto own = static_cast<std::size_t>(f);
     const Face& face = surface_.face[own];
+    if (!face.alive()) return found;
     for (int k = 0; k < face.corners(); ++k) {
       const int neighbor = surface_.neighbor[own][static_cast<std::size_t>(k)];
       if (neighbor >= 0 && neighbor < f) continue;
@@ -93,8 +102,7 @@ class Auditor {
 
   bool too_close_to_shell(int slave, const Vector3d& x, Audit& found) const {
     bool close = false;
-    for (std::size_t f = 0; f < surface_.face.size(); ++f) {
-      if (!surface_.face[f].shell) continue;
+    for (std::size_t f : shell_) {
       const double touching = touching_distance(surface_, scene_.options, static_cast<int>(f), slave);
       const double least = touching - deep_share * std::min(touching, edge_[f]);
       if (box_[f].squared_distance(x) >= least * least || excluded(slave, f)) continue;
@@ -109,10 +117,8 @@ class Auditor {
     double nearest = std::numeric_limits<double>::infinity();
     int nearest_face = -1;
     ClosestPoint nearest_point;
-    for (std::size_t f = 0; f < surface_.face.size(); ++f) {
-      const Face& face = surface_.face[f];
-      if (face.shell || face.body != body || box_[f].squared_distance(x) >= nearest || excluded(slave, f))
-        continue;
+    for (std::size_t f : solid_of_[static_cast<std::size_t>(body)]) {
+      if (box_[f].squared_distance(x) >= nearest || excluded(slave, f)) continue;
       const ClosestPoint point = closest_point_on_quad(x, corners_[f]);
       if (point.squared_distance >= nearest) continue;
       nearest = point.squared_distance;
@@ -132,9 +138,8 @@ class Auditor {
     const int body = surface_.body[static_cast<std::size_t>(slave)];
     double depth = std::numeric_limits<double>::infinity();
     bool suspect = false;
-    for (std::size_t f = 0; f < surface_.face.size(); ++f) {
-      const Face& face = surface_.face[f];
-      if (face.shell || face.body != body || excluded(slave, f)) continue;
+    for (std::size_t f : solid_of_[static_cast<std::size_t>(body)]) {
+      if (excluded(slave, f)) continue;
       if (box_[f].squared_distance(x) >= std::min(depth * depth, edge_[f] * edge_[f])) continue;
       const ClosestPoint point = closest_point_on_quad(x, corners_[f]);
       const double distance = std::sqrt(point.squared_distance);
@@ -147,9 +152,7 @@ class Auditor {
 
   double winding(int body, const Vector3d& x) const {
     double sum = 0;
-    for (std::size_t f = 0; f < surface_.face.size(); ++f) {
-      const Face& face = surface_.face[f];
-      if (face.shell || face.body != body) continue;
+    for (std::size_t f : solid_of_[static_cast<std::size_t>(body)]) {
       const FaceVertices& v = corners_[f];
       if (is_triangle(v)) {
         sum += solid_angle_share(v[0] - x, v[1] - x, v[2] - x);
@@ -165,9 +168,9 @@ class Auditor {
     const Vector3d from = position(nodes_, a);
     const Vector3d to = position(nodes_, b);
     const Box own{from.cwiseMin(to), from.cwiseMax(to)};
-    for (std::size_t f = 0; f < surface_.face.size(); ++f) {
+    for (std::size_t f : shell_) {
       const Face& face = surface_.face[f];
-      if (!face.shell || !own.overlaps(box_[f]) || face.has(a) || face.has(b)) continue;
+      if (!own.overlaps(box_[f]) || face.has(a) || face.has(b)) continue;
       if (excluded(surface_.slave(a), f) || excluded(surface_.slave(b), f)) continue;
       if (crosses(from, to, corners_[f])) return true;
     }
@@ -194,6 +197,8 @@ class Auditor {
   const ContactScene& scene_;
   const Surface& surface_;
   const Nodes& nodes_;
+  std::vector<std::size_t> shell_;                  // faces
+  std::vector<std::vector<std::size_t>> solid_of_;  // faces of each body
   std::vector<FaceVertices> corners_;
   std::vector<Box> box_;
   std::vector<double> edge_;

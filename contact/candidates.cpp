@@ -11,6 +11,7 @@ namespace brio {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 void include(Spread& spread, const Eigen::Vector3d& value) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -18,6 +19,7 @@ void include(Spread& spread, const Eigen::Vector3d& value) {
     spread.upper[axis] = std::max(spread.upper[axis], value[axis]);
   }
 }
+constexpr Vector3<double> nowhere{not_a_number, not_a_number, not_a_number};
 constexpr Spread nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 
 // Relative motion since the search, now and as far ahead as constraints look.
@@ -26,6 +28,7 @@ bool within_buffer(const Candidates& candidates, const Surface& surface, const N
   Spread now = nothing;
   Spread ahead = nothing;
   for (std::size_t s = 0; s < surface.slaves(); ++s) {
+    if (surface.node[s] < 0) continue;
     const Vector3<double>& start = candidates.point[s];
     const Eigen::Vector3d moved =
         position(nodes, surface.node[s]) - Eigen::Vector3d(start.x, start.y, start.z);
@@ -41,28 +44,15 @@ void measure_edges(Candidates& candidates, const Surface& surface, const Nodes& 
   candidates.edge.resize(surface.face.size());
   candidates.smallest_edge = infinity;
   double sum = 0;
+  std::size_t living = 0;
   for (std::size_t f = 0; f < surface.face.size(); ++f) {
+    if (!surface.face[f].alive()) continue;
+    ++living;
     candidates.edge[f] = shortest_edge(nodes, surface.face[f]);
     candidates.smallest_edge = std::min(candidates.smallest_edge, candidates.edge[f]);
     sum += candidates.edge[f];
   }
-  candidates.mean_edge = surface.face.empty() ? 0 : sum / static_cast<double>(surface.face.size());
-}
-
-CaptureBox capture_box(const Nodes& nodes, const Face& face, const double (&growth)[3]) {
-  CaptureBox box{};
-  for (int axis = 0; axis < 3; ++axis) {
-    double lower = infinity;
-    double upper = -infinity;
-    for (int node : face.node) {
-      const double x = nodes.record[static_cast<std::size_t>(node)].position[axis];
-      lower = std::min(lower, x);
-      upper = std::max(upper, x);
-    }
-    box.lower[axis] = lower - growth[axis];
-    box.upper[axis] = upper + growth[axis];
-  }
-  return box;
+  candidates.mean_edge = living == 0 ? 0 : sum / static_cast<double>(living);
 }
 
 // Turn the pairs, which come face by face, into the faces of each node, without the excluded.
@@ -98,6 +88,24 @@ void sort_by_slave(Candidates& candidates, const Surface& surface, const Lists& 
 
 }  // namespace
 
+CaptureBox capture_box(const Candidates& candidates, const Surface& surface, const ContactOptions& options,
+                       int face) {
+  Spread hull = nothing;
+  for (int node : surface.face[static_cast<std::size_t>(face)].node) {
+    const Vector3<double>& x = candidates.point[static_cast<std::size_t>(surface.slave(node))];
+    include(hull, Eigen::Vector3d(x.x, x.y, x.z));
+  }
+  const double reach = influence(surface, options, candidates, face) +
+                       options.shell_thickness_scale * candidates.largest_radius;
+  CaptureBox box{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double growth = candidates.growth[axis] + reach;
+    box.lower[axis] = hull.lower[axis] - growth;
+    box.upper[axis] = hull.upper[axis] + growth;
+  }
+  return box;
+}
+
 double influence_outside(const Surface& surface, const ContactOptions& options, const Candidates& candidates,
                          int face) {
   const auto f = static_cast<std::size_t>(face);
@@ -113,7 +121,9 @@ double influence(const Surface& surface, const ContactOptions& options, const Ca
 
 Spread velocity_spread(const Surface& surface, const Nodes& nodes) {
   Spread spread = nothing;
-  for (int node : surface.node) include(spread, velocity(nodes, node));
+  for (int node : surface.node)
+    if (node >= 0) include(spread, velocity(nodes, node));
+  if (!(spread.width(0) >= 0)) return {};  // all deleted
   return spread;
 }
 
@@ -125,21 +135,20 @@ bool refresh(Candidates& candidates, const Surface& surface, const Lists& exclud
   for (int axis = 0; axis < 3; ++axis)
     candidates.growth[axis] =
         options.reach_buffer * candidates.mean_edge + approach_share * dt * velocities.width(axis);
-  double largest_radius = 0;
-  for (double radius : surface.radius) largest_radius = std::max(largest_radius, radius);
-  candidates.box.resize(surface.face.size());
-  for (std::size_t f = 0; f < surface.face.size(); ++f) {
-    const double reach = influence(surface, options, candidates, static_cast<int>(f)) +
-                         options.shell_thickness_scale * largest_radius;
-    candidates.box[f] = capture_box(
-        nodes, surface.face[f],
-        {candidates.growth[0] + reach, candidates.growth[1] + reach, candidates.growth[2] + reach});
-  }
+  candidates.largest_radius = candidates.radius_bound;
+  for (double radius : surface.radius)
+    candidates.largest_radius = std::max(candidates.largest_radius, radius);
   candidates.point.resize(surface.slaves());
   for (std::size_t s = 0; s < surface.slaves(); ++s) {
+    candidates.point[s] = nowhere;
+    if (surface.node[s] < 0) continue;
     const Eigen::Vector3d x = position(nodes, surface.node[s]);
     candidates.point[s] = {x[0], x[1], x[2]};
   }
+  candidates.box.resize(surface.face.size());
+  for (std::size_t f = 0; f < surface.face.size(); ++f)
+    candidates.box[f] =
+        surface.face[f].alive() ? capture_box(candidates, surface, options, static_cast<int>(f)) : empty_box;
   candidates.search.find(candidates.point, candidates.box, team, candidates.pairs, candidates.counts);
   sort_by_slave(candidates, surface, excluded);
   return true;

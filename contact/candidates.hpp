@@ -32,11 +32,13 @@ struct Candidates {
   GlobalSearch search;
   SearchCounts counts;
   Lists faces_of;            ///< of each slave node, ascending
-  std::vector<int> face;     ///< faces that occur, ascending
+  std::vector<int> face;     ///< faces that occur
   std::vector<double> edge;  ///< shortest edge of each face, at the last search
   double smallest_edge = 0;  ///< of all
   double depth_share = followed_depth_share;
   double mean_edge = 0;
+  double radius_bound = 0;    ///< radii of slave nodes may grow up to this between searches
+  double largest_radius = 0;  ///< of all, or the bound if that is larger
 
   std::vector<Vector3<double>> point;  ///< slave positions at the last search
   std::vector<CaptureBox> box;
@@ -60,6 +62,11 @@ double influence(const Surface& surface, const ContactOptions& options, const Ca
 /// The same for nodes on its outside.
 double influence_outside(const Surface& surface, const ContactOptions& options, const Candidates& candidates,
                          int face);
+
+/// Box around the points of a face's corners within which a node may come within reach of the face before the
+/// next search.
+CaptureBox capture_box(const Candidates& candidates, const Surface& surface, const ContactOptions& options,
+                       int face);
 
 /// Spread of velocities of the slave nodes.
 Spread velocity_spread(const Surface& surface, const Nodes& nodes);

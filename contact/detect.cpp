@@ -128,6 +128,8 @@ class NodeCheck {
   // Whether the node's own surface faces the other way; nodes of shells alone face all ways.
   bool faces_towards(const Vector3d& direction) {
     if (!solid_) return true;
+    if (scene_.surface.pinched[static_cast<std::size_t>(slave_)] != 0)
+      return looks_against(scene_.surface, scene_.nodes, slave_, direction, opposing);
     if (!normal_known_) node_normal_ = vertex_normal(scene_.surface, scene_.nodes, slave_);
     normal_known_ = true;
     return node_normal_.dot(direction) < opposing;

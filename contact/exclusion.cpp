@@ -2,15 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "contact/face_geometry.hpp"
 
 namespace brio {
 
+using Eigen::Vector3d;
+
 namespace {
 
-// Faces of the same hexahedron stand side by side in the surface.
+void sort_out(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+// As built, faces of the same hexahedron stand side by side in the surface.
 void add_element_of(const Surface& surface, int face, std::vector<int>& found) {
   const Face& own = surface.face[static_cast<std::size_t>(face)];
   const auto same = [&](int other) {
@@ -22,58 +30,77 @@ void add_element_of(const Surface& surface, int face, std::vector<int>& found) {
   for (int f = first; f < static_cast<int>(surface.face.size()) && same(f); ++f) found.push_back(f);
 }
 
-class ShellNeighborhood {
- public:
-  ShellNeighborhood(const Surface& surface, const Nodes& reference)
-      : surface_(surface), reference_(reference), visited_(surface.face.size(), -1) {}
+/// Arc of the tightest fold over which a point of radius and a shell of thickness touch.
+double fold(double thickness, double radius) { return 0.5 * std::numbers::pi * (0.5 * thickness + radius); }
 
-  // Walk from the faces of the slave over shared nodes, as far as the tightest fold reaches.
-  void add(int slave, std::vector<int>& found) {
-    const auto s = static_cast<std::size_t>(slave);
-    const Eigen::Vector3d centre = position(reference_, surface_.node[s]);
-    front_.clear();
-    for (int f : surface_.faces_of.of(slave)) visit(slave, f);
-    for (std::size_t i = 0; i < front_.size(); ++i) {
-      const int face = front_[i];
-      found.push_back(face);
-      for (int corner : surface_.face[static_cast<std::size_t>(face)].node)
-        for (int next : surface_.faces_of.of(surface_.slave(corner))) {
-          const auto n = static_cast<std::size_t>(next);
-          if (!surface_.face[n].shell || visited_[n] == slave) continue;
-          const double fold = 0.5 * std::numbers::pi * (0.5 * surface_.thickness[n] + surface_.radius[s]);
-          const ClosestPoint closest = closest_point_on_quad(centre, vertices(reference_, surface_.face[n]));
-          if (closest.squared_distance < fold * fold) visit(slave, next);
-        }
-    }
-  }
-
- private:
-  void visit(int slave, int face) {
-    const auto f = static_cast<std::size_t>(face);
-    if (!surface_.face[f].shell || visited_[f] == slave) return;
-    visited_[f] = slave;
-    front_.push_back(face);
-  }
-
-  const Surface& surface_;
-  const Nodes& reference_;
-  std::vector<int> visited_;
-  std::vector<int> front_;
+struct PositionOfNode {
+  const Nodes& nodes;
+  Vector3d operator[](int node) const { return position(nodes, node); }
+};
+struct PositionKept {
+  const std::vector<Vector3d>& positions;
+  Vector3d operator[](int node) const { return positions[static_cast<std::size_t>(node)]; }
 };
 
+template <class Reference>
+double squared_distance(const Reference& reference, const Vector3d& from, const Face& face) {
+  const FaceVertices vertices{reference[face.node[0]], reference[face.node[1]], reference[face.node[2]],
+                              reference[face.node[3]]};
+  return closest_point_on_quad(from, vertices).squared_distance;
+}
+
 }  // namespace
+
+// Over shared nodes from the faces of the slave; the faces reached are left in front_.
+template <class Reference, class Within>
+void ShellWalk::spread(const Surface& surface, const Reference& reference, int slave, const Within& within) {
+  visited_.resize(surface.face.size(), -1);
+  ++walk_;
+  front_.clear();
+  const auto visit = [&](int face) {
+    visited_[static_cast<std::size_t>(face)] = walk_;
+    front_.push_back(face);
+  };
+  for (int f : surface.faces_of.of(slave))
+    if (surface.face[static_cast<std::size_t>(f)].shell) visit(f);
+  const Vector3d centre = reference[surface.node[static_cast<std::size_t>(slave)]];
+  for (std::size_t i = 0; i < front_.size(); ++i)
+    for (int corner : surface.face[static_cast<std::size_t>(front_[i])].node)
+      for (int next : surface.faces_of.of(surface.slave(corner))) {
+        const auto n = static_cast<std::size_t>(next);
+        if (!surface.face[n].shell || visited_[n] == walk_) continue;
+        const double reach = within(n);
+        if (squared_distance(reference, centre, surface.face[n]) < reach * reach) visit(next);
+      }
+}
+
+template <class Reference>
+void ShellWalk::add_fold(const Surface& surface, const Reference& reference, int slave,
+                         std::vector<int>& found) {
+  const double radius = surface.radius[static_cast<std::size_t>(slave)];
+  spread(surface, reference, slave, [&](std::size_t face) { return fold(surface.thickness[face], radius); });
+  found.insert(found.end(), front_.begin(), front_.end());
+}
+
+template <class Reference>
+void ShellWalk::reach(const Surface& surface, const Reference& reference, int from, double distance,
+                      std::vector<int>& slaves) {
+  spread(surface, reference, from, [&](std::size_t) { return distance; });
+  slaves.push_back(from);
+  for (int f : front_)
+    for (int corner : surface.face[static_cast<std::size_t>(f)].node) slaves.push_back(surface.slave(corner));
+}
 
 Lists excluded_faces(const Surface& surface, const Nodes& reference) {
   Lists excluded;
   excluded.first.push_back(0);
-  ShellNeighborhood shells(surface, reference);
+  ShellWalk walk;
   std::vector<int> found;
   for (int s = 0; s < static_cast<int>(surface.slaves()); ++s) {
     found.clear();
     for (int f : surface.faces_of.of(s)) add_element_of(surface, f, found);
-    shells.add(s, found);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    walk.add_fold(surface, PositionOfNode{reference}, s, found);
+    sort_out(found);
     excluded.item.insert(excluded.item.end(), found.begin(), found.end());
     excluded.first.push_back(static_cast<int>(excluded.item.size()));
   }
@@ -83,6 +110,79 @@ Lists excluded_faces(const Surface& surface, const Nodes& reference) {
 bool is_excluded(const Lists& excluded, int slave, int face) {
   const auto faces = excluded.of(slave);
   return std::binary_search(faces.begin(), faces.end(), face);
+}
+
+ErodingExclusion::ErodingExclusion(const Surface& surface, const Nodes& reference) {
+  double thickest = 0;
+  for (double thickness : surface.thickness) thickest = std::max(thickest, thickness);
+  if (thickest == 0) return;
+  longest_fold_ = fold(thickest, 0.5 * thickest);
+  for (std::size_t n = 0; n < reference.size(); ++n)
+    reference_.push_back(position(reference, static_cast<int>(n)));
+}
+
+void ErodingExclusion::mend(Lists& excluded, const Surface& surface, const SurfaceTopology& topology,
+                            const SurfaceChange& change) {
+  excluded.loosen();
+  while (excluded.first.size() < surface.slaves()) excluded.add_list();
+  for (int slave : change.dead_slave) excluded.clear(slave);
+  for (int slave : change.new_slave) excluded.clear(slave);
+  // All nodes on faces of elements that got new faces; on shells, all whose walk may have met what has gone.
+  affected_ = change.changed_slave;
+  for (int f : change.new_face)
+    for_faces_of(topology, element_of(topology, surface.face[static_cast<std::size_t>(f)]), [&](int side) {
+      for (int node : surface.face[static_cast<std::size_t>(side)].node)
+        affected_.push_back(surface.slave(node));
+    });
+  if (!reference_.empty()) add_around_tear(excluded, surface, change);
+  sort_out(affected_);
+  for (int slave : affected_) mend_slave(excluded, surface, topology, slave);
+}
+
+// A path of faces within a fold's distance of a slave that led over a dead face leads to one of its nodes
+// now; seen from there it stays within two folds and the size of the face.
+void ErodingExclusion::add_around_tear(const Lists& excluded, const Surface& surface,
+                                       const SurfaceChange& change) {
+  const PositionKept reference{reference_};
+  for (int f : change.dead_face) {
+    const Face& dead = surface.face[static_cast<std::size_t>(f)];
+    if (surface.thickness[static_cast<std::size_t>(f)] == 0) continue;
+    double size = 0;
+    for (int a : dead.node)
+      for (int b : dead.node) size = std::max(size, (reference[a] - reference[b]).norm());
+    for (int node : dead.node) {
+      const int from = surface.slave(node);
+      if (from < 0) continue;
+      reached_.clear();
+      walk_.reach(surface, reference, from, 2 * longest_fold_ + size, reached_);
+      for (int slave : reached_)
+        if (is_excluded(excluded, slave, f)) affected_.push_back(slave);
+    }
+  }
+}
+
+void ErodingExclusion::mend_slave(Lists& excluded, const Surface& surface, const SurfaceTopology& topology,
+                                  int slave) {
+  found_.clear();
+  for (int f : surface.faces_of.of(slave))
+    for_faces_of(topology, element_of(topology, surface.face[static_cast<std::size_t>(f)]),
+                 [&](int side) { found_.push_back(side); });
+  if (!reference_.empty()) walk_.add_fold(surface, PositionKept{reference_}, slave, found_);
+  sort_out(found_);
+  const int node = surface.node[static_cast<std::size_t>(slave)];
+  kept_.clear();
+  for (int f : excluded.of(slave)) {
+    if (!surface.face[static_cast<std::size_t>(f)].alive()) continue;
+    if (std::binary_search(found_.begin(), found_.end(), f)) continue;
+    kept_.push_back(f);
+    if (!surface.face[static_cast<std::size_t>(f)].shell) continue;  // overlapped as drawn
+    const std::pair pair(node, f);
+    const auto at = std::lower_bound(torn.begin(), torn.end(), pair);
+    if (at == torn.end() || *at != pair) torn.insert(at, pair);
+  }
+  found_.insert(found_.end(), kept_.begin(), kept_.end());
+  std::sort(found_.begin(), found_.end());
+  excluded.assign(slave, found_);
 }
 
 }  // namespace brio

@@ -70,11 +70,33 @@ Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave) {
   return unit_or(sum, Vector3d::Zero());
 }
 
+Vector3d fan_normal(const Surface& surface, const Nodes& nodes, int slave, int face) {
+  Vector3d sum = Vector3d::Zero();
+  const int node = surface.node[static_cast<std::size_t>(slave)];
+  for_fan(surface, slave, face, [&](int f) {
+    const Face& own = surface.face[static_cast<std::size_t>(f)];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(own.corners()); ++k)
+      if (own.node[k] == node) sum += corner_share(vertices(nodes, own), k);
+  });
+  return unit_or(sum, Vector3d::Zero());
+}
+
+bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const Vector3d& direction,
+                   double limit) {
+  for (int f : surface.faces_of.of(slave))
+    if (!surface.face[static_cast<std::size_t>(f)].shell &&
+        fan_normal(surface, nodes, slave, f).dot(direction) < limit)
+      return true;
+  return false;
+}
+
 Vector3d pseudo_normal(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
   if (closest.feature == Feature::interior) return closest.normal;
   if (closest.feature == Feature::edge) return edge_normal(surface, nodes, face, closest);
   const Face& own = surface.face[static_cast<std::size_t>(face)];
-  return vertex_normal(surface, nodes, surface.slave(own.node[static_cast<std::size_t>(closest.index)]));
+  const int slave = surface.slave(own.node[static_cast<std::size_t>(closest.index)]);
+  return surface.pinched[static_cast<std::size_t>(slave)] != 0 ? fan_normal(surface, nodes, slave, face)
+                                                               : vertex_normal(surface, nodes, slave);
 }
 
 bool is_outside(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
@@ -83,9 +105,9 @@ bool is_outside(const Surface& surface, const Nodes& nodes, int face, const Clos
     const int node = own.node[static_cast<std::size_t>(closest.index)];
     bool above_some = false;
     bool below_some = false;
-    for (int f : surface.faces_of.of(surface.slave(node))) {
+    const auto weigh = [&](int f) {
       const Face& around = surface.face[static_cast<std::size_t>(f)];
-      if (around.shell) continue;
+      if (around.shell) return;
       const FaceVertices v = vertices(nodes, around);
       const bool triangle = is_triangle(v);
       for (int k = 0; k < (triangle ? 1 : 4); ++k) {
@@ -94,6 +116,12 @@ bool is_outside(const Surface& surface, const Nodes& nodes, int face, const Clos
         if (!touches) continue;
         (sub_triangle_area(v, k).dot(closest.separation) < 0 ? below_some : above_some) = true;
       }
+    };
+    const int slave = surface.slave(node);
+    if (surface.pinched[static_cast<std::size_t>(slave)] != 0) {
+      for_fan(surface, slave, face, weigh);
+    } else {
+      for (int f : surface.faces_of.of(slave)) weigh(f);
     }
     if (above_some != below_some) return above_some;
   }

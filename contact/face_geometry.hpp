@@ -37,6 +37,13 @@ bool is_outside(const Surface& surface, const Nodes& nodes, int face, const Clos
 
 /// Angle-weighted normal of the hexahedron sides around a slave node.
 Eigen::Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave);
+/// The same of one fan of them.
+Eigen::Vector3d fan_normal(const Surface& surface, const Nodes& nodes, int slave, int face);
+
+/// Whether any of the fans at a pinched slave node looks against a unit vector: its normal times the vector
+/// is below a limit.
+bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const Eigen::Vector3d& direction,
+                   double limit);
 
 /// Shortest side of a face.
 double shortest_edge(const Nodes& nodes, const Face& face);

@@ -91,6 +91,10 @@ void sweep(SweptFaces& swept, const Surface& surface, const Candidates& candidat
   team.for_ranges(candidates.face.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto f = static_cast<std::size_t>(candidates.face[i]);
+      if (!surface.face[f].alive()) {
+        swept.solid[f].box = empty_box;
+        continue;
+      }
       const double outside = influence_outside(surface, options, candidates, candidates.face[i]);
       if (surface.face[f].shell)
         swept.shell[f] = extent_of(nodes, surface.face[f], outside);

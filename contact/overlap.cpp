@@ -61,6 +61,7 @@ bool exclude_within_parts(ContactScene& scene) {
     grown.first.push_back(static_cast<int>(grown.item.size()));
   }
   scene.excluded = std::move(grown);
+  if (scene.erosion) scene.erosion->keeps_numbers = true;
   return true;
 }
 

@@ -17,6 +17,7 @@ constexpr std::size_t nodes_per_task = 2048;
 void load_motion(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   team.for_ranges(scene.surface.slaves(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
+      if (scene.surface.node[s] < 0) continue;
       const auto node = static_cast<std::size_t>(scene.surface.node[s]);
       for (int axis = 0; axis < 3; ++axis) {
         scene.motion[s].velocity[axis] = nodes.record[node].velocity[axis];
@@ -29,6 +30,7 @@ void load_motion(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
 void store_velocities(const ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
   team.for_ranges(scene.surface.slaves(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
+      if (scene.surface.node[s] < 0) continue;
       double* v = nodes.record[static_cast<std::size_t>(scene.surface.node[s])].velocity;
       for (int axis = 0; axis < 3; ++axis) v[axis] = scene.motion[s].velocity[axis];
     }
@@ -51,6 +53,7 @@ void sum_impulses(ContactScene& scene) {
 void book_work(ContactScene& scene, const Nodes& nodes) {
   ContactStep& step = scene.step;
   for (std::size_t s = 0; s < scene.surface.slaves(); ++s) {
+    if (scene.surface.node[s] < 0) continue;
     const ContactMotion& motion = scene.motion[s];
     const Vector3d before(nodes.velocity_before[static_cast<std::size_t>(scene.surface.node[s])].component);
     const Vector3d after(motion.velocity);
@@ -108,6 +111,7 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team) {
   assert(nodes.velocity_before.size() == nodes.size());
   scene.step = ContactStep{};
   if (scene.surface.face.empty()) return;
+  if (scene.erosion && !scene.erosion->exclusion.torn.empty()) release_torn_pairs(scene, nodes, team);
   const Spread velocities = velocity_spread(scene.surface, nodes);
   scene.step.searched =
       refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, velocities, dt, team);

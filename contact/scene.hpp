@@ -8,11 +8,13 @@
 /// Only velocities are changed. Allocates nothing once as many pairs and contacts have been seen.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "contact/candidates.hpp"
 #include "contact/detect.hpp"
+#include "contact/erosion.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
 #include "contact/solve.hpp"
@@ -68,6 +70,7 @@ struct ContactScene {
   std::vector<Contact> contacts;  ///< of the last step, by slave node
   std::vector<Contact> last;      ///< of the step before, while one is resolved
   double last_dt = 0;
+  std::optional<ContactErosion> erosion;  ///< of scenes whose elements may be deleted
 
   std::vector<ContactMotion> motion;            ///< of each slave node
   std::vector<Eigen::Vector3d> normal_impulse;  ///< of each slave node, in the last step

@@ -37,6 +37,9 @@ struct CaptureBox {
   }
 };
 
+/// Holds nothing.
+inline constexpr CaptureBox empty_box{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+
 /// What is looked for in the boxes: points, or nodes each of which may be anywhere in a closed box of its
 /// own; such a node is paired with the boxes that share a point with its own. A view: the array must outlive
 /// the search.

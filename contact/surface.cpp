@@ -171,16 +171,24 @@ void update_slave(Surface& surface, int slave) {
   if (surface.faces_of.of(slave).empty()) return;  // debris keeps its radius
   double sum = 0;
   int shells = 0;
-  surface.of_solid[s] = 0;
+  int sides = 0;
   for (int f : surface.faces_of.of(slave)) {
     if (surface.face[static_cast<std::size_t>(f)].shell) {
       sum += surface.thickness[static_cast<std::size_t>(f)];
       ++shells;
     } else {
-      surface.of_solid[s] = 1;
+      ++sides;
     }
   }
   surface.radius[s] = shells > 0 ? 0.5 * sum / shells : 0;
+  surface.of_solid[s] = sides > 0 ? 1 : 0;
+  surface.pinched[s] = 0;
+  for (int f : surface.faces_of.of(slave)) {
+    if (surface.face[static_cast<std::size_t>(f)].shell) continue;
+    int of_fan = 0;
+    for_fan(surface, slave, f, [&](int) { ++of_fan; });
+    if (of_fan < sides) surface.pinched[s] = 1;
+  }
 }
 
 Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count) {
@@ -196,6 +204,7 @@ Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count)
   for (std::size_t f = 0; f < surface.face.size(); ++f) connect(surface, static_cast<int>(f));
   surface.radius.resize(surface.slaves());
   surface.of_solid.resize(surface.slaves());
+  surface.pinched.resize(surface.slaves());
   for (std::size_t s = 0; s < surface.slaves(); ++s) update_slave(surface, static_cast<int>(s));
   return surface;
 }

@@ -50,6 +50,7 @@ struct Surface {
   std::vector<int> slave_of;           ///< of each global node: its index in `node`; -1: not on the surface
   std::vector<double> radius;          ///< of each slave node: half the mean thickness of its shells
   std::vector<std::uint8_t> of_solid;  ///< of each slave node: 1 where it belongs to a side of a hexahedron
+  std::vector<std::uint8_t> pinched;   ///< of each slave node: 1 where separate fans of sides meet in it
   std::vector<int> body;               ///< of each slave node
   Lists faces_of;                      ///< of each slave node: the faces it belongs to, ascending
   int body_count = 0;
@@ -64,8 +65,24 @@ Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count)
 /// Find the neighbours of a face, from `faces_of`.
 void connect(Surface& surface, int face);
 
-/// Find the radius of a slave node and whether it is of a solid, from `faces_of`.
+/// Find what is known of a slave node from its faces and their neighbours.
 void update_slave(Surface& surface, int slave);
+
+/// The sides of hexahedra around a node that follow a face over the edges that end there: those of one wedge
+/// of solid. Where solids touch in nothing but the node there are several such fans.
+template <class Visit>
+void for_fan(const Surface& surface, int slave, int face, const Visit& visit) {
+  const int node = surface.node[static_cast<std::size_t>(slave)];
+  int f = face;
+  for (std::size_t left = surface.faces_of.of(slave).size(); left > 0 && f >= 0; --left) {
+    visit(f);
+    const Face& own = surface.face[static_cast<std::size_t>(f)];
+    std::size_t corner = 0;
+    while (corner < 3 && own.node[corner] != node) ++corner;
+    f = surface.neighbor[static_cast<std::size_t>(f)][corner];
+    if (f == face) break;
+  }
+}
 
 /// Take over the current thickness of the shells of a part, in the order of its elements.
 void update_thickness(Surface& surface, int part, std::span<const double> thickness);

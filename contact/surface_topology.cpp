@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "contact/body_pieces.hpp"
 #include "contact/disjoint_sets.hpp"
 #include "contact/element_sides.hpp"
 
@@ -13,24 +14,11 @@ namespace brio {
 
 namespace {
 
-const TopologyPart& part_of_side(const SurfaceTopology& topology, int side) {
-  std::size_t p = topology.part.size() - 1;
-  while (topology.part[p].first_side > side) --p;
-  return topology.part[p];
-}
-
-struct ElementNodes {
-  const int* node;
-  int corners;
-};
-ElementNodes nodes_of(const TopologyPart& part, int element) {
-  return {part.connectivity.data() + static_cast<std::ptrdiff_t>(part.corners()) * element, part.corners()};
-}
-
 /// Nodes of a side of a hexahedron. \returns false where it has collapsed.
 bool nodes_of_side(const TopologyPart& part, int side, std::array<int, 4>& nodes) {
   const int local = side - part.first_side;
-  return side_nodes(nodes_of(part, local / sides_of_hexahedron).node, local % sides_of_hexahedron, nodes);
+  return side_nodes(part.connectivity.data() + 8 * static_cast<std::ptrdiff_t>(local / sides_of_hexahedron),
+                    local % sides_of_hexahedron, nodes);
 }
 
 void number_elements(std::span<const SurfacePart> parts, SurfaceTopology& topology) {
@@ -106,35 +94,33 @@ void give_faces(const Surface& surface, SurfaceTopology& topology) {
   }
 }
 
-// Numbers from 0 of the elements of a part, with their places among all.
-template <class Visit>
-void for_living_elements(const SurfaceTopology& topology, const Visit& visit) {
-  for (const TopologyPart& part : topology.part) {
-    const int count = static_cast<int>(part.connectivity.size()) / part.corners();
-    for (int e = 0; e < count; ++e) {
-      const auto place = static_cast<std::size_t>(part.first_element + e);
-      if (topology.body[place] >= 0) visit(place, nodes_of(part, e));
-    }
+void number_bodies(Surface& surface, SurfaceTopology& topology) {
+  DisjointSets sets(surface.slave_of.size());
+  const int elements = static_cast<int>(topology.body.size());
+  for (int e = 0; e < elements; ++e)
+    for (int node : nodes_of(topology, e)) sets.join(nodes_of(topology, e)[0], node);
+  std::vector<int> number(surface.slave_of.size(), -1);
+  for (const Face& face : surface.face) number[static_cast<std::size_t>(sets.root(face.node[0]))] = face.body;
+  for (int e = 0; e < elements; ++e) {
+    int& own = number[static_cast<std::size_t>(sets.root(nodes_of(topology, e)[0]))];
+    if (own < 0) own = surface.body_count++;
+    topology.body[static_cast<std::size_t>(e)] = own;
   }
 }
 
-DisjointSets connected_nodes(const SurfaceTopology& topology, std::size_t node_count) {
-  DisjointSets sets(node_count);
-  for_living_elements(topology, [&](std::size_t, const ElementNodes& element) {
-    for (int k = 1; k < element.corners; ++k) sets.join(element.node[0], element.node[k]);
-  });
-  return sets;
-}
-
-void number_bodies(Surface& surface, SurfaceTopology& topology) {
-  DisjointSets sets = connected_nodes(topology, surface.slave_of.size());
-  std::vector<int> number(surface.slave_of.size(), -1);
-  for (const Face& face : surface.face) number[static_cast<std::size_t>(sets.root(face.node[0]))] = face.body;
-  for_living_elements(topology, [&](std::size_t place, const ElementNodes& element) {
-    int& own = number[static_cast<std::size_t>(sets.root(element.node[0]))];
-    if (own < 0) own = surface.body_count++;
-    topology.body[place] = own;
-  });
+void find_hexahedra_under_shells(std::size_t node_count, SurfaceTopology& topology) {
+  std::vector<char> of_shell(node_count, 0);
+  for (const TopologyPart& part : topology.part)
+    if (part.shell)
+      for (int node : part.connectivity) of_shell[static_cast<std::size_t>(node)] = 1;
+  for (const TopologyPart& part : topology.part) {
+    if (part.shell) continue;
+    for (std::size_t i = 0; i < part.connectivity.size(); ++i)
+      if (of_shell[static_cast<std::size_t>(part.connectivity[i])] != 0)
+        topology.under_shells.emplace_back(part.connectivity[i],
+                                           part.first_element + static_cast<int>(i / 8));
+  }
+  std::sort(topology.under_shells.begin(), topology.under_shells.end());
 }
 
 void sort_out(std::vector<int>& numbers) {
@@ -148,28 +134,60 @@ class Deletion {
   Deletion(Surface& surface, SurfaceTopology& topology, SurfaceChange& change)
       : surface_(surface), topology_(topology), change_(change) {}
 
-  void run(std::span<const DeletedElement> deleted) {
+  void run(std::span<const SurfaceElement> deleted) {
     surface_.faces_of.loosen();
-    for (const DeletedElement& element : deleted) remove(element);
-    for (int side : exposed_)
-      if (state(side) == side_state::alone) add_face(side);
-    settle();
-    look_for_splits();
+    for (const SurfaceElement& d : deleted) {
+      const int element = topology_.part[static_cast<std::size_t>(d.part)].first_element + d.element;
+      if (topology_.body[static_cast<std::size_t>(element)] < 0) continue;
+      removed_.push_back(element);
+      for (int node : nodes_of(topology_, element)) corner_.push_back(node);
+    }
+    sort_out(removed_);
+    sort_out(corner_);
+    // Those that hang together go at once, cluster after cluster: only so are splits found one by one.
+    DisjointSets clusters(corner_.size());
+    for (int element : removed_)
+      for (int node : nodes_of(topology_, element))
+        clusters.join(place_of(first_node(element)), place_of(node));
+    std::vector<std::pair<int, int>> order;
+    for (int element : removed_) order.emplace_back(clusters.root(place_of(first_node(element))), element);
+    std::sort(order.begin(), order.end());
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+      removed_.clear();
+      for (end = begin; end < order.size() && order[end].first == order[begin].first; ++end)
+        removed_.push_back(order[end].second);
+      remove_cluster();
+    }
+    std::sort(change_.changed_slave.begin(), change_.changed_slave.end());
   }
 
  private:
   int& state(int side) { return topology_.side[static_cast<std::size_t>(side)]; }
   Face& face(int f) { return surface_.face[static_cast<std::size_t>(f)]; }
 
-  void remove(const DeletedElement& deleted) {
-    const TopologyPart& part = topology_.part[static_cast<std::size_t>(deleted.part)];
-    int& body = topology_.body[static_cast<std::size_t>(part.first_element + deleted.element)];
-    if (body < 0) return;
-    body = -1;
-    const ElementNodes element = nodes_of(part, deleted.element);
-    corner_.insert(corner_.end(), element.node, element.node + element.corners);
-    removed_.push_back(element);
-    const int first = part.first_side + part.sides() * deleted.element;
+  int first_node(int element) const { return nodes_of(topology_, element)[0]; }
+  // Place of a node among those of the deleted elements, or -1.
+  int place_of(int node) const {
+    const auto at = std::lower_bound(corner_.begin(), corner_.end(), node);
+    return at != corner_.end() && *at == node ? static_cast<int>(at - corner_.begin()) : -1;
+  }
+
+  void remove_cluster() {
+    corner_.clear();
+    exposed_.clear();
+    touched_.clear();
+    for (int element : removed_) remove(element);
+    for (int side : exposed_)
+      if (state(side) == side_state::alone) add_face(side);
+    settle();
+    look_for_split();
+  }
+
+  void remove(int element) {
+    topology_.body[static_cast<std::size_t>(element)] = -1;
+    for (int node : nodes_of(topology_, element)) corner_.push_back(node);
+    const TopologyPart& part = part_of_element(topology_, element);
+    const int first = part.first_side + part.sides() * (element - part.first_element);
     for (int side = first; side < first + part.sides(); ++side) {
       ++topology_.visits;
       const int was = state(side);
@@ -196,13 +214,14 @@ class Deletion {
 
   void remove_face(int f) {
     change_.dead_face.push_back(f);
-    topology_.faces.retired.push_back(f);
+    if (!face(f).shell) topology_.faces.retired.push_back(f);
     for (int k = 0; k < face(f).corners(); ++k) {
       const int slave = surface_.slave(face(f).node[static_cast<std::size_t>(k)]);
       surface_.faces_of.erase(slave, f);
       touched_.push_back(slave);
     }
     face(f).part = -1;
+    face(f).shell = false;
     topology_.visits += 4;
   }
 
@@ -261,6 +280,7 @@ class Deletion {
     surface_.body.push_back(-1);
     surface_.radius.push_back(0);
     surface_.of_solid.push_back(0);
+    surface_.pinched.push_back(0);
     surface_.faces_of.add_list();
     return static_cast<int>(surface_.slaves()) - 1;
   }
@@ -268,6 +288,11 @@ class Deletion {
   // Slave nodes whose faces changed, and the neighbours of the faces around them.
   void settle() {
     sort_out(touched_);
+    for (int slave : touched_)
+      for (int f : surface_.faces_of.of(slave)) {
+        connect(surface_, f);
+        ++topology_.visits;
+      }
     for (int slave : touched_) {
       if (surface_.faces_of.of(slave).empty()) {
         leave(slave);
@@ -276,17 +301,13 @@ class Deletion {
       update_slave(surface_, slave);
       change_.changed_slave.push_back(slave);
     }
-    for (int slave : change_.changed_slave)
-      for (int f : surface_.faces_of.of(slave)) {
-        connect(surface_, f);
-        ++topology_.visits;
-      }
   }
 
   // A node left without elements.
   void leave(int slave) {
     const auto s = static_cast<std::size_t>(slave);
     surface_.of_solid[s] = 0;
+    surface_.pinched[s] = 0;
     surface_.radius[s] = topology_.debris_radius;
     surface_.body[s] = -1;
     if (topology_.debris_radius > 0) {
@@ -299,42 +320,42 @@ class Deletion {
     topology_.slaves.retired.push_back(slave);
   }
 
-  // Nothing has split if all nodes left of each cluster of deleted elements are still connected among
-  // themselves, through faces around; else something may have.
-  void look_for_splits() {
+  // A living element at a node, or -1.
+  int element_at(int node) const {
+    int found = -1;
+    for_hexahedra_under_shells(topology_, node, [&](int element) { found = element; });
+    const int slave = surface_.slave(node);
+    if (slave < 0 || surface_.faces_of.of(slave).empty()) return found;
+    return element_of(topology_, surface_.face[static_cast<std::size_t>(surface_.faces_of.of(slave)[0])]);
+  }
+
+  // Nothing has split if all nodes left of a cluster are still connected among themselves through faces
+  // around; else something may have.
+  void look_for_split() {
     sort_out(corner_);
-    const auto place = [&](int node) {
-      const auto at = std::lower_bound(corner_.begin(), corner_.end(), node);
-      return at != corner_.end() && *at == node ? static_cast<int>(at - corner_.begin()) : -1;
-    };
-    DisjointSets before(corner_.size());
-    for (const ElementNodes& element : removed_)
-      for (int k = 1; k < element.corners; ++k) before.join(place(element.node[0]), place(element.node[k]));
-    DisjointSets now(corner_.size());
-    std::vector<int> piece_of(corner_.size(), -1);
-    for (std::size_t i = 0; i < corner_.size(); ++i) {
-      const int slave = surface_.slave(corner_[i]);
+    const int count = static_cast<int>(corner_.size());
+    DisjointSets connected(corner_.size());
+    for (int i = 0; i < count; ++i) {
+      const int slave = surface_.slave(corner_[static_cast<std::size_t>(i)]);
       if (slave < 0) continue;
       for (int f : surface_.faces_of.of(slave))
         for (int node : face(f).node) {
           ++topology_.visits;
-          if (const int other = place(node); other >= 0) now.join(static_cast<int>(i), other);
+          if (const int other = place_of(node); other >= 0) connected.join(i, other);
         }
     }
-    for (std::size_t i = 0; i < corner_.size(); ++i) {
-      const int slave = surface_.slave(corner_[i]);
-      if (slave < 0 || surface_.faces_of.of(slave).empty()) continue;
-      const int piece = now.root(static_cast<int>(i));
-      int& known = piece_of[static_cast<std::size_t>(before.root(static_cast<int>(i)))];
-      if (known < 0) known = piece;
-      if (known != piece) topology_.may_have_split = true;
-    }
+    std::vector<int> pieces;  // by one element each
+    for (int i = 0; i < count; ++i)
+      if (const int element = element_at(corner_[static_cast<std::size_t>(i)]);
+          element >= 0 && connected.root(i) == i)
+        pieces.push_back(element);
+    if (pieces.size() > 1) change_.split |= separate_pieces(surface_, topology_, pieces);
   }
 
   Surface& surface_;
   SurfaceTopology& topology_;
   SurfaceChange& change_;
-  std::vector<ElementNodes> removed_;
+  std::vector<int> removed_;  // elements of a cluster
   std::vector<int> corner_;   // their nodes
   std::vector<int> exposed_;  // sides that stand alone now
   std::vector<int> touched_;  // slave nodes that lost or gained a face
@@ -348,42 +369,15 @@ SurfaceTopology make_topology(Surface& surface, std::span<const SurfacePart> par
   link_sides(surface.slave_of.size(), topology);
   give_faces(surface, topology);
   number_bodies(surface, topology);
+  find_hexahedra_under_shells(surface.slave_of.size(), topology);
+  topology.mark.assign(topology.body.size(), 0);
   return topology;
 }
 
-void delete_elements(Surface& surface, SurfaceTopology& topology, std::span<const DeletedElement> deleted,
+void delete_elements(Surface& surface, SurfaceTopology& topology, std::span<const SurfaceElement> deleted,
                      SurfaceChange& change) {
   change.clear();
   if (!deleted.empty()) Deletion(surface, topology, change).run(deleted);
-}
-
-bool number_pieces(Surface& surface, SurfaceTopology& topology) {
-  if (!topology.may_have_split) return false;
-  topology.may_have_split = false;
-  DisjointSets sets = connected_nodes(topology, surface.slave_of.size());
-  std::vector<int> number(surface.slave_of.size(), -1);
-  std::vector<char> taken(static_cast<std::size_t>(surface.body_count), 0);
-  bool changed = false;
-  for_living_elements(topology, [&](std::size_t place, const ElementNodes& element) {
-    int& own = number[static_cast<std::size_t>(sets.root(element.node[0]))];
-    if (own < 0) {
-      char& old_taken = taken[static_cast<std::size_t>(topology.body[place])];
-      own = old_taken != 0 ? surface.body_count++ : topology.body[place];
-      old_taken = 1;
-    }
-    changed |= topology.body[place] != own;
-    topology.body[place] = own;
-  });
-  if (!changed) return false;
-  for (Face& face : surface.face) {
-    if (!face.alive()) continue;
-    const TopologyPart& part = topology.part[static_cast<std::size_t>(face.part)];
-    face.body = topology.body[static_cast<std::size_t>(part.first_element + face.element)];
-  }
-  for (int s = 0; s < static_cast<int>(surface.slaves()); ++s)
-    for (int f : surface.faces_of.of(s))
-      surface.body[static_cast<std::size_t>(s)] = surface.face[static_cast<std::size_t>(f)].body;
-  return true;
 }
 
 }  // namespace brio

@@ -5,18 +5,22 @@
 ///
 /// Faces and slave nodes keep their numbers. A dead one leaves its number unused until the candidates have
 /// been searched anew, so that whatever was found in between can tell it by `Face::alive` and
-/// `Surface::node`; after that new ones take it over.
+/// `Surface::node`; after that new ones take it over. Shells never come to the surface, and their numbers are
+/// not taken over.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contact/surface.hpp"
 
 namespace brio {
 
-struct DeletedElement {
-  int part = 0;     ///< as the surface numbers parts
+/// An element as the surface numbers parts and elements.
+struct SurfaceElement {
+  int part = 0;
   int element = 0;  ///< within its part
 };
 
@@ -49,8 +53,10 @@ struct SurfaceChange {
   std::vector<int> dead_slave;
   std::vector<int> new_slave;
   std::vector<int> changed_slave;  ///< living ones that gained or lost faces, new ones among them; ascending
+  bool split = false;              ///< there are new bodies
   void clear() {
     for (auto* list : {&dead_face, &new_face, &dead_slave, &new_slave, &changed_slave}) list->clear();
+    split = false;
   }
 };
 
@@ -59,17 +65,15 @@ struct SurfaceTopology {
   /// Of each side: the next side with the same nodes, round in a ring; else its face, or that it has none
   /// (see side_state in the source).
   std::vector<int> side;
-  std::vector<int> body;        ///< of each element; -1: deleted
-  double debris_radius = 0;     ///< of nodes left without elements; 0: they leave contact
-  bool may_have_split = false;  ///< since bodies were numbered last
+  std::vector<int> body;     ///< of each element; -1: deleted
+  double debris_radius = 0;  ///< of nodes left without elements; 0: they leave contact
+  std::vector<std::pair<int, int>>
+      under_shells;  ///< (node, hexahedron) of nodes that shells have too; ascending
 
   FreeNumbers faces, slaves;
+  std::vector<int> mark;  ///< of each element, by which search for pieces it was reached last
+  int last_mark = 0;
   std::uint64_t visits = 0;  ///< sides, faces and nodes looked at by deletions so far
-
-  bool alive(const DeletedElement& e) const {
-    return body[static_cast<std::size_t>(part[static_cast<std::size_t>(e.part)].first_element + e.element)] >=
-           0;
-  }
 };
 
 /// \param surface as made from the parts; bodies that have no face at all are numbered after the others
@@ -77,19 +81,10 @@ SurfaceTopology make_topology(Surface& surface, std::span<const SurfacePart> par
 
 /// Delete elements, in any order; those already deleted are passed over. Faces of the deleted die, sides of
 /// their neighbours become faces, nodes come to the surface, nodes left without elements leave it or become
-/// debris. Everything in `surface` is then as if built from the living elements but for numbers, and but for
-/// the numbers of bodies: pieces of a body that has split share one until `number_pieces`.
-void delete_elements(Surface& surface, SurfaceTopology& topology, std::span<const DeletedElement> deleted,
+/// debris; pieces of a body that has split become bodies. Everything in `surface` is then as if built from
+/// the living elements but for numbers.
+void delete_elements(Surface& surface, SurfaceTopology& topology, std::span<const SurfaceElement> deleted,
                      SurfaceChange& change);
-
-/// Give pieces of bodies that have split numbers of their own; the piece with the first element keeps the
-/// old one. Looks at all elements, but only where deletions may have split something. \returns whether
-/// numbers changed.
-bool number_pieces(Surface& surface, SurfaceTopology& topology);
-
-/// Call `visit` with every living face of the element of a face.
-template <class Visit>
-void for_faces_of_element(const SurfaceTopology& topology, const Face& face, const Visit& visit);
 
 /// State of a side, in SurfaceTopology::side: from 0, the next side of its ring; else one of these, or a
 /// face.
@@ -101,13 +96,70 @@ constexpr int face_of(int state) { return -3 - state; }
 constexpr bool is_face(int state) { return state <= -3; }
 }  // namespace side_state
 
+/// The part of an element, a side, numbered through all parts.
+inline const TopologyPart& part_of_element(const SurfaceTopology& topology, int element) {
+  std::size_t p = topology.part.size() - 1;
+  while (topology.part[p].first_element > element) --p;
+  return topology.part[p];
+}
+inline const TopologyPart& part_of_side(const SurfaceTopology& topology, int side) {
+  std::size_t p = topology.part.size() - 1;
+  while (topology.part[p].first_side > side) --p;
+  return topology.part[p];
+}
+
+/// Number through all parts of the element of a face.
+inline int element_of(const SurfaceTopology& topology, const Face& face) {
+  return topology.part[static_cast<std::size_t>(face.part)].first_element + face.element;
+}
+
+/// Nodes of an element, numbered through all parts.
+inline std::span<const int> nodes_of(const SurfaceTopology& topology, int element) {
+  const TopologyPart& part = part_of_element(topology, element);
+  const auto corners = static_cast<std::size_t>(part.corners());
+  return {part.connectivity.data() + corners * static_cast<std::size_t>(element - part.first_element),
+          corners};
+}
+
+/// Call `visit` with every living face of an element, numbered through all parts.
 template <class Visit>
-void for_faces_of_element(const SurfaceTopology& topology, const Face& face, const Visit& visit) {
-  const TopologyPart& part = topology.part[static_cast<std::size_t>(face.part)];
-  const int first = part.first_side + part.sides() * face.element;
+void for_faces_of(const SurfaceTopology& topology, int element, const Visit& visit) {
+  const TopologyPart& part = part_of_element(topology, element);
+  const int first = part.first_side + part.sides() * (element - part.first_element);
   for (int side = first; side < first + part.sides(); ++side) {
     const int state = topology.side[static_cast<std::size_t>(side)];
     if (side_state::is_face(state)) visit(side_state::face_of(state));
+  }
+}
+
+/// Call `visit` with living hexahedra at a node that shells have too.
+template <class Visit>
+void for_hexahedra_under_shells(const SurfaceTopology& topology, int node, const Visit& visit) {
+  const auto& under = topology.under_shells;
+  for (auto at = std::lower_bound(under.begin(), under.end(), std::pair(node, 0));
+       at != under.end() && at->first == node; ++at)
+    if (topology.body[static_cast<std::size_t>(at->second)] >= 0) visit(at->second);
+}
+
+/// Call `visit` with living elements, at least one in each direction in which elements around share a node
+/// with this one: those that share a side, and those with a face at its nodes. Where elements at a node are
+/// not joined by sides, they have faces there, but for hexahedra around a shell inside of them.
+template <class Visit>
+void for_elements_around(const Surface& surface, const SurfaceTopology& topology, int element,
+                         const Visit& visit) {
+  const TopologyPart& part = part_of_element(topology, element);
+  const int first = part.first_side + part.sides() * (element - part.first_element);
+  for (int side = first; side < first + part.sides(); ++side)
+    for (int other = topology.side[static_cast<std::size_t>(side)]; other >= 0 && other != side;
+         other = topology.side[static_cast<std::size_t>(other)]) {
+      const TopologyPart& of = part_of_side(topology, other);
+      visit(of.first_element + (other - of.first_side) / of.sides());
+    }
+  for (int node : nodes_of(topology, element)) {
+    if (part.shell) for_hexahedra_under_shells(topology, node, visit);
+    if (surface.slave(node) < 0) continue;
+    for (int f : surface.faces_of.of(surface.slave(node)))
+      visit(element_of(topology, surface.face[static_cast<std::size_t>(f)]));
   }
 }
 

@@ -67,14 +67,14 @@ struct ErodingMesh {
                      .thickness = p.thickness});
     return all;
   }
-  std::vector<DeletedElement> living() const {
-    std::vector<DeletedElement> all;
+  std::vector<SurfaceElement> living() const {
+    std::vector<SurfaceElement> all;
     for (int p = 0; p < static_cast<int>(part.size()); ++p)
       for (int e = 0; e < part[static_cast<std::size_t>(p)].count(); ++e)
         if (part[static_cast<std::size_t>(p)].alive[static_cast<std::size_t>(e)] != 0) all.push_back({p, e});
     return all;
   }
-  void mark(std::span<const DeletedElement> deleted) {
+  void mark(std::span<const SurfaceElement> deleted) {
     for (const auto& [p, e] : deleted)
       part[static_cast<std::size_t>(p)].alive[static_cast<std::size_t>(e)] = 0;
   }
@@ -168,6 +168,7 @@ inline void expect_same_surface(const Surface& mended, const Surface& rebuilt) {
     ASSERT_EQ(mended.node[a], static_cast<int>(n));
     ASSERT_EQ(mended.radius[a], rebuilt.radius[b]);
     ASSERT_EQ(mended.of_solid[a], rebuilt.of_solid[b]);
+    ASSERT_EQ(mended.pinched[a], rebuilt.pinched[b]) << "node " << n;
     const auto faces = mended.faces_of.of(mine_s);
     ASSERT_TRUE(std::is_sorted(faces.begin(), faces.end()));
     ASSERT_EQ(names_of(mended, faces), names_of(rebuilt, rebuilt.faces_of.of(other_s)));

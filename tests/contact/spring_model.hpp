@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/erosion.hpp"
 #include "contact/scene.hpp"
 #include "contact/surface.hpp"
 #include "src/base/nodes.hpp"
@@ -44,6 +45,7 @@ class SpringModel {
           add_node(map(Vector3d(size[0] * i / nx, size[1] * j / ny, size[2] * k / nz)));
         }
     Piece& piece = pieces_.emplace_back();
+    piece.first_spring = static_cast<int>(springs_.size());
     const double mass = density * size.prod() / (8.0 * nx * ny * nz);
     const auto at = [&](int i, int j, int k) { return first + i + (nx + 1) * (j + (ny + 1) * k); };
     for (int k = 0; k < nz; ++k)
@@ -111,6 +113,35 @@ class SpringModel {
       nodes.mass[n] = mass_[n];
       nodes.record[n].inverse_mass = 1 / mass_[n];
     }
+    scene = make_contact_scene(options, parts(), nodes);
+    rest();
+  }
+  /// The same, and elements may be deleted.
+  void start_erodible(const ContactOptions& options) {
+    start(options);
+    make_erodible(scene, parts(), nodes);
+  }
+  /// Delete elements with their springs; mass stays on the nodes.
+  void erode(std::span<const SurfaceElement> deleted, ThreadTeam& team) {
+    for (const auto& [part, element] : deleted) {
+      const Piece& piece = pieces_[static_cast<std::size_t>(part)];
+      const int springs = piece.shell ? 6 : 28;
+      for (int i = 0; i < springs; ++i)
+        springs_[static_cast<std::size_t>(piece.first_spring + springs * element + i)].broken = true;
+      const int corners = piece.shell ? 4 : 8;
+      const auto first = piece.connectivity.begin() + corners * element;
+      const auto is_corner = [&](int node) {
+        return std::find(first, first + corners, node) != first + corners;
+      };
+      for (std::size_t i = piece.first_bending; i < piece.end; ++i)
+        if (is_corner(springs_[i].a) || is_corner(springs_[i].b)) springs_[i].broken = true;
+    }
+    brio::erode(scene, deleted, nodes, team);
+  }
+  void erode(std::span<const SurfaceElement> deleted) { erode(deleted, alone_); }
+
+  /// What the contact surface is made of.
+  std::vector<SurfacePart> parts() const {
     std::vector<SurfacePart> parts;
     for (const Piece& piece : pieces_)
       parts.push_back({.name = "part " + std::to_string(parts.size()),
@@ -118,9 +149,9 @@ class SpringModel {
                        .nodes_per_element = piece.shell ? 4 : 8,
                        .connectivity = piece.connectivity,
                        .thickness = piece.thickness});
-    scene = make_contact_scene(options, parts, nodes);
-    rest();
+    return parts;
   }
+  ThreadTeam& alone() { return alone_; }
   /// Take the present positions as those without strain.
   void rest() {
     for (Spring& spring : springs_) spring.length = (x(spring.a) - x(spring.b)).norm();
@@ -134,6 +165,7 @@ class SpringModel {
   void accelerate(double dt) {
     std::vector<Vector3d> force(nodes.size(), Vector3d::Zero());
     for (const Spring& s : springs_) {
+      if (s.broken) continue;
       const Vector3d along = x(s.b) - x(s.a);
       const double length = along.norm();
       const Vector3d pull = stiffness / s.length * (length - s.length) / length * along;
@@ -180,6 +212,7 @@ class SpringModel {
   double spring_energy() const {
     double sum = 0;
     for (const Spring& s : springs_) {
+      if (s.broken) continue;
       const double stretch = (x(s.a) - x(s.b)).norm() - s.length;
       sum += 0.5 * stiffness / s.length * stretch * stretch;
     }
@@ -215,10 +248,13 @@ class SpringModel {
     bool shell = false;
     std::vector<int> connectivity;
     std::vector<double> thickness;
+    int first_spring = 0;  ///< those of element after element, then those against bending
+    std::size_t first_bending = 0, end = 0;
   };
   struct Spring {
     int a, b;
     double length = 0;
+    bool broken = false;
   };
 
   void add_node(const Vector3d& position) {
@@ -232,6 +268,7 @@ class SpringModel {
   void add_shells(int nx, int ny, double thickness, double mass, const At& at, bool closed) {
     Piece& piece = pieces_.emplace_back();
     piece.shell = true;
+    piece.first_spring = static_cast<int>(springs_.size());
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
         const int corner[4] = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
@@ -243,14 +280,16 @@ class SpringModel {
         for (int a = 0; a < 4; ++a)
           for (int b = 0; b < a; ++b) add_spring(corner[a], corner[b]);
       }
+    piece.first_bending = springs_.size();
     for (int j = 0; j <= ny; ++j)
       for (int i = 0; i < nx + (closed ? 0 : 1); ++i) {
         if (closed || i + 2 <= nx) add_spring(at(i, j), at(i + 2, j));
         if (j + 2 <= ny) add_spring(at(i, j), at(i, j + 2));
       }
+    piece.end = springs_.size();
   }
 
-  void add_spring(int a, int b) { springs_.push_back({a, b}); }
+  void add_spring(int a, int b) { springs_.push_back({.a = a, .b = b}); }
 
   std::vector<Vector3d> position_, velocity_;
   std::vector<double> mass_;

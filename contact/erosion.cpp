@@ -1,0 +1,66 @@
+#include "contact/erosion.hpp"
+
+#include <algorithm>
+
+#include "contact/face_geometry.hpp"
+#include "contact/scene.hpp"
+
+namespace brio {
+
+void make_erodible(ContactScene& scene, std::span<const SurfacePart> parts, const Nodes& nodes,
+                   double debris_radius) {
+  scene.erosion.emplace(ContactErosion{.topology = make_topology(scene.surface, parts),
+                                       .exclusion = ErodingExclusion(scene.surface, nodes),
+                                       .local = {},
+                                       .change = {}});
+  scene.erosion->topology.debris_radius = debris_radius;
+  // A mean over fewer shells may be larger than any mean so far.
+  double& bound = scene.candidates.radius_bound;
+  bound = debris_radius;
+  for (double thickness : scene.surface.thickness) bound = std::max(bound, 0.5 * thickness);
+}
+
+void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const Nodes& nodes,
+           ThreadTeam& team) {
+  if (deleted.empty()) return;
+  ContactErosion& erosion = *scene.erosion;
+  Surface& surface = scene.surface;
+  // What the last search found knows the dead of before no more.
+  if (erosion.search != scene.candidates.counts.searches) {
+    erosion.search = scene.candidates.counts.searches;
+    if (!erosion.keeps_numbers) erosion.topology.faces.release();
+    erosion.topology.slaves.release();
+  }
+  delete_elements(surface, erosion.topology, deleted, erosion.change);
+  if (erosion.change.split)
+    for (Contact& contact : scene.contacts)
+      contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;
+  erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
+  scene.motion.resize(surface.slaves());
+  scene.normal_impulse.resize(surface.slaves(), Eigen::Vector3d::Zero());
+  scene.friction_impulse.resize(surface.slaves(), Eigen::Vector3d::Zero());
+  for (const auto* slaves : {&erosion.change.new_slave, &erosion.change.dead_slave})
+    for (int slave : *slaves) {
+      scene.normal_impulse[static_cast<std::size_t>(slave)].setZero();
+      scene.friction_impulse[static_cast<std::size_t>(slave)].setZero();
+    }
+  erosion.local.add(scene.candidates, surface, scene.excluded, scene.options, nodes, erosion.change, team);
+}
+
+void release_torn_pairs(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
+  std::erase_if(scene.erosion->exclusion.torn, [&](const std::pair<int, int>& pair) {
+    const auto [node, f] = pair;
+    const Face& face = scene.surface.face[static_cast<std::size_t>(f)];
+    const int slave = scene.surface.slave(node);
+    if (slave < 0 || !face.alive()) return true;
+    const double reach = touching_distance(scene.surface, scene.options, f, slave);
+    const double squared =
+        closest_point_on_quad(position(nodes, node), vertices(nodes, face)).squared_distance;
+    if (squared < reach * reach) return false;
+    scene.excluded.erase(slave, f);
+    if (scene.candidates.growth[0] >= 0) scene.erosion->local.add_pair(scene.candidates, slave, f, team);
+    return true;
+  });
+}
+
+}  // namespace brio

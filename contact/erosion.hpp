@@ -1,0 +1,40 @@
+#pragma once
+/// Contact surfaces of which elements are deleted. Only scenes that were made erodible carry this; the work
+/// of a deletion is proportional to what is deleted.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact/exclusion.hpp"
+#include "contact/local_candidates.hpp"
+#include "contact/surface_topology.hpp"
+
+namespace brio {
+
+struct ContactScene;
+
+struct ContactErosion {
+  SurfaceTopology topology;
+  ErodingExclusion exclusion;
+  LocalCandidates local;
+  SurfaceChange change;        ///< by the last deletion
+  std::uint64_t search = 0;    ///< number of the last search when numbers were retired
+  bool keeps_numbers = false;  ///< numbers of faces are not taken over: initial overlaps are excluded by them
+};
+
+/// Prepare a scene, made from these parts, for deletions.
+/// \param debris_radius radius of nodes left without elements; 0: such nodes leave contact
+void make_erodible(ContactScene& scene, std::span<const SurfacePart> parts, const Nodes& nodes,
+                   double debris_radius = 0);
+
+/// Delete elements, in any order, between two steps: their faces end their contacts, sides laid bare and
+/// their nodes may be touched from the next call of `resolve` on, and all other contacts go on.
+void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const Nodes& nodes,
+           ThreadTeam& team);
+
+/// What is torn and has been apart may touch from now on; once a step, before candidates are refreshed.
+void release_torn_pairs(ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
+
+}  // namespace brio

@@ -1,0 +1,325 @@
+#include "contact/erosion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "contact/audit.hpp"
+#include "contact/face_geometry.hpp"
+#include "tests/contact/spring_model.hpp"
+
+namespace brio::testing {
+namespace {
+
+// Pairs of slave nodes and faces that are not excluded.
+template <class Visit>
+void for_pairs(const ContactScene& scene, const Visit& visit) {
+  const Surface& surface = scene.surface;
+  for (int s = 0; s < static_cast<int>(surface.slaves()); ++s)
+    for (int f = 0; f < static_cast<int>(surface.face.size()); ++f)
+      if (surface.node[static_cast<std::size_t>(s)] >= 0 &&
+          surface.face[static_cast<std::size_t>(f)].alive() && !is_excluded(scene.excluded, s, f))
+        visit(s, f);
+}
+
+// Whether a node comes within reach of a face, axis by axis, at some time as far ahead as constraints look.
+bool within_reach(const SpringModel& model, int slave, int face, double ahead) {
+  const Surface& surface = model.scene.surface;
+  const Face& f = surface.face[static_cast<std::size_t>(face)];
+  const double reach = influence(surface, model.scene.options, model.scene.candidates, face) +
+                       surface.radius[static_cast<std::size_t>(slave)];
+  const int node = surface.node[static_cast<std::size_t>(slave)];
+  const Vector3d x = model.x(node) + ahead * model.v(node);
+  Vector3d lower = Vector3d::Constant(HUGE_VAL);
+  Vector3d upper = -lower;
+  for (int corner : f.node) {
+    lower = lower.cwiseMin(model.x(corner) + ahead * model.v(corner));
+    upper = upper.cwiseMax(model.x(corner) + ahead * model.v(corner));
+  }
+  return ((x - lower).array() > -reach).all() && ((upper - x).array() > -reach).all();
+}
+
+// Candidates of everything with everything.
+Candidates all_pairs(const ContactScene& scene) {
+  Candidates all = scene.candidates;
+  all.faces_of.start_packed(scene.surface.slaves());
+  all.faces_of.item.clear();
+  all.faces_of.loosen();
+  all.face.clear();
+  for_pairs(scene, [&](int s, int f) { all.faces_of.insert(s, f); });
+  for (int f = 0; f < static_cast<int>(scene.surface.face.size()); ++f)
+    if (scene.surface.face[static_cast<std::size_t>(f)].alive()) all.face.push_back(f);
+  return all;
+}
+
+// The state before `resolve`: do candidates hold all that may meet, and does detection find what it finds
+// among all pairs?
+void expect_complete_candidates(SpringModel& model, double dt) {
+  ContactScene& scene = model.scene;
+  ThreadTeam team(1);
+  const Spread velocities = velocity_spread(scene.surface, model.nodes);
+  refresh(scene.candidates, scene.surface, scene.excluded, scene.options, model.nodes, velocities, dt, team);
+  for_pairs(scene, [&](int s, int f) {
+    if (!within_reach(model, s, f, 0) && !within_reach(model, s, f, approach_share * dt)) return;
+    const auto known = scene.candidates.faces_of.of(s);
+    ASSERT_TRUE(std::binary_search(known.begin(), known.end(), f)) << "slave " << s << " face " << f;
+  });
+  Detection detection;
+  std::vector<Contact> found, of_all;
+  detect(detection, scene.surface, scene.candidates, scene.options, model.nodes, velocities, dt,
+         scene.contacts, team, found);
+  detect(detection, scene.surface, all_pairs(scene), scene.options, model.nodes, velocities, dt,
+         scene.contacts, team, of_all);
+  ASSERT_EQ(found.size(), of_all.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    ASSERT_EQ(found[i].slave, of_all[i].slave);
+    ASSERT_EQ(found[i].face, of_all[i].face);
+    ASSERT_EQ(found[i].gap, of_all[i].gap);
+  }
+}
+
+std::vector<SurfaceElement> some_of(std::vector<SurfaceElement>& living, std::size_t count,
+                                    std::mt19937& random) {
+  std::shuffle(living.begin(), living.end(), random);
+  count = std::min(count, living.size());
+  const std::vector<SurfaceElement> chosen(living.end() - static_cast<std::ptrdiff_t>(count), living.end());
+  living.resize(living.size() - count);
+  return chosen;
+}
+
+std::vector<SurfaceElement> elements_of_parts(std::initializer_list<int> counts) {
+  std::vector<SurfaceElement> all;
+  int part = 0;
+  for (int count : counts) {
+    for (int e = 0; e < count; ++e) all.push_back({part, e});
+    ++part;
+  }
+  return all;
+}
+
+// A block thrown at another and at a sheet.
+void build_impact(SpringModel& model, const ContactOptions& options) {
+  model.stiffness = 10;
+  model.add_box({4, 4, 3}, {0.8, 0.8, 0.6}, 1, shifted({0, 0, 0}));
+  model.throw_from(model.add_box({3, 3, 2}, {0.6, 0.6, 0.4}, 1, shifted({0.13, 0.17, 0.61})), {0.1, 0, -1});
+  model.throw_from(model.add_sheet({4, 4}, {1, 1}, 0.05, 20, shifted({-0.1, -0.1, 1.1})), {0, 0.1, -2});
+  model.start_erodible(options);
+}
+constexpr std::initializer_list<int> impact_elements{48, 18, 16};
+
+TEST(Erosion, CandidatesMissNothingBetweenSearches) {
+  ContactOptions options;
+  options.reach_buffer = 0.5;
+  std::mt19937 random(5);
+  for (const int at_once : {1, 5}) {
+    SpringModel model;
+    build_impact(model, options);
+    std::vector<SurfaceElement> living = elements_of_parts(impact_elements);
+    const double dt = 1e-3;
+    int searches = 0;
+    int most_active = 0;
+    for (int i = 0; i < 300; ++i) {
+      model.accelerate(dt);
+      ASSERT_NO_FATAL_FAILURE(expect_complete_candidates(model, dt)) << "step " << i;
+      resolve(model.scene, model.nodes, dt, model.alone());
+      searches = static_cast<int>(model.scene.candidates.counts.searches);
+      most_active = std::max(most_active, model.scene.step.active);
+      model.move(dt);
+      if (i % 5 == 0) model.erode(some_of(living, static_cast<std::size_t>(at_once), random));
+    }
+    EXPECT_LT(searches, 60) << "most steps were made without a search";
+    EXPECT_GT(most_active, 10);
+  }
+}
+
+TEST(Erosion, SameBitsForAnyNumberOfThreads) {
+  std::vector<Vector3d> first;
+  for (const int threads : {1, 2, 4}) {
+    ThreadTeam team(threads);
+    ContactOptions options;
+    options.friction = 0.2;
+    SpringModel model;
+    build_impact(model, options);
+    std::mt19937 random(6);
+    std::vector<SurfaceElement> living = elements_of_parts(impact_elements);
+    for (int i = 0; i < 200; ++i) {
+      model.step(1e-3, team);
+      if (i % 3 == 0) model.erode(some_of(living, 1, random), team);
+    }
+    std::vector<Vector3d> end;
+    for (int n = 0; n < model.count(); ++n) end.push_back(model.x(n));
+    if (first.empty()) first = end;
+    for (std::size_t n = 0; n < end.size(); ++n) ASSERT_EQ(first[n], end[n]) << threads << " threads";
+    EXPECT_GT(model.scene.totals.contacts, 1000U);
+  }
+}
+
+// A block whose thin middle layer goes while both halves are pressed together: what is laid bare meets in the
+// very next step, without a search.
+TEST(Erosion, FacesLaidBareTouchInTheSameStep) {
+  for (const bool turned : {false, true}) {
+    SpringModel model;
+    const Eigen::Matrix3d turn =
+        turned ? Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix()
+               : Eigen::Matrix3d::Identity();
+    const double layer = 1e-3;
+    model.stiffness = 200;
+    const int nodes = 4 * 4 * 8;
+    model.add_box({3, 3, 7}, {3, 3, 7}, 1, [&](const Vector3d& x) -> Vector3d {
+      return turn * Vector3d(x[0], x[1], x[2] < 3.5 ? x[2] : x[2] - 1 + layer);
+    });
+    model.start_erodible({});
+    for (int n = 0; n < nodes; ++n) model.set_velocity(n, turn * Vector3d(0, 0, n < nodes / 2 ? 0.5 : -0.5));
+    const double dt = 5e-3;
+    resolve(model.scene, model.nodes, 1e-9, model.alone());
+    EXPECT_TRUE(model.scene.contacts.empty());
+    std::vector<SurfaceElement> middle;
+    for (int e = 27; e < 36; ++e) middle.push_back({0, e});
+    model.erode(middle);
+    const Vector3d momentum = model.momentum();
+    const Vector3d moment = model.angular_momentum();
+    ThreadTeam team(1);
+    for (int i = 0; i < 400; ++i) {
+      model.step(dt);
+      if (i == 0) {
+        EXPECT_FALSE(model.scene.step.searched);
+        EXPECT_GE(model.scene.step.active, 16) << "every node of one side at least";
+      }
+      if (i % 20 != 0) continue;
+      ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << i;
+    }
+    const double scale = 0.5 * 7 * 9;
+    EXPECT_LT((model.momentum() - momentum).norm(), 1e-12 * scale);
+    EXPECT_LT((model.angular_momentum() - moment).norm(), 1e-11 * scale);
+    const double between =
+        (turn.transpose() * (model.mean_velocity(nodes / 2, nodes) - model.mean_velocity(0, nodes / 2)))[2];
+    EXPECT_GT(between, 0.3) << "they have bounced";
+    EXPECT_LT(model.scene.totals.deepest_overlap, 1e-2 * layer);
+  }
+}
+
+// Two cubes that have nothing but an edge in common, one above and to the right of the other: the normals of
+// the nodes of that edge cancel, but what comes from below under the upper one has to carry them.
+TEST(Erosion, NodesOfAPinchedEdgeAreCarried) {
+  SpringModel model;
+  model.stiffness = 100;
+  model.add_box({2, 1, 2}, {2, 1, 2}, 1, [](const Vector3d& x) -> Vector3d {
+    const Vector3d p = x - Vector3d(1, 0, 1);
+    return {p[0] + 0.5 * std::min(p[2], 0.0), p[1], p[2]};
+  });
+  const int below = model.add_box({1, 1, 1}, {0.6, 1.4, 0.5}, 1, shifted({-0.003, -0.2, -0.51}));
+  model.throw_from(below, {0, 0, 1});
+  model.start_erodible({});
+  model.erode(std::vector<SurfaceElement>{{0, 1}, {0, 2}});
+  const Surface& surface = model.scene.surface;
+  const std::array<int, 2> edge{surface.slave(7), surface.slave(10)};
+  for (int slave : edge) {
+    EXPECT_EQ(surface.pinched[static_cast<std::size_t>(slave)], 1);
+    EXPECT_LT(vertex_normal(surface, model.nodes, slave).dot(Vector3d::UnitZ()), 0.1);
+  }
+  model.step(0.02);
+  int carried = 0;
+  for (const Contact& contact : model.scene.contacts)
+    carried += (contact.slave == edge[0] || contact.slave == edge[1]) && contact.normal[2] > 0.99;
+  EXPECT_EQ(carried, 2);
+}
+
+// What has nothing to do with the deleted elements goes on to the last bit, with its history.
+TEST(Erosion, OtherContactsGoOnUnchanged) {
+  ContactOptions options;
+  options.friction = 0.3;
+  SpringModel model[2];
+  for (SpringModel& m : model) {
+    m.gravity = {2, 0, -10};
+    m.add_box({12, 3, 1}, {12, 3, 1}, 1, shifted({0, 0, 0}));
+    m.add_box({2, 2, 1}, {1, 1, 0.5}, 1, shifted({1.1, 1.2, 1.0005}));
+    m.start_erodible(options);
+    m.hold(0, 13 * 4 * 2);
+    for (int i = 0; i < 300; ++i) m.step(1e-4);
+  }
+  ASSERT_GT(model[0].scene.step.active, 3);
+  model[1].erode(std::vector<SurfaceElement>{{0, 10}, {0, 11}, {0, 22}, {0, 34}});
+  for (int i = 0; i < 100; ++i) {
+    for (SpringModel& m : model) m.step(1e-4);
+    for (int n = 13 * 4 * 2; n < model[0].count(); ++n) {
+      ASSERT_EQ(model[0].x(n), model[1].x(n)) << "step " << i;
+      ASSERT_EQ(model[0].v(n), model[1].v(n));
+    }
+  }
+}
+
+TEST(Erosion, EverythingMayGoWhileInContact) {
+  SpringModel model;
+  build_impact(model, {});
+  for (int i = 0; i < 60; ++i) model.step(1e-3);
+  ASSERT_GT(model.scene.step.active, 0);
+  model.erode(elements_of_parts(impact_elements));
+  for (int i = 0; i < 60; ++i) {
+    model.step(1e-3);
+    ASSERT_EQ(model.scene.step.contacts, 0);
+  }
+}
+
+// A brick slides over a floor whose elements vanish under it, and falls to the floor below.
+TEST(Erosion, ABrickFallsThroughWhatVanishesAndNotThroughWhatRemains) {
+  SpringModel model;
+  model.gravity = {0, 0, -10};
+  model.stiffness = 100;
+  const int floor = model.add_box({12, 4, 2}, {6, 2, 1}, 1, shifted({0, 0, 0}));
+  const int brick = model.add_box({3, 3, 1}, {1.2, 1.2, 0.4}, 1, shifted({0.5, 0.4, 1.0}));
+  model.throw_from(brick, {2, 0, 0});
+  model.start_erodible({});
+  model.hold(floor, brick);
+  model.damping = 0.5;
+  ThreadTeam team(1);
+  const double dt = 1e-3;
+  int column = 0;
+  for (int i = 0; i < 2000; ++i) {
+    model.step(dt);
+    if (i % 100 == 50 && column < 12) {  // the upper layer goes, column by column
+      std::vector<SurfaceElement> gone;
+      for (int j = 0; j < 4; ++j) gone.push_back({0, column + 12 * (j + 4)});
+      model.erode(gone);
+      ++column;
+    }
+    if (i % 50 != 0) continue;
+    ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << i;
+  }
+  EXPECT_EQ(column, 12);
+  double lowest = HUGE_VAL;
+  for (int n = brick; n < model.count(); ++n) lowest = std::min(lowest, model.x(n)[2]);
+  EXPECT_NEAR(lowest, 0.5, 0.02) << "on what was inside";
+}
+
+// A shell of cells smaller than its thickness, torn along a line: the sides of the tear are closer than they
+// may touch. Nothing pushes them; once they have been apart they do touch.
+TEST(Erosion, ATornShellDoesNotPushItselfApart) {
+  SpringModel model;
+  const int cells = 12;
+  const double thickness = 0.4;
+  model.add_sheet({cells, 4}, {3, 1}, thickness, 1, shifted({0, 0, 0}));  // cells of 0.25
+  model.start_erodible({});
+  std::vector<SurfaceElement> line;
+  for (int j = 0; j < 4; ++j) line.push_back({0, 6 + cells * j});
+  model.erode(line);
+  for (int i = 0; i < 50; ++i) {
+    model.step(1e-3);
+    ASSERT_EQ(model.scene.step.active, 0);
+  }
+  const auto column = [](int n) { return n % (cells + 1); };
+  // Apart, far enough, and back.
+  for (const double speed : {4.0, -4.0}) {
+    for (int n = 0; n < model.count(); ++n) model.set_velocity(n, {column(n) > 6 ? speed : 0, 0, 0});
+    for (int i = 0; i < 100; ++i) model.step(1e-3);
+  }
+  for (int i = 0; i < 100; ++i) model.step(1e-3);
+  EXPECT_GT(model.scene.totals.contacts, 0U);
+  double nearest = HUGE_VAL;
+  for (int n = 0; n < model.count(); ++n)
+    for (int m = 0; m < model.count(); ++m)
+      if (column(n) == 6 && column(m) == 7) nearest = std::min(nearest, (model.x(n) - model.x(m)).norm());
+  EXPECT_GT(nearest, 0.9 * thickness);
+}
+
+}  // namespace
+}  // namespace brio::testing

@@ -13,30 +13,23 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
+constexpr Vector3<double> nowhere{not_a_number, not_a_number, not_a_number};
+
 void include(Spread& spread, const Eigen::Vector3d& value) {
   for (int axis = 0; axis < 3; ++axis) {
     spread.lower[axis] = std::min(spread.lower[axis], value[axis]);
     spread.upper[axis] = std::max(spread.upper[axis], value[axis]);
   }
 }
-constexpr Vector3<double> nowhere{not_a_number, not_a_number, not_a_number};
 constexpr Spread nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 
 // Relative motion since the search, now and as far ahead as constraints look.
-bool within_buffer(const Candidates& candidates, const Surface& surface, const Nodes& nodes, double dt) {
+bool within_buffer(const Candidates& candidates, const Travel& travel) {
   if (candidates.growth[0] < 0) return false;
-  Spread now = nothing;
-  Spread ahead = nothing;
-  for (std::size_t s = 0; s < surface.slaves(); ++s) {
-    if (surface.node[s] < 0) continue;
-    const Vector3<double>& start = candidates.point[s];
-    const Eigen::Vector3d moved =
-        position(nodes, surface.node[s]) - Eigen::Vector3d(start.x, start.y, start.z);
-    include(now, moved);
-    include(ahead, moved + approach_share * dt * velocity(nodes, surface.node[s]));
-  }
   for (int axis = 0; axis < 3; ++axis)
-    if (!(std::max(now.width(axis), ahead.width(axis)) <= candidates.growth[axis])) return false;
+    if (!(std::max(travel.displacements().width(axis), travel.displacements_ahead().width(axis)) <=
+          candidates.growth[axis]))
+      return false;
   return true;
 }
 
@@ -119,22 +112,13 @@ double influence(const Surface& surface, const ContactOptions& options, const Ca
   return std::max(band_share, candidates.depth_share) * candidates.edge[f];
 }
 
-Spread velocity_spread(const Surface& surface, const Nodes& nodes) {
-  Spread spread = nothing;
-  for (int node : surface.node)
-    if (node >= 0) include(spread, velocity(nodes, node));
-  if (!(spread.width(0) >= 0)) return {};  // all deleted
-  return spread;
-}
-
 bool refresh(Candidates& candidates, const Surface& surface, const Lists& excluded,
-             const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
-             ThreadTeam& team) {
-  if (surface.face.empty() || within_buffer(candidates, surface, nodes, dt)) return false;
+             const ContactOptions& options, const Nodes& nodes, Travel& travel, ThreadTeam& team) {
+  if (surface.face.empty() || within_buffer(candidates, travel)) return false;
   measure_edges(candidates, surface, nodes);
   for (int axis = 0; axis < 3; ++axis)
-    candidates.growth[axis] =
-        options.reach_buffer * candidates.mean_edge + approach_share * dt * velocities.width(axis);
+    candidates.growth[axis] = options.reach_buffer * candidates.mean_edge +
+                              approach_share * travel.dt() * travel.velocities().width(axis);
   candidates.largest_radius = candidates.radius_bound;
   for (double radius : surface.radius)
     candidates.largest_radius = std::max(candidates.largest_radius, radius);
@@ -151,6 +135,8 @@ bool refresh(Candidates& candidates, const Surface& surface, const Lists& exclud
         surface.face[f].alive() ? capture_box(candidates, surface, options, static_cast<int>(f)) : empty_box;
   candidates.search.find(candidates.point, candidates.box, team, candidates.pairs, candidates.counts);
   sort_by_slave(candidates, surface, excluded);
+  ++candidates.changes;
+  travel.restart();
   return true;
 }
 

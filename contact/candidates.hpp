@@ -3,11 +3,13 @@
 /// the search can be skipped until nodes have moved that far relative to each other; skipping never loses a
 /// pair.
 
+#include <cstdint>
 #include <vector>
 
 #include "contact/global_search.hpp"
 #include "contact/options.hpp"
 #include "contact/surface.hpp"
+#include "contact/travel.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 
@@ -17,17 +19,6 @@ namespace brio {
 /// edge: constraints reach 0.02 outside; old overlaps are followed down to half an edge inside.
 inline constexpr double band_share = 0.02;
 inline constexpr double followed_depth_share = 0.5;
-/// Constraints are formed ahead of touching, over what the present approach speed would cover: other impulses
-/// of the same step may double it.
-inline constexpr double approach_share = 2;
-
-/// Per-axis extent of the relative motion of slave nodes.
-struct Spread {
-  double lower[3];
-  double upper[3];
-  double width(int axis) const { return upper[axis] - lower[axis]; }
-};
-
 struct Candidates {
   GlobalSearch search;
   SearchCounts counts;
@@ -43,6 +34,7 @@ struct Candidates {
   std::vector<Vector3<double>> point;  ///< slave positions at the last search
   std::vector<CaptureBox> box;
   CandidatePairs pairs;
+  std::uint64_t changes = 0;  ///< of the lists: searches, and additions between them
   std::vector<int> fill;
   double growth[3] = {-1, -1, -1};  ///< what may be travelled; negative: no search yet
 
@@ -68,12 +60,10 @@ double influence_outside(const Surface& surface, const ContactOptions& options, 
 CaptureBox capture_box(const Candidates& candidates, const Surface& surface, const ContactOptions& options,
                        int face);
 
-/// Spread of velocities of the slave nodes.
-Spread velocity_spread(const Surface& surface, const Nodes& nodes);
-
-/// Search again if some pair could have come closer than the buffer allows. \returns whether it searched.
+/// Search again if some pair could have come closer than the buffer allows, and let `travel` restart.
+/// \param travel  has followed the nodes to where they are, from candidates.point
+/// \returns whether it searched.
 bool refresh(Candidates& candidates, const Surface& surface, const Lists& excluded,
-             const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
-             ThreadTeam& team);
+             const ContactOptions& options, const Nodes& nodes, Travel& travel, ThreadTeam& team);
 
 }  // namespace brio

@@ -37,7 +37,6 @@ class NodeCheck {
 
   void run(int slave) {
     slave_ = slave;
-    if (scene_.candidates.faces_of.of(slave).empty()) return;
     const auto s = static_cast<std::size_t>(slave);
     node_ = scene_.surface.node[s];
     solid_ = scene_.surface.of_solid[s] != 0;
@@ -57,8 +56,8 @@ class NodeCheck {
   // \returns false where the node seems to be inside a body but faces that might prove otherwise were left
   // out.
   bool judge_all(bool everything) {
-    find_near_faces(scene_.swept, scene_.surface, scene_.candidates, scene_.options, scene_.nodes, slave_,
-                    everything, piece_.near);
+    scene_.swept.find(scene_.surface, scene_.candidates, scene_.options, scene_.nodes, scene_.travel, slave_,
+                      everything, piece_.near);
     if (piece_.near.empty()) return true;
     find_history();
     for (std::size_t i = 0; i < piece_.near.size(); ++i) {
@@ -362,10 +361,10 @@ class NodeCheck {
 }  // namespace
 
 void detect(Detection& detection, const Surface& surface, const Candidates& candidates,
-            const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
+            const ContactOptions& options, const Nodes& nodes, const Travel& travel,
             std::span<const Contact> last, ThreadTeam& team, std::vector<Contact>& contacts) {
-  sweep(detection.swept, surface, candidates, options, nodes, velocities, dt, team);
-  const Scenery scenery{surface, candidates, options, nodes, last, detection.swept};
+  detection.swept.begin_step(surface, candidates, options, nodes, travel, team);
+  const Scenery scenery{surface, candidates, options, nodes, travel, last, detection.swept};
   const std::size_t tasks = (surface.slaves() + slaves_per_task - 1) / slaves_per_task;
   detection.piece.resize(tasks);
   team.for_each(tasks, [&](std::size_t task) {
@@ -373,7 +372,8 @@ void detect(Detection& detection, const Surface& surface, const Candidates& cand
     piece.contact.clear();
     NodeCheck check(scenery, piece);
     const std::size_t end = std::min(surface.slaves(), (task + 1) * slaves_per_task);
-    for (std::size_t s = task * slaves_per_task; s < end; ++s) check.run(static_cast<int>(s));
+    for (std::size_t s = task * slaves_per_task; s < end; ++s)
+      if (!detection.swept.sleeps(travel, static_cast<int>(s))) check.run(static_cast<int>(s));
   });
   contacts.clear();
   for (const DetectionPiece& piece : detection.piece)

@@ -25,8 +25,9 @@ struct Scenery {
   const Candidates& candidates;
   const ContactOptions& options;
   const Nodes& nodes;
+  const Travel& travel;
   std::span<const Contact> last;  ///< contacts of the last step, by slave
-  const SweptFaces& swept;
+  SweptFaces& swept;
 };
 
 /// Contacts of consecutive slave nodes, found by one task.
@@ -42,7 +43,7 @@ struct Detection {
 
 /// Replace `contacts` by those of this step, ordered by slave node.
 void detect(Detection& detection, const Surface& surface, const Candidates& candidates,
-            const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
+            const ContactOptions& options, const Nodes& nodes, const Travel& travel,
             std::span<const Contact> last, ThreadTeam& team, std::vector<Contact>& contacts);
 
 }  // namespace brio

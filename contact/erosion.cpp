@@ -37,6 +37,8 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const N
       contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;
   erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
   scene.motion.resize(surface.slaves());
+  scene.in_contact.resize(surface.slaves());
+  scene.pushed.resize(surface.slaves());
   scene.normal_impulse.resize(surface.slaves(), Eigen::Vector3d::Zero());
   scene.friction_impulse.resize(surface.slaves(), Eigen::Vector3d::Zero());
   for (const auto* slaves : {&erosion.change.new_slave, &erosion.change.dead_slave})

@@ -114,6 +114,7 @@ void LocalCandidates::place_newcomers(Candidates& candidates, const Surface& sur
 }
 
 void LocalCandidates::add_pair(Candidates& candidates, int slave, int face, ThreadTeam& team) {
+  ++candidates.changes;
   follow_search(candidates, team);
   candidates.faces_of.loosen();
   include(candidates, slave, face);
@@ -130,6 +131,7 @@ void LocalCandidates::add(Candidates& candidates, const Surface& surface, const 
                           const ContactOptions& options, const Nodes& nodes, const SurfaceChange& change,
                           ThreadTeam& team) {
   if (candidates.growth[0] < 0) return;
+  ++candidates.changes;
   follow_search(candidates, team);
   place_newcomers(candidates, surface, options, nodes, change);
   const auto add_unless_excluded = [&](int slave, int face) {

@@ -65,75 +65,122 @@ SweptFace swept_face(const Nodes& nodes, const Face& face, const Vector3d& frame
   return swept;
 }
 
-ShellExtent extent_of(const Nodes& nodes, const Face& face, double margin) {
-  FaceVertices velocities;
-  for (std::size_t k = 0; k < 4; ++k) velocities[k] = velocity(nodes, face.node[k]);
-  return shell_extent(vertices(nodes, face), velocities, margin);
+// Largest distance between two boxes along an axis; negative where they overlap.
+double gap_between(const CaptureBox& a, const CaptureBox& b) {
+  double gap = -std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    gap = std::max(gap, std::max(a.lower[axis] - b.upper[axis], b.lower[axis] - a.upper[axis]));
+  return gap;
 }
 
-bool apart(const CaptureBox& a, const CaptureBox& b) {
-  bool separated = false;
-  for (int axis = 0; axis < 3; ++axis)
-    separated |= a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis];
-  return separated;
+double distance_to_box(const Vector3d& x, const FaceVertices& corner) {
+  const Vector3d lower = corner[0].cwiseMin(corner[1]).cwiseMin(corner[2].cwiseMin(corner[3]));
+  const Vector3d upper = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2].cwiseMax(corner[3]));
+  return (lower - x).cwiseMax(x - upper).cwiseMax(0.0).norm();
+}
+
+// How far the node and any point of the face may come nearer to each other as far ahead as constraints look.
+double approach(const Nodes& nodes, const Face& face, const Vector3d& own_velocity, double ahead) {
+  double fastest = 0;
+  for (int corner : face.node)
+    fastest = std::max(fastest, (own_velocity - velocity(nodes, corner)).squaredNorm());
+  return ahead * std::sqrt(fastest);
 }
 
 }  // namespace
 
-void sweep(SweptFaces& swept, const Surface& surface, const Candidates& candidates,
-           const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
-           ThreadTeam& team) {
-  swept.dt = dt;
-  for (int axis = 0; axis < 3; ++axis)
-    swept.frame[axis] = 0.5 * (velocities.lower[axis] + velocities.upper[axis]);
-  swept.solid.resize(surface.face.size());
-  swept.shell.resize(surface.face.size());
-  team.for_ranges(candidates.face.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
+void SweptFaces::wake_all(const Surface& surface, const Candidates& candidates) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  changes_ = candidates.changes;
+  wake_.assign(candidates.faces_of.item.size(), -infinity);
+  wake_of_slave_.resize(surface.slaves());
+  for (std::size_t s = 0; s < surface.slaves(); ++s)
+    wake_of_slave_[s] = candidates.faces_of.of(static_cast<int>(s)).empty() ? infinity : -infinity;
+  solids_.clear();
+  for (int f : candidates.face)
+    if (surface.face[static_cast<std::size_t>(f)].alive() && !surface.face[static_cast<std::size_t>(f)].shell)
+      solids_.push_back(f);
+}
+
+void SweptFaces::begin_step(const Surface& surface, const Candidates& candidates,
+                            const ContactOptions& options, const Nodes& nodes, const Travel& travel,
+                            ThreadTeam& team) {
+  dt = travel.dt();
+  for (int axis = 0; axis < 3; ++axis) frame[axis] = travel.velocities().middle(axis);
+  grown_ = options.shell_thickness_scale * surface.grown;
+  solid_.resize(surface.face.size());
+  if (changes_ != candidates.changes || !may_sleep) wake_all(surface, candidates);
+  team.for_ranges(solids_.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const auto f = static_cast<std::size_t>(candidates.face[i]);
-      if (!surface.face[f].alive()) {
-        swept.solid[f].box = empty_box;
-        continue;
-      }
-      const double outside = influence_outside(surface, options, candidates, candidates.face[i]);
-      if (surface.face[f].shell)
-        swept.shell[f] = extent_of(nodes, surface.face[f], outside);
-      else
-        swept.solid[f] = swept_face(nodes, surface.face[f], swept.frame, approach_share * dt,
-                                    influence(surface, options, candidates, candidates.face[i]), outside);
+      const auto f = static_cast<std::size_t>(solids_[i]);
+      solid_[f] = swept_face(nodes, surface.face[f], frame, approach_share * dt,
+                             influence(surface, options, candidates, solids_[i]),
+                             influence_outside(surface, options, candidates, solids_[i]));
     }
   });
 }
 
-void find_near_faces(const SweptFaces& swept, const Surface& surface, const Candidates& candidates,
-                     const ContactOptions& options, const Nodes& nodes, int slave, bool everything,
-                     std::vector<NearFace>& near) {
+void SweptFaces::find(const Surface& surface, const Candidates& candidates, const ContactOptions& options,
+                      const Nodes& nodes, const Travel& travel, int slave, bool everything,
+                      std::vector<NearFace>& near) {
   near.clear();
   const auto s = static_cast<std::size_t>(slave);
   const int node = surface.node[s];
   const double radius = options.shell_thickness_scale * surface.radius[s];
-  const Sweep path = sweep_of(nodes, node, swept.frame, approach_share * swept.dt);
+  const Sweep path = sweep_of(nodes, node, frame, approach_share * dt);
   const Vector3d& x = path.start;
   CaptureBox own = box_of({&path, 1});
   grow(own, radius);
   const Vector3d own_velocity = velocity(nodes, node);
-  const auto left_out = [&](int face) {
-    const auto f = static_cast<std::size_t>(face);
-    if (surface.face[f].shell)
-      return surely_out_of_reach(swept.shell[f], x, own_velocity, radius, approach_share * swept.dt);
-    const SweptFace& solid = swept.solid[f];
-    if (apart(own, solid.box)) return true;
+  const double so_far = this->so_far(travel, slave);
+  const double ahead = travel.ahead(slave);
+  double first_wake = std::numeric_limits<double>::infinity();
+  // Notes the length by which a pair is too far apart. \returns whether the pair sleeps.
+  const auto falls_asleep = [&](double& wake, double clearance) {
+    wake = so_far + clearance - travel.rounding();
+    return so_far + ahead < wake;
+  };
+  const auto add = [&](int f, const ClosestPoint& closest, double distance) {
+    near.push_back({.face = f, .distance = distance, .closest = closest});
+  };
+  const auto look_at_shell = [&](int f, double& wake) {
+    const Face& face = surface.face[static_cast<std::size_t>(f)];
+    const double reach = influence_outside(surface, options, candidates, f) + radius;
+    const FaceVertices corner = vertices(nodes, face);
+    if (falls_asleep(wake, distance_to_box(x, corner) - reach)) return;
+    const ClosestPoint closest = closest_point_on_quad(x, corner);
+    const double distance = std::sqrt(closest.squared_distance);
+    if (falls_asleep(wake, distance - reach)) return;
+    if (distance <= reach + approach(nodes, face, own_velocity, approach_share * dt))
+      add(f, closest, distance);
+  };
+  const auto look_at_solid = [&](int f, double& wake) {
+    const SweptFace& solid = solid_[static_cast<std::size_t>(f)];
+    const double gap = gap_between(own, solid.box);
+    falls_asleep(wake, gap);
+    if (gap > 0) return;
     const double from = solid.normal.dot(path.start);
     const double to = solid.normal.dot(path.end);
-    return std::min(from, to) - radius > (everything ? solid.upper : solid.upper_outside) ||
-           std::max(from, to) + radius < solid.lower;
-  };
-  for (int f : candidates.faces_of.of(slave)) {
-    if (left_out(f)) continue;
+    if (std::min(from, to) - radius > (everything ? solid.upper : solid.upper_outside) ||
+        std::max(from, to) + radius < solid.lower)
+      return;
     const ClosestPoint closest =
         closest_point_on_quad(x, vertices(nodes, surface.face[static_cast<std::size_t>(f)]));
-    near.push_back({.face = f, .distance = std::sqrt(closest.squared_distance), .closest = closest});
+    add(f, closest, std::sqrt(closest.squared_distance));
+  };
+  double* wake = wake_.data() + candidates.faces_of.first[s];
+  for (int f : candidates.faces_of.of(slave)) {
+    if (!(so_far + ahead < *wake)) {
+      if (!surface.face[static_cast<std::size_t>(f)].alive())
+        *wake = std::numeric_limits<double>::infinity();
+      else if (surface.face[static_cast<std::size_t>(f)].shell)
+        look_at_shell(f, *wake);
+      else
+        look_at_solid(f, *wake);
+    }
+    first_wake = std::min(first_wake, *wake++);
   }
+  wake_of_slave_[s] = first_wake;
   std::sort(near.begin(), near.end(), [](const NearFace& a, const NearFace& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.face < b.face;
   });

@@ -1,21 +1,27 @@
 #pragma once
 /// Which of a slave node's candidates are near enough in a step for the detailed check: faces that sweep over
 /// a place within reach of the node's path.
+///
+/// A pair that is not near sleeps: its clearance, the length by which it is too far apart, is stored, and the
+/// pair is not looked at until node and face may have travelled that length towards each other (travel.hpp),
+/// the look-ahead of the present step included. A node whose pairs all sleep costs one comparison. What is
+/// found to be near never depends on who sleeps.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "contact/candidates.hpp"
 #include "contact/closest_point.hpp"
-#include "contact/shell_extent.hpp"
 #include "contact/surface.hpp"
+#include "contact/travel.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 
 namespace brio {
 
-/// The space that a face and what it influences sweep over within the step: a box, and a slab along the
-/// normal.
+/// The space that a side of a hexahedron and what it influences sweep over within the step: a box, and a slab
+/// along the normal.
 struct SweptFace {
   CaptureBox box;
   Eigen::Vector3d normal;
@@ -35,19 +41,36 @@ struct NearFace {
 /// The faces that are candidates, as they move in one step.
 struct SweptFaces {
   double dt = 0;
-  Eigen::Vector3d frame;           ///< velocity of the frame in which capture boxes move least
-  std::vector<SweptFace> solid;    ///< by face; of those that are candidates and sides of hexahedra
-  std::vector<ShellExtent> shell;  ///< by face; of those that are candidates and shells
+  Eigen::Vector3d frame;  ///< velocity of the frame in which capture boxes move least
+  bool may_sleep = true;  ///< off only to show that sleep changes nothing
+
+  /// Once a step, when candidates are up to date.
+  void begin_step(const Surface& surface, const Candidates& candidates, const ContactOptions& options,
+                  const Nodes& nodes, const Travel& travel, ThreadTeam& team);
+
+  /// Whether nothing can be near a slave node.
+  bool sleeps(const Travel& travel, int slave) const {
+    return so_far(travel, slave) + travel.ahead(slave) < wake_of_slave_[static_cast<std::size_t>(slave)];
+  }
+
+  /// Replace `near` by the faces near a slave node, the closest first. Faces of closed bodies that the node
+  /// is well outside of are left out, but where everything is asked for. Changes what belongs to this slave
+  /// only.
+  void find(const Surface& surface, const Candidates& candidates, const ContactOptions& options,
+            const Nodes& nodes, const Travel& travel, int slave, bool everything,
+            std::vector<NearFace>& near);
+
+ private:
+  // What brings a node nearer to touching any face.
+  double so_far(const Travel& travel, int slave) const { return travel.so_far(slave) + grown_; }
+  void wake_all(const Surface& surface, const Candidates& candidates);
+
+  std::vector<SweptFace> solid_;  ///< by face; of those that are candidates and sides of hexahedra
+  std::vector<int> solids_;       ///< these faces
+  std::vector<double> wake_;      ///< of each candidate pair: travel at which it may be near
+  std::vector<double> wake_of_slave_;
+  double grown_ = 0;           ///< of distances of touching, by the thickness of shells
+  std::uint64_t changes_ = 0;  ///< of the candidates, as far as pairs know of them
 };
-
-void sweep(SweptFaces& swept, const Surface& surface, const Candidates& candidates,
-           const ContactOptions& options, const Nodes& nodes, const Spread& velocities, double dt,
-           ThreadTeam& team);
-
-/// Replace `near` by the faces near a slave node, the closest first. Faces of closed bodies that the node is
-/// well outside of are left out, but where everything is asked for.
-void find_near_faces(const SweptFaces& swept, const Surface& surface, const Candidates& candidates,
-                     const ContactOptions& options, const Nodes& nodes, int slave, bool everything,
-                     std::vector<NearFace>& near);
 
 }  // namespace brio

@@ -34,12 +34,12 @@ int part_of(const Surface& surface, int slave) {
 }
 
 void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
-  constexpr Spread at_rest{{0, 0, 0}, {0, 0, 0}};
   scene.candidates.growth[0] = -1;
-  refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, at_rest, 0, team);
+  scene.travel.follow(scene.surface, nodes, {}, 0, team);
+  refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, scene.travel, team);
   scene.last.swap(scene.contacts);
-  detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, at_rest, 0, scene.last, team,
-         scene.contacts);
+  detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, scene.travel, scene.last,
+         team, scene.contacts);
 }
 
 // Pairs of one part that overlap from the start are how the part was drawn: corners, seams, flanges.

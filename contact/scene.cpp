@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
@@ -12,38 +13,39 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::size_t nodes_per_task = 2048;
+using Clock = std::chrono::steady_clock;
 
-void load_motion(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
-  team.for_ranges(scene.surface.slaves(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) {
-      if (scene.surface.node[s] < 0) continue;
-      const auto node = static_cast<std::size_t>(scene.surface.node[s]);
-      for (int axis = 0; axis < 3; ++axis) {
-        scene.motion[s].velocity[axis] = nodes.record[node].velocity[axis];
-        scene.motion[s].inverse_mass[axis] = nodes.free_inverse_mass(node, axis);
-      }
+void load_motion(ContactScene& scene, const Nodes& nodes) {
+  scene.in_contact.clear();
+  for (const Contact& contact : scene.contacts)
+    for (int slave : contact.node) scene.in_contact.insert(slave);
+  scene.in_contact.for_each([&](std::size_t s) {
+    const auto node = static_cast<std::size_t>(scene.surface.node[s]);
+    for (int axis = 0; axis < 3; ++axis) {
+      scene.motion[s].velocity[axis] = nodes.record[node].velocity[axis];
+      scene.motion[s].inverse_mass[axis] = nodes.free_inverse_mass(node, axis);
     }
   });
 }
 
-void store_velocities(const ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
-  team.for_ranges(scene.surface.slaves(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) {
-      if (scene.surface.node[s] < 0) continue;
-      double* v = nodes.record[static_cast<std::size_t>(scene.surface.node[s])].velocity;
-      for (int axis = 0; axis < 3; ++axis) v[axis] = scene.motion[s].velocity[axis];
-    }
+void store_velocities(const ContactScene& scene, Nodes& nodes) {
+  scene.in_contact.for_each([&](std::size_t s) {
+    double* v = nodes.record[static_cast<std::size_t>(scene.surface.node[s])].velocity;
+    for (int axis = 0; axis < 3; ++axis) v[axis] = scene.motion[s].velocity[axis];
   });
 }
 
 void sum_impulses(ContactScene& scene) {
-  std::fill(scene.normal_impulse.begin(), scene.normal_impulse.end(), Vector3d::Zero());
-  std::fill(scene.friction_impulse.begin(), scene.friction_impulse.end(), Vector3d::Zero());
+  scene.pushed.for_each([&](std::size_t s) {
+    scene.normal_impulse[s].setZero();
+    scene.friction_impulse[s].setZero();
+  });
+  scene.pushed.clear();
   for (const Contact& contact : scene.contacts) {
     if (contact.impulse == 0) continue;
     for (std::size_t k = 0; k < 5; ++k) {
       const auto s = static_cast<std::size_t>(contact.node[k]);
+      scene.pushed.insert(contact.node[k]);
       scene.normal_impulse[s] += contact.weight[k] * contact.impulse * contact.normal;
       scene.friction_impulse[s] += contact.weight[k] * contact.friction;
     }
@@ -52,8 +54,7 @@ void sum_impulses(ContactScene& scene) {
 
 void book_work(ContactScene& scene, const Nodes& nodes) {
   ContactStep& step = scene.step;
-  for (std::size_t s = 0; s < scene.surface.slaves(); ++s) {
-    if (scene.surface.node[s] < 0) continue;
+  scene.pushed.for_each([&](std::size_t s) {
     const ContactMotion& motion = scene.motion[s];
     const Vector3d before(nodes.velocity_before[static_cast<std::size_t>(scene.surface.node[s])].component);
     const Vector3d after(motion.velocity);
@@ -69,7 +70,7 @@ void book_work(ContactScene& scene, const Nodes& nodes) {
     step.support_work_after += reaction.dot(after);
     step.support_impulse += reaction;
     step.support_moment += position(nodes, scene.surface.node[s]).cross(reaction);
-  }
+  });
 }
 
 void book(ContactScene& scene, const Nodes& nodes) {
@@ -102,6 +103,7 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   scene.candidates = Candidates(options.search);
   const std::size_t slaves = scene.surface.slaves();
   scene.motion.resize(slaves);
+  scene.in_contact = scene.pushed = SlaveSet(slaves);
   scene.normal_impulse.resize(slaves, Vector3d::Zero());
   scene.friction_impulse.resize(slaves, Vector3d::Zero());
   return scene;
@@ -112,18 +114,20 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team) {
   scene.step = ContactStep{};
   if (scene.surface.face.empty()) return;
   if (scene.erosion && !scene.erosion->exclusion.torn.empty()) release_torn_pairs(scene, nodes, team);
-  const Spread velocities = velocity_spread(scene.surface, nodes);
+  scene.travel.follow(scene.surface, nodes, scene.candidates.point, dt, team);
+  const Clock::time_point start = Clock::now();
   scene.step.searched =
-      refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, velocities, dt, team);
+      refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, scene.travel, team);
+  scene.step.search_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   scene.last.swap(scene.contacts);
-  detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, velocities, dt, scene.last,
+  detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, scene.travel, scene.last,
          team, scene.contacts);
   warm_start(scene.last, scene.last_dt > 0 ? dt / scene.last_dt : 1.0, scene.contacts);
-  load_motion(scene, nodes, team);
+  load_motion(scene, nodes);
   solve(scene.solver, scene.options, scene.candidates.smallest_edge, dt, scene.contacts, scene.motion);
   scene.step.passes = scene.solver.passes_done;
   scene.step.residual = scene.solver.residual;
-  if (!scene.contacts.empty()) store_velocities(scene, nodes, team);
+  if (!scene.contacts.empty()) store_velocities(scene, nodes);
   sum_impulses(scene);
   book(scene, nodes);
   scene.last_dt = dt;

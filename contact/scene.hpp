@@ -17,6 +17,7 @@
 #include "contact/erosion.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
+#include "contact/slave_set.hpp"
 #include "contact/solve.hpp"
 #include "contact/surface.hpp"
 #include "src/base/nodes.hpp"
@@ -38,6 +39,7 @@ struct ContactStep {
   int passes = 0;
   double residual = 0;  ///< relative velocity changed in the last pass
   bool searched = false;
+  double search_seconds = 0;  ///< wall time
   /// Reactions of the supports: what they do to keep prescribed components of motion as they are.
   double support_work_before = 0;
   double support_work_after = 0;
@@ -64,6 +66,7 @@ struct ContactScene {
   ContactOptions options;
   Surface surface;
   Lists excluded;
+  Travel travel;
   Candidates candidates;
   Detection detection;
   Solver solver;
@@ -72,7 +75,9 @@ struct ContactScene {
   double last_dt = 0;
   std::optional<ContactErosion> erosion;  ///< of scenes whose elements may be deleted
 
-  std::vector<ContactMotion> motion;            ///< of each slave node
+  SlaveSet in_contact;                          ///< nodes that any of the contacts joins
+  SlaveSet pushed;                              ///< nodes with an impulse in the last step
+  std::vector<ContactMotion> motion;            ///< of each slave node; up to date for those in contact
   std::vector<Eigen::Vector3d> normal_impulse;  ///< of each slave node, in the last step
   std::vector<Eigen::Vector3d> friction_impulse;
 

@@ -54,6 +54,7 @@ struct Surface {
   std::vector<int> body;               ///< of each slave node
   Lists faces_of;                      ///< of each slave node: the faces it belongs to, ascending
   int body_count = 0;
+  double grown = 0;  ///< sum over the updates of thickness of the most that distances of touching grew
 
   std::size_t slaves() const { return node.size(); }
   int slave(int global_node) const { return slave_of[static_cast<std::size_t>(global_node)]; }

@@ -134,7 +134,8 @@ void resolve_contact(Model& model, ThreadTeam& team) {
   for (ContactScene& scene : model.contacts) {
     resolve(scene, model.nodes, model.times.next, team);
     const ContactStep& step = scene.step;
-
+    model.stages[Stage::contact_search] += step.search_seconds;
+    model.stages[Stage::contact] -= step.search_seconds;
     model.energy.contact.before += step.normal_work_before;
     model.energy.contact.after += step.normal_work_after;
     model.energy.friction.before += step.friction_work_before;

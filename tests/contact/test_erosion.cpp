@@ -57,18 +57,18 @@ Candidates all_pairs(const ContactScene& scene) {
 void expect_complete_candidates(SpringModel& model, double dt) {
   ContactScene& scene = model.scene;
   ThreadTeam team(1);
-  const Spread velocities = velocity_spread(scene.surface, model.nodes);
-  refresh(scene.candidates, scene.surface, scene.excluded, scene.options, model.nodes, velocities, dt, team);
+  scene.travel.follow(scene.surface, model.nodes, scene.candidates.point, dt, team);
+  refresh(scene.candidates, scene.surface, scene.excluded, scene.options, model.nodes, scene.travel, team);
   for_pairs(scene, [&](int s, int f) {
     if (!within_reach(model, s, f, 0) && !within_reach(model, s, f, approach_share * dt)) return;
     const auto known = scene.candidates.faces_of.of(s);
     ASSERT_TRUE(std::binary_search(known.begin(), known.end(), f)) << "slave " << s << " face " << f;
   });
-  Detection detection;
+  Detection detection, detection_of_all;
   std::vector<Contact> found, of_all;
-  detect(detection, scene.surface, scene.candidates, scene.options, model.nodes, velocities, dt,
-         scene.contacts, team, found);
-  detect(detection, scene.surface, all_pairs(scene), scene.options, model.nodes, velocities, dt,
+  detect(detection, scene.surface, scene.candidates, scene.options, model.nodes, scene.travel, scene.contacts,
+         team, found);
+  detect(detection_of_all, scene.surface, all_pairs(scene), scene.options, model.nodes, scene.travel,
          scene.contacts, team, of_all);
   ASSERT_EQ(found.size(), of_all.size());
   for (std::size_t i = 0; i < found.size(); ++i) {

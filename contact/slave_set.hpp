@@ -1,0 +1,36 @@
+#pragma once
+/// A set of slave nodes, visited in ascending order: what a step does for the few nodes in contact, in the
+/// order in which it would do it for all.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace brio {
+
+class SlaveSet {
+ public:
+  explicit SlaveSet(std::size_t slaves = 0) : word_((slaves + bits - 1) / bits, 0) {}
+
+  void resize(std::size_t slaves) { word_.resize((slaves + bits - 1) / bits, 0); }
+  void insert(int slave) {
+    const auto s = static_cast<std::size_t>(slave);
+    word_[s / bits] |= std::uint64_t{1} << s % bits;
+  }
+
+  template <class Visit>
+  void for_each(Visit&& visit) const {
+    for (std::size_t w = 0; w < word_.size(); ++w)
+      for (std::uint64_t left = word_[w]; left != 0; left &= left - 1)
+        visit(w * bits + static_cast<std::size_t>(std::countr_zero(left)));
+  }
+
+  void clear() { word_.assign(word_.size(), 0); }
+
+ private:
+  static constexpr std::size_t bits = 64;
+  std::vector<std::uint64_t> word_;
+};
+
+}  // namespace brio

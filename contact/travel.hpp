@@ -1,0 +1,78 @@
+#pragma once
+/// How much nearer to each other slave nodes and faces may have come since they were last compared.
+///
+/// In any frame common to all nodes, the distance of a node from a face shrinks by no more than the path of
+/// the node plus the longest path of the corners of the face, since every point of a face is a mean of its
+/// corners. The same holds for how far constraints look ahead, with velocities in place of paths. The frame
+/// is that of the middle of all velocities; paths are summed from the positions that nodes really took.
+
+#include <span>
+#include <vector>
+
+#include "contact/surface.hpp"
+#include "src/base/nodes.hpp"
+#include "src/base/parallel.hpp"
+#include "src/base/tensor.hpp"
+
+namespace brio {
+
+/// Constraints are formed ahead of touching, over what the present approach speed would cover: other impulses
+/// of the same step may double it.
+inline constexpr double approach_share = 2;
+
+/// Per-axis extent of the motion of slave nodes.
+struct Spread {
+  double lower[3];
+  double upper[3];
+  double width(int axis) const { return upper[axis] - lower[axis]; }
+  double middle(int axis) const { return 0.5 * (lower[axis] + upper[axis]); }
+};
+
+class Travel {
+ public:
+  /// Take over the positions and velocities of the slave nodes; once a step.
+  /// \param since  positions that displacements are measured from, of each slave node; may be empty
+  void follow(const Surface& surface, const Nodes& nodes, std::span<const Vector3<double>> since, double dt,
+              ThreadTeam& team);
+
+  /// Paths start again at zero.
+  void restart();
+
+  double dt() const { return dt_; }
+  const Spread& velocities() const { return range_.velocity; }
+  /// Displacements, now and as far ahead as constraints look; meaningless without positions to measure from.
+  const Spread& displacements() const { return range_.displacement; }
+  const Spread& displacements_ahead() const { return range_.ahead; }
+
+  /// By how much at most a slave node has come nearer to any face since the restart.
+  double so_far(int slave) const { return path_[static_cast<std::size_t>(slave)] + path_of_faces_; }
+  /// By how much at most it may come nearer as far ahead as constraints look.
+  double ahead(int slave) const { return ahead_[static_cast<std::size_t>(slave)] + ahead_of_faces_; }
+  /// Allowance for the rounding of distances and paths.
+  double rounding() const { return rounding_; }
+
+ private:
+  struct Range {
+    Spread velocity, displacement, ahead;
+    double longest_move;  ///< in the frame
+    double fastest;       ///< in the frame
+    double magnitude;     ///< of positions, and of displacements in a step
+    void include(const Range& other);
+  };
+  Range follow_range(const Surface& surface, const Nodes& nodes, std::span<const Vector3<double>> since,
+                     std::size_t begin, std::size_t end);
+
+  std::vector<Vector3<double>> position_;  ///< of each slave node in the last step
+  std::vector<double> path_;
+  std::vector<double> ahead_;
+  std::vector<Range> piece_;
+  Range range_{};
+  double frame_[3] = {0, 0, 0};       ///< velocity of the frame of the last step
+  double frame_move_[3] = {0, 0, 0};  ///< its displacement until now
+  double dt_ = 0;
+  double path_of_faces_ = 0;
+  double ahead_of_faces_ = 0;
+  double rounding_ = 0;
+};
+
+}  // namespace brio

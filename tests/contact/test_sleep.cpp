@@ -1,0 +1,222 @@
+// Sleep leaves no trace: scenes with and without it have the same bits; and the bound it rests on is one.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "contact/closest_point.hpp"
+#include "contact/travel.hpp"
+#include "tests/contact/spring_model.hpp"
+
+namespace brio::testing {
+namespace {
+
+using Build = std::function<void(SpringModel&)>;
+
+Map turned(std::mt19937& random, const Vector3d& to) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const Vector3d axis(uniform(random), uniform(random), uniform(random));
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(3 * uniform(random), axis.normalized()).toRotationMatrix();
+  return [turn, to](const Vector3d& x) -> Vector3d { return turn * x + to; };
+}
+
+// Blocks and sheets thrown at each other.
+void throw_things(SpringModel& model, unsigned seed, double speed, const Vector3d& common_velocity) {
+  std::mt19937 random(seed);
+  int things = 0;
+  for (const double x : {0.0, 2.5})
+    for (const double y : {0.0, 2.5})
+      for (const double z : {0.0, 2.5}) {
+        const Vector3d centre(x, y, z);
+        const Map map = turned(random, centre);
+        const int first = ++things % 3 == 0 ? model.add_sheet({4, 4}, {1.5, 1.5}, 0.1, 10, map)
+                                            : model.add_box({2, 2, 2}, {1, 1, 1}, 1, map);
+        model.throw_from(first, speed * (Vector3d(1.25, 1.25, 1.25) - centre) + common_velocity);
+      }
+  model.stiffness = 200;
+  ContactOptions options;
+  options.friction = 0.2;
+  model.start(options);
+}
+
+// A heap: boxes that fall on a held floor and on each other.
+void pile(SpringModel& model) {
+  std::mt19937 random(4);
+  model.add_box({6, 6, 1}, {6, 6, 1}, 1, shifted({-3, -3, -1}));
+  const int floor = model.count();
+  for (int level = 0; level < 3; ++level)
+    for (const double x : {-1.0, 0.6}) {
+      const Map map = turned(random, {x, 0.3 * level, 1.0 + 1.8 * level});
+      model.add_box({2, 2, 2}, {1, 1, 1}, 1, map);
+    }
+  model.stiffness = 2000;
+  model.gravity = {0, 0, -10};
+  model.damping = 0.2;
+  ContactOptions options;
+  options.friction = 0.3;
+  model.start(options);
+  model.hold(0, floor);
+}
+
+// A small fast sheet that crosses a cloud of slow blocks.
+void cross_fast(SpringModel& model) {
+  for (const double x : {0.0, 2.0, 4.0})
+    for (const double y : {-1.2, 0.4}) model.add_box({2, 2, 2}, {1, 1, 1}, 1, shifted({x, y, x * 0.1}));
+  const int bullet = model.add_sheet({3, 3}, {0.5, 0.5}, 0.05, 100, [](const Vector3d& x) -> Vector3d {
+    return {-1.5 + 0.1 * x[0], x[1] - 0.2, x[0] + 0.3};
+  });
+  model.throw_from(bullet, {60, 3, 0});
+  model.stiffness = 500;
+  model.start({});
+}
+
+// A strip whose ends are driven together.
+void fold(SpringModel& model) {
+  const int columns = 24;
+  model.stiffness = 50;
+  model.damping = 1;
+  model.add_sheet({columns, 2}, {6, 0.5}, 0.25, 1, [](const Vector3d& x) -> Vector3d {
+    return {x[0], x[1], 0.05 * std::sin(std::numbers::pi * x[0] / 6)};
+  });
+  model.start({});
+  for (int n = 0; n < model.count(); ++n) {
+    const int column = n % (columns + 1);
+    const int grip = column <= 1 ? 1 : column >= columns - 1 ? -1 : 0;
+    if (grip == 0) continue;
+    model.hold(n, n + 1);
+    model.set_velocity(n, {1.0 * grip, 0, 0});
+  }
+}
+
+int awake(const SpringModel& model) {
+  int count = 0;
+  for (int s = 0; s < static_cast<int>(model.scene.surface.slaves()); ++s)
+    if (!model.scene.detection.swept.sleeps(model.scene.travel, s)) ++count;
+  return count;
+}
+
+// Steps of both with thickness that changes where asked; \returns the share of nodes that slept.
+double compare(const Build& build, double dt, int steps, bool thicken = false) {
+  SpringModel sleeping, sleepless;
+  build(sleeping);
+  build(sleepless);
+  sleepless.scene.detection.swept.may_sleep = false;
+  double asleep = 0;
+  std::uint64_t active = 0;
+  for (int step = 0; step < steps; ++step) {
+    if (thicken)
+      for (SpringModel* model : {&sleeping, &sleepless})
+        for (int part = 0; part < static_cast<int>(model->scene.surface.part_name.size()); ++part) {
+          const std::vector<double> thickness(64, 0.1 + 0.05 * step / steps);
+          update_thickness(model->scene.surface, part, thickness);
+        }
+    sleeping.step(dt);
+    sleepless.step(dt);
+    for (int n = 0; n < sleeping.count(); ++n)
+      for (int axis = 0; axis < 3; ++axis)
+        if (sleeping.x(n)[axis] != sleepless.x(n)[axis] || sleeping.v(n)[axis] != sleepless.v(n)[axis]) {
+          ADD_FAILURE() << "node " << n << " step " << step;
+          return 0;
+        }
+    if (sleeping.scene.contacts.size() != sleepless.scene.contacts.size()) {
+      ADD_FAILURE() << "contacts in step " << step;
+      return 0;
+    }
+    active += static_cast<std::uint64_t>(sleeping.scene.step.active);
+    asleep += 1 - static_cast<double>(awake(sleeping)) / static_cast<double>(sleeping.scene.surface.slaves());
+  }
+  EXPECT_GT(active, 20U) << "things met";
+  return asleep / steps;
+}
+
+TEST(Sleep, LeavesNoTraceInRandomScenes) {
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+    const auto build = [&](SpringModel& model) { throw_things(model, seed, 2, {0.3, 0, 0}); };
+    EXPECT_GT(compare(build, 1e-3, 1000), 0.3);
+  }
+}
+
+TEST(Sleep, LeavesNoTraceWhereEverythingTravelsTogether) {
+  const auto build = [](SpringModel& model) { throw_things(model, 9, 2, {300, -200, 100}); };
+  EXPECT_GT(compare(build, 1e-3, 1000), 0.3);
+}
+
+// Nothing sleeps while a step carries nodes farther than the buffer.
+TEST(Sleep, LeavesNoTraceAtHighSpeed) {
+  compare([](SpringModel& model) { throw_things(model, 5, 40, Vector3d::Zero()); }, 1e-3, 200);
+  compare(cross_fast, 5e-4, 600);
+}
+
+TEST(Sleep, LeavesNoTraceInAPile) { EXPECT_GT(compare(pile, 5e-4, 3000), 0.1); }
+
+TEST(Sleep, LeavesNoTraceWhereAShellFolds) { EXPECT_GT(compare(fold, 2e-3, 1000), 0.1); }
+
+TEST(Sleep, LeavesNoTraceWhereShellsThicken) {
+  const auto build = [](SpringModel& model) { throw_things(model, 6, 2, Vector3d::Zero()); };
+  EXPECT_GT(compare(build, 1e-3, 800, true), 0.2);
+}
+
+// Nodes that wander while all of them travel: no node comes nearer to any face than the bound says.
+TEST(Travel, BoundsHowMuchNearerAnyNodeComesToAnyFace) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto vector = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
+  constexpr int faces = 12;
+  double tightest = std::numeric_limits<double>::infinity();
+  for (int trial = 0; trial < 10; ++trial) {
+    Surface surface;
+    Nodes nodes(4 * faces, false);
+    const double speed = std::pow(10.0, 2 * uniform(random));
+    const Vector3d common = 100 * vector();
+    for (int n = 0; n < 4 * faces; ++n) {
+      surface.node.push_back(n);
+      const Vector3d x = 3 * vector();
+      for (int axis = 0; axis < 3; ++axis) nodes.record[static_cast<std::size_t>(n)].position[axis] = x[axis];
+    }
+    const auto distance = [&](int n, int f, double ahead) {
+      FaceVertices corner;
+      const auto at = [&](int node) {
+        const NodeRecord& record = nodes.record[static_cast<std::size_t>(node)];
+        return Vector3d(Vector3d(record.position) + ahead * Vector3d(record.velocity));
+      };
+      for (int k = 0; k < 4; ++k) corner[static_cast<std::size_t>(k)] = at(4 * f + k);
+      return std::sqrt(closest_point_on_quad(at(n), corner).squared_distance);
+    };
+    ThreadTeam team(1);
+    Travel travel;
+    travel.follow(surface, nodes, {}, 0, team);
+    travel.restart();
+    std::vector<double> start;
+    for (int n = 0; n < 4 * faces; ++n)
+      for (int f = 0; f < faces; ++f) start.push_back(distance(n, f, 0) + travel.so_far(n));
+    for (int step = 0; step < 30; ++step) {
+      const double dt = 1e-2 * (1 + 0.5 * uniform(random));
+      const Vector3d gust = common + 50 * speed * vector();
+      for (int n = 0; n < 4 * faces; ++n) {
+        const Vector3d v = gust + speed * vector();
+        for (int axis = 0; axis < 3; ++axis)
+          nodes.record[static_cast<std::size_t>(n)].velocity[axis] = v[axis];
+      }
+      travel.follow(surface, nodes, {}, dt, team);
+      for (int n = 0; n < 4 * faces; ++n)
+        for (int f = 0; f < faces; ++f) {
+          if (n / 4 == f) continue;
+          const double at_least = start[static_cast<std::size_t>(n * faces + f)] - travel.so_far(n);
+          ASSERT_GE(distance(n, f, 0), at_least - travel.rounding());
+          for (const double share : {0.5, 1.0})
+            ASSERT_GE(distance(n, f, share * approach_share * dt), at_least - travel.ahead(n));
+          tightest = std::min(tightest, (distance(n, f, 0) - at_least) / (travel.so_far(n) + speed * dt));
+        }
+      // Contact changes velocities after they were looked at: what counts is where nodes go.
+      const Vector3d kick = trial % 2 == 0 ? gust : Vector3d(20 * speed * vector());
+      for (int n = 0; n < 4 * faces; ++n) {
+        const Vector3d v = kick + speed * vector();
+        for (int axis = 0; axis < 3; ++axis)
+          nodes.record[static_cast<std::size_t>(n)].position[axis] += dt * v[axis];
+      }
+    }
+  }
+  EXPECT_LT(tightest, 0.8) << "a bound this loose would not show a fault";
+}
+
+}  // namespace
+}  // namespace brio::testing

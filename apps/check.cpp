@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -22,7 +23,7 @@ void print_parts(const Deck& deck, const Model& model) {
     const PartInModel& part = model.parts[p];
     const Block& block = model.blocks[part.block];
     fmt::print("{:<20} {:<10} {:<22} {:>10} {:>10} {:>12.5g}\n", part.name, name_of(block.element),
-               deck.parts[p].material, block.element_count, part.node.size(), part.mass);
+               deck.parts[p].material, part.element_slot.size(), part.node.size(), part.mass);
     mass += part.mass;
   }
   fmt::print("{:<20} {:<10} {:<22} {:>10} {:>10} {:>12.5g}\n", "all", "", "", "", model.nodes.size(), mass);
@@ -47,9 +48,13 @@ void check(const std::filesystem::path& path, const std::vector<std::string>& ov
   if (!deck.title.empty()) fmt::print("{}\n\n", deck.title);
   print_parts(deck, model);
   const StepControl& control = model.control;
-  const PartInModel& critical = model.parts[control.critical_block];
-  fmt::print("\nstable step {:.4g}, set by element {} of part '{}'; first step {:.4g}\n", control.stable,
-             critical.element_order[control.critical_element], critical.name, model.times.next);
+  if (std::isfinite(control.stable)) {
+    const PartInModel& critical = model.parts[control.critical_block];
+    fmt::print("\nstable step {:.4g}, set by element {} of part '{}'; first step {:.4g}\n", control.stable,
+               critical.element_order[control.critical_element], critical.name, model.times.next);
+  } else {
+    fmt::print("\nall parts are rigid; step {:.4g}\n", model.times.next);
+  }
   fmt::print("about {:.0f} steps to time {:g} at that step\n", deck.time.end / model.times.next,
              deck.time.end);
   fmt::print("memory of nodes and elements {:.1f} MB\n", static_cast<double>(state_bytes(model)) * 1e-6);

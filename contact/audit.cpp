@@ -92,7 +92,8 @@ class Auditor {
 
  private:
   bool excluded(int slave, std::size_t face) const {
-    return is_excluded(scene_.excluded, slave, static_cast<int>(face));
+    return surface_.of_one_rigid_body(slave, surface_.face[face]) ||
+           is_excluded(scene_.excluded, slave, static_cast<int>(face));
   }
 
   bool note(double depth, Audit& found) const {

@@ -99,7 +99,8 @@ void move_apart(ContactScene& scene, Nodes& nodes) {
   for (std::size_t s = 0; s < surface.slaves(); ++s)
     for (int axis = 0; axis < 3; ++axis) {
       const auto node = static_cast<std::size_t>(surface.node[s]);
-      const bool held = !nodes.prescribed.empty() && (nodes.prescribed[node] >> axis & 1) != 0;
+      const bool held = (!nodes.prescribed.empty() && (nodes.prescribed[node] >> axis & 1) != 0) ||
+                        surface.rigid_body(surface.node[s]) >= 0;
       scene.motion[s].velocity[axis] = 0;
       scene.motion[s].inverse_mass[axis] = held ? 0 : 1;
     }

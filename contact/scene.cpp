@@ -55,6 +55,7 @@ void sum_impulses(ContactScene& scene) {
 void book_work(ContactScene& scene, const Nodes& nodes) {
   ContactStep& step = scene.step;
   scene.pushed.for_each([&](std::size_t s) {
+    if (scene.surface.rigid_body(scene.surface.node[s]) >= 0) return;  // booked with its body
     const ContactMotion& motion = scene.motion[s];
     const Vector3d before(nodes.velocity_before[static_cast<std::size_t>(scene.surface.node[s])].component);
     const Vector3d after(motion.velocity);
@@ -73,7 +74,20 @@ void book_work(ContactScene& scene, const Nodes& nodes) {
   });
 }
 
-void book(ContactScene& scene, const Nodes& nodes) {
+void book_rigid_work(ContactScene& scene, std::span<const RigidMotion> bodies) {
+  const RigidWork work = scene.rigid.work(scene.contacts, bodies);
+  ContactStep& step = scene.step;
+  step.normal_work_before += work.normal_before;
+  step.normal_work_after += work.normal_after;
+  step.friction_work_before += work.friction_before;
+  step.friction_work_after += work.friction_after;
+  step.support_work_before += work.support_before;
+  step.support_work_after += work.support_after;
+  step.support_impulse += work.support_impulse;
+  step.support_moment += work.support_moment;
+}
+
+void book(ContactScene& scene, const Nodes& nodes, std::span<const RigidMotion> bodies) {
   ContactStep& step = scene.step;
   step.contacts = static_cast<int>(scene.contacts.size());
   for (const Contact& contact : scene.contacts) {
@@ -81,6 +95,7 @@ void book(ContactScene& scene, const Nodes& nodes) {
     if (contact.impulse > 0) ++step.active;
   }
   if (step.active > 0) book_work(scene, nodes);
+  if (step.active > 0 && !bodies.empty()) book_rigid_work(scene, bodies);
   ContactTotals& totals = scene.totals;
   ++totals.steps;
   totals.contacts += static_cast<std::uint64_t>(step.contacts);
@@ -109,7 +124,7 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   return scene;
 }
 
-void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team) {
+void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies) {
   assert(nodes.velocity_before.size() == nodes.size());
   scene.step = ContactStep{};
   if (scene.surface.face.empty()) return;
@@ -124,12 +139,19 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team) {
          team, scene.contacts);
   warm_start(scene.last, scene.last_dt > 0 ? dt / scene.last_dt : 1.0, scene.contacts);
   load_motion(scene, nodes);
-  solve(scene.solver, scene.options, scene.candidates.smallest_edge, dt, scene.contacts, scene.motion);
+  const double edge = scene.candidates.smallest_edge;
+  if (bodies.empty()) {
+    solve(scene.solver, scene.options, edge, dt, scene.contacts, scene.motion);
+  } else {
+    scene.rigid.find(scene.surface, nodes, scene.contacts, bodies);
+    solve(scene.solver, scene.options, edge, dt, scene.contacts,
+          MixedMotion{scene.contacts, scene.rigid.touch, scene.motion, bodies});
+  }
   scene.step.passes = scene.solver.passes_done;
   scene.step.residual = scene.solver.residual;
   if (!scene.contacts.empty()) store_velocities(scene, nodes);
   sum_impulses(scene);
-  book(scene, nodes);
+  book(scene, nodes, bodies);
   scene.last_dt = dt;
 }
 

@@ -17,6 +17,7 @@
 #include "contact/erosion.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
+#include "contact/rigid_contact.hpp"
 #include "contact/slave_set.hpp"
 #include "contact/solve.hpp"
 #include "contact/surface.hpp"
@@ -80,6 +81,7 @@ struct ContactScene {
   std::vector<ContactMotion> motion;            ///< of each slave node; up to date for those in contact
   std::vector<Eigen::Vector3d> normal_impulse;  ///< of each slave node, in the last step
   std::vector<Eigen::Vector3d> friction_impulse;
+  RigidContacts rigid;
 
   ContactStep step;
   ContactTotals totals;
@@ -91,6 +93,10 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
 
 /// Correct the predicted velocities of all surface nodes so that nothing passes through anything in this
 /// step.
-void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team);
+/// \param bodies rigid bodies, by the numbers that the parts of the surface name. Their nodes carry the
+/// velocities of their bodies on entry; on return the bodies are corrected, and their nodes are left to the
+/// caller
+void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
+             std::span<RigidMotion> bodies = {});
 
 }  // namespace brio

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/rigid_contact.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -59,7 +61,8 @@ double target_velocity(const ContactOptions& options, double gap, double smalles
 }
 
 // \returns the change of the relative velocity that was asked for.
-double push(Contact& contact, const ContactFrame& frame, std::span<ContactMotion> motion) {
+template <class Motion>
+double push(Contact& contact, const ContactFrame& frame, const Motion& motion) {
   const double missing = frame.target - contact.normal.dot(relative_velocity(contact, motion));
   const double impulse = std::max(0.0, contact.impulse + frame.normal_mass * missing);
   const double change = impulse - contact.impulse;
@@ -69,7 +72,8 @@ double push(Contact& contact, const ContactFrame& frame, std::span<ContactMotion
   return std::abs(change) / frame.normal_mass;
 }
 
-double rub(Contact& contact, const ContactFrame& frame, double limit, std::span<ContactMotion> motion) {
+template <class Motion>
+double rub(Contact& contact, const ContactFrame& frame, double limit, const Motion& motion) {
   const Vector3d slip = relative_velocity(contact, motion);
   double wanted[2];
   for (int t = 0; t < 2; ++t)
@@ -105,8 +109,11 @@ void warm_start(std::span<const Contact> last, double step_ratio, std::span<Cont
   }
 }
 
-void solve(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
-           std::span<Contact> contacts, std::span<ContactMotion> motion) {
+namespace {
+
+template <class Motion>
+void solve_for(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
+               std::span<Contact> contacts, const Motion& motion) {
   solver.frame.resize(contacts.size());
   solver.passes_done = 0;
   solver.residual = 0;
@@ -140,6 +147,18 @@ void solve(Solver& solver, const ContactOptions& options, double smallest_edge, 
     }
     if (solver.residual * dt <= converged_share * smallest_edge) break;
   }
+}
+
+}  // namespace
+
+void solve(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
+           std::span<Contact> contacts, std::span<ContactMotion> motion) {
+  solve_for(solver, options, smallest_edge, dt, contacts, motion);
+}
+
+void solve(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
+           std::span<Contact> contacts, const MixedMotion& motion) {
+  solve_for(solver, options, smallest_edge, dt, contacts, motion);
 }
 
 }  // namespace brio

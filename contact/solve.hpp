@@ -45,4 +45,9 @@ void warm_start(std::span<const Contact> last, double step_ratio, std::span<Cont
 void solve(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
            std::span<Contact> contacts, std::span<ContactMotion> motion);
 
+struct MixedMotion;
+/// The same where rigid bodies take part.
+void solve(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
+           std::span<Contact> contacts, const MixedMotion& motion);
+
 }  // namespace brio

@@ -125,6 +125,15 @@ void collect_slaves(std::size_t node_count, Surface& surface) {
   }
 }
 
+// Only where a part is rigid.
+void find_rigid(std::span<const SurfacePart> parts, std::size_t node_count, Surface& surface) {
+  for (const SurfacePart& part : parts) {
+    if (part.rigid < 0) continue;
+    surface.rigid_of_node.resize(node_count, -1);
+    for (int node : part.connectivity) surface.rigid_of_node[static_cast<std::size_t>(node)] = part.rigid;
+  }
+}
+
 // The face across the edge from a to b: one that runs it the other way; for shells, whose normals need not
 // agree, else one that runs it the same way. Where several do, one of the same element, which bounds the same
 // piece of solid, else the first by part, element, side.
@@ -200,6 +209,7 @@ Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count)
   collect_faces(parts, node_count, surface);
   number_bodies(parts, node_count, surface);
   collect_slaves(node_count, surface);
+  find_rigid(parts, node_count, surface);
   surface.neighbor.resize(surface.face.size());
   for (std::size_t f = 0; f < surface.face.size(); ++f) connect(surface, static_cast<int>(f));
   surface.radius.resize(surface.slaves());

@@ -20,6 +20,7 @@ struct SurfacePart {
   int nodes_per_element = 8;  ///< 8: hexahedra in VTK's order; 4: shells. Repeated nodes degenerate them
   std::span<const int> connectivity;  ///< global node numbers, nodes_per_element of each element
   std::vector<double> thickness;      ///< of each shell; empty for hexahedra
+  int rigid = -1;                     ///< the rigid body that all of its nodes belong to
 };
 
 struct Face {
@@ -55,6 +56,18 @@ struct Surface {
   Lists faces_of;                      ///< of each slave node: the faces it belongs to, ascending
   int body_count = 0;
   double grown = 0;  ///< sum over the updates of thickness of the most that distances of touching grew
+  std::vector<int> rigid_of_node;  ///< of each global node: its rigid body, or -1; empty where there is none
+
+  /// -1: none.
+  int rigid_body(int global_node) const {
+    return rigid_of_node.empty() || global_node < 0 ? -1
+                                                    : rigid_of_node[static_cast<std::size_t>(global_node)];
+  }
+  /// Nothing that is rigid can meet itself.
+  bool of_one_rigid_body(int slave, const Face& other) const {
+    const int own = rigid_body(node[static_cast<std::size_t>(slave)]);
+    return own >= 0 && own == rigid_body(other.node[0]);
+  }
 
   std::size_t slaves() const { return node.size(); }
   int slave(int global_node) const { return slave_of[static_cast<std::size_t>(global_node)]; }

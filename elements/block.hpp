@@ -11,6 +11,7 @@
 #include "elements/hex8.hpp"
 #include "elements/hex8_full.hpp"
 #include "elements/motion.hpp"
+#include "elements/rigid.hpp"
 #include "elements/shell4.hpp"
 #include "materials/material.hpp"
 #include "src/base/aligned.hpp"
@@ -19,7 +20,7 @@
 namespace brio {
 
 /// The kinds that a deck can name.
-using Element = std::variant<Hex8, Hex8Full, Shell4>;
+using Element = std::variant<Hex8, Hex8Full, Shell4, Rigid>;
 
 inline int nodes_per_element(const Element& element) {
   return std::visit([](const auto& kind) { return kind.nodes; }, element);

@@ -295,5 +295,6 @@ void choose_kernel_of(Block& block) {
 void choose_kernel(const Hex8&, Block& block);
 void choose_kernel(const Shell4&, Block& block);
 void choose_kernel(const Hex8Full&, Block& block);
+inline void choose_kernel(const Rigid&, Block&) {}  // nothing is swept
 
 }  // namespace brio

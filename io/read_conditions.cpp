@@ -28,11 +28,11 @@ int axis_of(const YamlNode& node, const std::string& word) {
   return static_cast<int>(found - component_words.begin());
 }
 
-/// Prescribed rotations need nodes that can turn.
+/// Prescribed rotations need nodes, or a body, that can turn.
 void check_component(const YamlNode& node, const Slot& slot, const NodeSelection& where, int axis) {
   if (axis < 3 || where.set.empty()) return;
   const Part& part = slot.known.part(node, where.set.substr(0, where.set.find('.')));
-  if (!has_rotations(part.element))
+  if (!has_rotations(part.element) && !std::holds_alternative<Rigid>(part.element))
     throw DeckError(node.place, "the nodes of '" + part.name + "' do not turn: its elements are '" +
                                     std::string(name_of(part.element)) + "'; accepted: x, y, z");
 }
@@ -47,22 +47,33 @@ void add_component(const YamlNode& node, const Slot& slot, PrescribedMotion& mot
   motion.components.push_back({axis, std::move(curve)});
 }
 
+/// `part: NAME`, or `set: ...`.
+void read_where(const YamlNode& node, const Slot& slot, const std::string& condition, NodeSelection& where) {
+  const YamlEntry* part = node.find("part");
+  const YamlEntry* set = node.find("set");
+  if ((part == nullptr) == (set == nullptr))
+    throw DeckError(node.place, condition + " names either 'part' or 'set'");
+  if (set != nullptr) {
+    read_value(*set->value, Slot{"set", any_number, slot.known}, where);
+  } else {
+    read_value(*part->value, Slot{"part", any_number, slot.known}, where.set);
+    slot.known.part(*part->value, where.set);
+  }
+}
+
 void read_motion(const YamlNode& node, const Slot& slot, PrescribedMotion& motion) {
-  std::vector<std::string_view> accepted{"set", "fix"};
+  std::vector<std::string_view> accepted{"part", "set", "fix"};
   for (const auto& [key, kind] : motion_keys) accepted.push_back(key);
   check_keys(node, accepted);
   const YamlEntry* given = nullptr;
   for (const YamlEntry& entry : node.entries) {
-    if (entry.key == "set") continue;
+    if (entry.key == "set" || entry.key == "part") continue;
     if (given != nullptr)
       throw DeckError(entry.place,
                       "both '" + given->key + "' and '" + entry.key + "'; one is accepted an entry");
     given = &entry;
   }
-  const YamlEntry* set = node.find("set");
-  if (set == nullptr)
-    throw DeckError(node.place, "the boundary condition has no 'set'; part.set or a region is required");
-  read_value(*set->value, Slot{"set", any_number, slot.known}, motion.where);
+  read_where(node, slot, "a boundary condition", motion.where);
   if (given == nullptr)
     throw DeckError(node.place, "nothing is prescribed; accepted: fix, displacement, velocity, acceleration");
   if (given->key == "fix") {
@@ -131,18 +142,9 @@ void read_value(const YamlNode& node, const Slot& slot, Curve& curve) {
 
 void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition) {
   read_fields(node, slot, condition, {"part", "set"});
-  const YamlEntry* part = node.find("part");
-  const YamlEntry* set = node.find("set");
-  if ((part == nullptr) == (set == nullptr))
-    throw DeckError(node.place, "an initial condition names either 'part' or 'set'");
+  read_where(node, slot, "an initial condition", condition.where);
   if (node.find("velocity") == nullptr && node.find("spin") == nullptr)
     throw DeckError(node.place, "nothing is given at the start; accepted: velocity, spin");
-  if (set != nullptr) {
-    read_value(*set->value, Slot{"set", any_number, slot.known}, condition.where);
-  } else {
-    read_value(*part->value, Slot{"part", any_number, slot.known}, condition.where.set);
-    slot.known.part(*part->value, condition.where.set);
-  }
 }
 
 void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition) {

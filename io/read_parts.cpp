@@ -9,7 +9,7 @@ namespace {
 std::vector<std::string_view> elements_with_nodes(int count) {
   std::vector<std::string_view> names;
   const auto add = [&]<class... Kind>(const std::variant<Kind...>&) {
-    ((Kind::nodes == count ? names.push_back(Kind::name) : void()), ...);
+    ((Kind::nodes == count || Kind::nodes == 0 ? names.push_back(Kind::name) : void()), ...);
   };
   add(Element{});
   return names;
@@ -23,6 +23,14 @@ std::vector<std::string_view> laws_accepted_by(const Element& element) {
   };
   add(Material{});
   return names;
+}
+
+void check_thickness(const Rigid& rigid, const MeshSource& mesh, const Place& place) {
+  const bool shells = nodes_per_element(mesh) == 4;
+  if (shells && !rigid.thickness)
+    throw DeckError(place, "a rigid part of shells has no 'thickness'; it is required");
+  if (!shells && rigid.thickness)
+    throw DeckError(place, "a rigid part of solids has a 'thickness'; it is accepted with shells only");
 }
 
 }  // namespace
@@ -53,6 +61,10 @@ void read_value(const YamlNode& node, const Slot& slot, Part& part) {
   const Material& material = slot.known.material(*node.find("material")->value);
   const Place& place = node.find("element")->value->place;
   const std::string kind(name_of(part.element));
+  if (const auto* rigid = std::get_if<Rigid>(&part.element)) {
+    check_thickness(*rigid, part.mesh, place);
+    return;
+  }
   if (nodes_per_element(part.element) != nodes_per_element(part.mesh)) {
     const std::string shape(std::visit([](const auto& source) { return source.name; }, part.mesh));
     throw DeckError(place, "the mesh '" + shape + "' cannot be made of '" + kind + "' elements; " +

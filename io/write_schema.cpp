@@ -97,7 +97,7 @@ struct SchemaOf<MotionComponents> : WithoutDefault {
     for (std::size_t axis = 0; axis < component_words.size(); ++axis) {
       Schema component = schema_of<Curve>(any_number);
       component["description"] =
-          axis < 3 ? "translation along an axis" : "rotation about an axis; shells only";
+          axis < 3 ? "translation along an axis" : "rotation about an axis; shells and rigid parts only";
       components["properties"][std::string(component_words[axis])] = std::move(component);
     }
     components["minProperties"] = 1;
@@ -111,8 +111,10 @@ struct SchemaOf<BoundaryCondition> : WithoutDefault {
   static Schema make(const Range&) {
     Schema motion{{"type", "object"}, {"title", "motion"}};
     motion["description"] = "components of the motion of a set are prescribed";
+    motion["properties"]["part"] = {{"type", "string"},
+                                    {"description", "all nodes of a part, or a rigid part as a whole"}};
     motion["properties"]["set"] = schema_of<NodeSelection>(any_number);
-    motion["properties"]["set"]["description"] = "nodes";
+    motion["properties"]["set"]["description"] = "nodes, where not a whole part";
     motion["properties"]["fix"] = {{"type", "array"},
                                    {"items", {{"enum", component_words}}},
                                    {"minItems", 1},
@@ -125,7 +127,7 @@ struct SchemaOf<BoundaryCondition> : WithoutDefault {
       motion["properties"][std::string(key)] = std::move(components);
       keys.push_back({{"required", {key}}});
     }
-    motion["required"] = {"set"};
+    motion["allOf"] = {{{"oneOf", {{{"required", {"part"}}}, {{"required", {"set"}}}}}}};
     motion["oneOf"] = keys;
     motion["additionalProperties"] = false;
     Schema choice = single_key_choice<std::variant<RigidWall>>();

@@ -20,25 +20,27 @@ std::string element_name(const Model& model, std::size_t block, std::size_t elem
 void apply_loads(Model& model) {
   const StageTimer timer(model.stages, Stage::loads);
   for (ActiveLoad& load : model.loads) apply(load, model.times.time, model.nodes);
+  gather_loads(model.rigid, model.loads, model.times.time, model.nodes);
 }
 
 double load_work(Model& model) {
   const StageTimer timer(model.stages, Stage::loads);
-  double sum = 0;
+  double sum = model.times.mean() * weight_power(model.rigid);
   for (const ActiveLoad& load : model.loads) sum += model.times.mean() * power(load, model.nodes);
   return sum;
 }
 
 void book_load_impulses(Model& model) {
   const StageTimer timer(model.stages, Stage::loads);
-  for (const ActiveLoad& load : model.loads) {
-    Impulse impulse = resultant(load, model.nodes);
+  const auto add = [&](Impulse impulse) {
     for (std::size_t i = 0; i < 3; ++i) {
       impulse.linear[i] *= model.times.mean();
       impulse.angular[i] *= model.times.mean();
     }
     model.momentum.loads.add(impulse);
-  }
+  };
+  for (const ActiveLoad& load : model.loads) add(resultant(load, model.nodes));
+  if (!model.rigid.empty()) add(weight(model.rigid));
 }
 
 // Internal forces by colours of chunks; sums and the stable step in the order of tasks.
@@ -117,22 +119,39 @@ void choose_step(Model& model) {
   control.largest = std::max(control.largest, step);
 }
 
+void book_support(Model& model, const Reaction& reaction) {
+  model.energy.external.before += reaction.before;
+  model.energy.external.after += reaction.after;
+  model.momentum.supports.add(reaction.impulse);
+}
+
 void constrain(Model& model) {
   if (model.prescribed.empty()) return;
   const StageTimer timer(model.stages, Stage::constraints);
-  for (const PrescribedNodes& given : model.prescribed) {
-    const Reaction reaction = prescribe(given, model.times, model.nodes);
-    model.energy.external.before += reaction.before;
-    model.energy.external.after += reaction.after;
-    model.momentum.supports.add(reaction.impulse);
-  }
+  for (const PrescribedNodes& given : model.prescribed)
+    book_support(model, prescribe(given, model.times, model.nodes));
+}
+
+void accelerate_rigid(Model& model, ThreadTeam& team) {
+  if (model.rigid.empty()) return;
+  const StageTimer timer(model.stages, Stage::rigid);
+  book_support(model, accelerate(model.rigid, model.times));
+  carry_velocities(model.rigid, model.nodes, team);
+}
+
+// Contact and walls have pushed bodies: all of their nodes follow.
+void carry_rigid(Model& model, ThreadTeam& team) {
+  if (model.rigid.empty() || (model.contacts.empty() && model.walls.empty())) return;
+  const StageTimer timer(model.stages, Stage::rigid);
+  carry_velocities(model.rigid, model.nodes, team);
 }
 
 void resolve_contact(Model& model, ThreadTeam& team) {
   if (model.contacts.empty()) return;
   const StageTimer timer(model.stages, Stage::contact);
   for (ContactScene& scene : model.contacts) {
-    resolve(scene, model.nodes, model.times.next, team);
+    resolve(scene, model.nodes, model.times.next, team, model.rigid.motion);
+    settle(model.rigid);
     const ContactStep& step = scene.step;
     model.stages[Stage::contact_search] += step.search_seconds;
     model.stages[Stage::contact] -= step.search_seconds;
@@ -151,17 +170,27 @@ void resolve_contact(Model& model, ThreadTeam& team) {
   }
 }
 
+void book_wall(Model& model, const WallReaction& reaction) {
+  model.energy.contact.before += reaction.normal.before;
+  model.energy.contact.after += reaction.normal.after;
+  model.energy.friction.before += reaction.friction.before;
+  model.energy.friction.after += reaction.friction.after;
+  model.momentum.walls.add(reaction.normal.impulse);
+  model.momentum.walls.add(reaction.friction.impulse);
+}
+
 void stop_at_walls(Model& model) {
   if (model.walls.empty()) return;
   const StageTimer timer(model.stages, Stage::constraints);
   for (const WallInRun& wall : model.walls) {
-    const WallReaction reaction = stop_at(wall, model.times, model.nodes);
-    model.energy.contact.before += reaction.normal.before;
-    model.energy.contact.after += reaction.normal.after;
-    model.energy.friction.before += reaction.friction.before;
-    model.energy.friction.after += reaction.friction.after;
-    model.momentum.walls.add(reaction.normal.impulse);
-    model.momentum.walls.add(reaction.friction.impulse);
+    book_wall(model, stop_at(wall, model.times, model.nodes));
+    for (std::size_t b = 0; b < model.rigid.body.size(); ++b) {
+      Reaction support;
+      book_wall(model,
+                stop_at(wall, model.times, model.rigid.body[b], model.rigid.motion[b], model.nodes, support));
+      book_support(model, support);
+    }
+    settle(model.rigid);
   }
 }
 
@@ -193,16 +222,19 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
     kinetic = accelerate(model.nodes, model.times.mean(), model.kinetic_sums, team);
   }
   constrain(model);
+  accelerate_rigid(model, team);
   resolve_contact(model, team);
   stop_at_walls(model);
+  carry_rigid(model, team);
   energy.external.after += load_work(model);
   book_load_impulses(model);
   if (!model.nodes.velocity_before.empty()) {
     const StageTimer timer(model.stages, Stage::nodes);
     kinetic = kinetic_energy(model.nodes, model.times.mean(), model.kinetic_sums, team);
   }
-  energy.kinetic = kinetic.now;
-  energy.kinetic_half = kinetic.half;
+  const KineticEnergy rigid = kinetic_energy(model.rigid);
+  energy.kinetic = kinetic.now + rigid.now;
+  energy.kinetic_half = kinetic.half + rigid.half;
   check_books(model, energy_error_limit);
 }
 
@@ -215,6 +247,12 @@ void update_positions(Model& model, ThreadTeam& team) {
   {
     const StageTimer timer(model.stages, Stage::nodes);
     move(model.nodes, model.times.next, team);
+  }
+  if (!model.rigid.empty()) {
+    const StageTimer timer(model.stages, Stage::rigid);
+    const Reaction reaction = move(model.rigid, model.times.next, model.nodes, team);
+    model.energy.external.half += reaction.after;
+    model.momentum.supports.add(reaction.impulse);
   }
   model.times.time += model.times.next;
   if (model.control.settings.end - model.times.time < 1e-12 * model.control.settings.end)

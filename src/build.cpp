@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "src/build_rigid.hpp"
+
 namespace brio {
 
 namespace {
@@ -64,6 +66,12 @@ void fill_nodes(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
 void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connectivity, Model& model) {
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Part& part = deck.parts[p];
+    if (std::holds_alternative<Rigid>(part.element)) {
+      Block& nothing = model.blocks.emplace_back();
+      nothing.part = part.name;
+      nothing.element = part.element;
+      continue;
+    }
     try {
       model.blocks.push_back(make_block(part.name, part.element, material_of(part, deck),
                                         deck.numerics.precision, connectivity[p]));
@@ -76,6 +84,7 @@ void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connecti
 void lump_masses(Model& model) {
   Nodes& nodes = model.nodes;
   for (std::size_t p = 0; p < model.blocks.size(); ++p) {
+    if (model.parts[p].rigid >= 0) continue;
     try {
       model.blocks[p].kernel.initialize(model.blocks[p], nodes);
     } catch (const std::invalid_argument& fault) {
@@ -84,6 +93,7 @@ void lump_masses(Model& model) {
   }
   for (PartInModel& part : model.parts)
     for (int node : part.node) part.mass += nodes.mass[static_cast<std::size_t>(node)];
+  for (const RigidBody& body : model.rigid.body) model.parts[body.part].mass = body.mass;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     nodes.record[i].inverse_mass = nodes.mass[i] > 0 ? 1 / nodes.mass[i] : 0;
     if (nodes.has_rotations())
@@ -94,7 +104,9 @@ void lump_masses(Model& model) {
 
 void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   for (const InitialCondition& condition : deck.initial_conditions) {
-    for (int entry : select_nodes(condition.where, deck, meshes, model)) {
+    std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
+    take_rigid(nodes, model);
+    for (int entry : nodes) {
       const auto node = static_cast<std::size_t>(entry);
       NodeRecord& record = model.nodes.record[node];
       Vector velocity = condition.velocity;
@@ -125,7 +137,11 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
       continue;
     }
     const auto& motion = std::get<PrescribedMotion>(condition);
-    const std::vector<int> nodes = select_nodes(motion.where, deck, meshes, model);
+    std::vector<int> nodes = select_nodes(motion.where, deck, meshes, model);
+    for (const std::size_t b : take_rigid(nodes, model))
+      for (const PrescribedComponent& component : motion.components)
+        model.rigid.body[b].given.push_back({motion.kind, component.axis, component.curve});
+    if (nodes.empty()) continue;
     for (const PrescribedComponent& component : motion.components) {
       if (component.axis >= 3 && !model.nodes.has_rotations()) continue;  // solids have no rotations to hold
       model.prescribed.push_back({nodes, motion.kind, component.axis, component.curve});
@@ -172,7 +188,7 @@ double shell_thickness(const Element& element) {
   return std::visit(
       [](const auto& kind) {
         if constexpr (requires { kind.thickness; }) {
-          return kind.thickness;
+          return std::optional<double>(kind.thickness).value_or(0);
         } else {
           return 0.0;
         }
@@ -181,19 +197,21 @@ double shell_thickness(const Element& element) {
 }
 
 // Before masses are lumped: small initial overlaps are removed by moving nodes.
-void make_contact(const Deck& deck, const std::vector<std::vector<int>>& connectivity, Model& model) {
+void make_contact(const Deck& deck, std::span<const Mesh> meshes,
+                  const std::vector<std::vector<int>>& connectivity, Model& model) {
   if (!deck.contact) return;
   std::vector<SurfacePart> surfaces;
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Part& part = deck.parts[p];
     if (!takes_part(*deck.contact, part.name)) continue;
-    const bool shell = has_rotations(part.element);
-    const std::size_t shells = shell ? model.blocks[p].element_count : 0;
+    const bool shell = meshes[p].nodes_per_element == 4;
+    const std::size_t shells = shell ? meshes[p].element_count() : 0;
     surfaces.push_back({.name = part.name,
                         .shell = shell,
-                        .nodes_per_element = nodes_per_element(part.element),
+                        .nodes_per_element = meshes[p].nodes_per_element,
                         .connectivity = connectivity[p],
-                        .thickness = std::vector<double>(shells, shell_thickness(part.element))});
+                        .thickness = std::vector<double>(shells, shell_thickness(part.element)),
+                        .rigid = model.parts[p].rigid});
   }
   try {
     model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));
@@ -220,11 +238,12 @@ void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
 void open_books(Model& model) {
   if (!model.prescribed.empty() || !model.walls.empty() || !model.contacts.empty())
     model.nodes.velocity_before = AlignedBuffer<NodeVector>(model.nodes.size());
-  const Momentum start = momentum(model.nodes);
+  Momentum start = momentum(model.nodes);
+  add_momentum(model.rigid, start);
   model.momentum.start = model.momentum.now = start.total;
   model.momentum.linear_scale = start.linear_size;
   model.momentum.angular_scale = start.angular_size;
-  double energy = 0;
+  double energy = kinetic_energy(model.rigid).half;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const double* v = model.nodes.record[i].velocity;
     energy += 0.5 * model.nodes.mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -243,14 +262,16 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   place_parts(deck, meshes, model, connectivity);
   fill_nodes(deck, meshes, model);
   make_blocks(deck, connectivity, model);
+  make_rigid_bodies(deck, meshes, model);
   constrain(deck, meshes, model);
-  make_contact(deck, connectivity, model);
+  make_contact(deck, meshes, connectivity, model);
   lump_masses(model);
   model.schedule = make_schedule(model.blocks, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());
   model.kinetic_sums.resize(range_count(model.nodes));
   model.control.settings = deck.time;
   set_initial_velocities(deck, meshes, model);
+  start_rigid_bodies(deck, meshes, model);
   load(deck, meshes, model);
   open_books(model);
   return model;

@@ -7,26 +7,25 @@ namespace brio {
 
 namespace {
 
-// Velocity that the given motion has over the step.
-double given_velocity(const PrescribedNodes& given, const StepTimes& times, double velocity_before) {
-  switch (given.kind) {
-    case MotionKind::displacement:
-      return times.next > 0 ? (given.curve(times.time + times.next) - given.curve(times.time)) / times.next
-                            : given.curve.slope(times.time);
-    case MotionKind::velocity:
-      return given.curve(times.time + 0.5 * times.next);
-    case MotionKind::acceleration:
-      return velocity_before + times.mean() * given.curve(times.time);
-  }
-  return 0;
-}
-
 Vector position_of(const Nodes& nodes, std::size_t node) {
   const double* x = nodes.record[node].position;
   return {x[0], x[1], x[2]};
 }
 
 }  // namespace
+
+double given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times, double velocity_before) {
+  switch (kind) {
+    case MotionKind::displacement:
+      return times.next > 0 ? (curve(times.time + times.next) - curve(times.time)) / times.next
+                            : curve.slope(times.time);
+    case MotionKind::velocity:
+      return curve(times.time + 0.5 * times.next);
+    case MotionKind::acceleration:
+      return velocity_before + times.mean() * curve(times.time);
+  }
+  return 0;
+}
 
 void mark(const PrescribedNodes& given, Nodes& nodes) {
   if (nodes.prescribed.empty()) nodes.prescribed = AlignedBuffer<std::uint8_t>(nodes.size());
@@ -46,7 +45,7 @@ Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& 
     const double before = turns ? velocity - times.mean() * nodes.moment[node].component[axis] *
                                                  nodes.angular_velocity[node].component[3]
                                 : nodes.velocity_before[node].component[axis];
-    const double after = given_velocity(given, times, before);
+    const double after = given_velocity(given.kind, given.curve, times, before);
     Vector impulse{};
     impulse[axis] = inertia * (after - velocity);
     velocity = after;

@@ -31,6 +31,9 @@ struct Reaction {
   double after = 0;
 };
 
+/// Velocity that a given motion has over the step.
+double given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times, double velocity_before);
+
 /// Marks nodes.prescribed.
 void mark(const PrescribedNodes& given, Nodes& nodes);
 

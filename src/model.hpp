@@ -14,6 +14,7 @@
 #include "src/ledger.hpp"
 #include "src/loads.hpp"
 #include "src/motion.hpp"
+#include "src/rigid.hpp"
 #include "src/schedule.hpp"
 #include "src/stage_times.hpp"
 
@@ -26,6 +27,7 @@ struct PartInModel {
   std::vector<int> node;           ///< node of the part's mesh -> node of the model
   std::vector<int> element_order;  ///< element of the block -> element of the part's mesh
   std::vector<int> element_slot;   ///< element of the part's mesh -> element of the block
+  int rigid = -1;                  ///< the rigid body that it is; its block is empty
   double mass = 0;
 };
 
@@ -55,6 +57,7 @@ struct Model {
   std::vector<ActiveLoad> loads;
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
+  RigidBodies rigid;
   std::vector<ContactScene> contacts;            ///< one if the deck names contact, else none
   std::int64_t missed_contacts = 0;              ///< counted by the audit, where the deck asks for it
   std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step

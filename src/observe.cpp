@@ -23,7 +23,11 @@ bool has_shells(const Model& model) {
 }
 
 // Mean velocity of a part: momentum over mass.
-Vector mean_velocity(const PartInModel& part, const Nodes& nodes) {
+Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBodies& rigid) {
+  if (part.rigid >= 0) {
+    const Eigen::Vector3d& v = rigid.motion[static_cast<std::size_t>(part.rigid)].velocity;
+    return {v[0], v[1], v[2]};
+  }
   Vector sum{};
   for (int entry : part.node) {
     const auto node = static_cast<std::size_t>(entry);
@@ -33,8 +37,20 @@ Vector mean_velocity(const PartInModel& part, const Nodes& nodes) {
   return sum;
 }
 
+// Nothing is strained in a rigid part.
+ElementSample sample_of(const Model& model, const PartInModel& part, std::size_t element) {
+  if (part.rigid >= 0) {
+    ElementSample sample{};
+    sample.thickness = model.rigid.body[static_cast<std::size_t>(part.rigid)].thickness;
+    return sample;
+  }
+  const Block& block = model.blocks[part.block];
+  return block.kernel.sample(block, model.nodes, static_cast<std::size_t>(part.element_slot[element]));
+}
+
 void balance_momentum(Model& model) {
-  const Momentum now = momentum(model.nodes);
+  Momentum now = momentum(model.nodes);
+  add_momentum(model.rigid, now);
   model.momentum.now = now.total;
   model.momentum.linear_scale = std::max(model.momentum.linear_scale, now.linear_size);
   model.momentum.angular_scale = std::max(model.momentum.angular_scale, now.angular_size);
@@ -49,16 +65,23 @@ FieldObserver::FieldObserver(const Model& model) {
     const auto first_point = static_cast<std::int64_t>(node_of_point_.size());
     node_of_point_.insert(node_of_point_.end(), part.node.begin(), part.node.end());
     const Block& block = model.blocks[part.block];
+    const RigidBody* rigid =
+        part.rigid >= 0 ? &model.rigid.body[static_cast<std::size_t>(part.rigid)] : nullptr;
+    const int corners = rigid != nullptr ? rigid->nodes_per_element : nodes_per_element(block.element);
     std::vector<std::int64_t> point_of_node(model.nodes.size());
     for (std::size_t i = 0; i < part.node.size(); ++i)
       point_of_node[static_cast<std::size_t>(part.node[i])] = first_point + static_cast<std::int64_t>(i);
-    for (int slot : part.element_slot) {
-      topology.cell_type.push_back(nodes_per_element(block.element) == 8 ? hexahedron_cell
-                                                                         : quadrilateral_cell);
+    for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
+      topology.cell_type.push_back(corners == 8 ? hexahedron_cell : quadrilateral_cell);
       topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
-      for (int corner = 0; corner < nodes_per_element(block.element); ++corner)
-        topology.connectivity.push_back(
-            point_of_node[static_cast<std::size_t>(block.node(static_cast<std::size_t>(slot), corner))]);
+      for (int corner = 0; corner < corners; ++corner) {
+        const int node =
+            rigid != nullptr
+                ? rigid
+                      ->connectivity[e * static_cast<std::size_t>(corners) + static_cast<std::size_t>(corner)]
+                : block.node(static_cast<std::size_t>(part.element_slot[e]), corner);
+        topology.connectivity.push_back(point_of_node[static_cast<std::size_t>(node)]);
+      }
     }
     cells += part.element_slot.size();
   }
@@ -104,10 +127,8 @@ void FieldObserver::fill_cells(const Model& model) {
   std::size_t cell = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const PartInModel& part = model.parts[p];
-    const Block& block = model.blocks[part.block];
     for (std::size_t e = 0; e < part.element_slot.size(); ++e, ++cell) {
-      const ElementSample sample =
-          block.kernel.sample(block, model.nodes, static_cast<std::size_t>(part.element_slot[e]));
+      const ElementSample sample = sample_of(model, part, e);
       double* stress = &snapshot_.cell_fields[0].values[6 * cell];
       const SymmetricTensor<double>& s = sample.stress;
       for (double component : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) *stress++ = component;
@@ -183,7 +204,7 @@ void observe_history(Model& model, std::vector<double>& row) {
   for (const Vector& vector : {book.supports.linear, book.walls.linear})
     row.insert(row.end(), vector.begin(), vector.end());
   for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p) {
-    const Vector velocity = mean_velocity(model.parts[p], model.nodes);
+    const Vector velocity = mean_velocity(model.parts[p], model.nodes, model.rigid);
     row.insert(row.end(), velocity.begin(), velocity.end());
   }
 }
@@ -192,6 +213,7 @@ std::vector<std::string> active_features(const Model& model) {
   std::set<std::string> features;
   for (const Block& block : model.blocks) {
     features.insert(std::string(name_of(block.element)));
+    if (std::holds_alternative<Rigid>(block.element)) continue;
     features.insert(std::string(name_of(block.material)));
     if (block.precision == Precision::single_precision) features.insert("float");
   }

@@ -41,6 +41,34 @@ TEST(Deck, SaysWhatTheTextSays) {
   EXPECT_EQ(deck.text, plain_deck);
 }
 
+TEST(Deck, RigidPartsTakeSixComponentsByTheirName) {
+  const Deck deck = parse_deck(R"(
+materials:
+  steel: {model: elastic, density: 1, youngs_modulus: 1, poissons_ratio: 0.3}
+parts:
+  blade: {mesh: {box: {size: [1, 1, 1], elements: [1, 1, 1]}}, element: rigid, material: steel}
+  sheet:
+    mesh: {plate: {size: [1, 1], elements: [1, 1]}}
+    element: {type: rigid, thickness: 0.1, mass: 2, inertia: [1, 1, 1, 0, 0, 0.5], centre: [0, 0, 1]}
+    material: steel
+boundary_conditions:
+  - {part: blade, fix: [x, y, rx, ry]}
+  - {set: blade, velocity: {z: -900, rz: [[0, 0], [1, 2]]}}
+time: {end: 1, step: 1e-3}
+)",
+                               "rigid.yaml");
+  EXPECT_FALSE(std::get<Rigid>(deck.parts[0].element).thickness);
+  const auto& sheet = std::get<Rigid>(deck.parts[1].element);
+  EXPECT_EQ(sheet.thickness, 0.1);
+  EXPECT_EQ(sheet.mass, 2);
+  EXPECT_EQ((*sheet.inertia)[5], 0.5);
+  EXPECT_EQ((*sheet.centre)[2], 1);
+  const auto& held = std::get<PrescribedMotion>(deck.boundary_conditions[0]);
+  EXPECT_EQ(held.where.set, "blade");
+  EXPECT_EQ(held.components[3].axis, 4);
+  EXPECT_EQ(std::get<PrescribedMotion>(deck.boundary_conditions[1]).components[1].curve(0.5), 1);
+}
+
 TEST(Deck, ConditionsAndLoadsKeepTheirKind) {
   const Deck deck = parse_deck(plain_deck, "plain.yaml");
   ASSERT_EQ(deck.boundary_conditions.size(), 3U);

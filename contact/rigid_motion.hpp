@@ -1,0 +1,66 @@
+#pragma once
+/// A rigid body within one step, as contact and walls see it.
+
+#include <Eigen/Dense>
+
+namespace brio {
+
+struct RigidMotion {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();            ///< at the beginning of the step
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< of the centre
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< both over the step, as corrected so far
+  /// Over the step before; the angular one is that which the angular momentum of then has at the present
+  /// attitude.
+  Eigen::Vector3d velocity_before = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_before = Eigen::Vector3d::Zero();
+  double mass = 0;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();          ///< about the centre, at the present attitude
+  Eigen::Vector3d inverse_mass = Eigen::Vector3d::Zero();     ///< per axis; 0 where prescribed
+  Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();  ///< of the rotations that are free; else 0
+  /// What contact and walls have given the body in this step, with the moment about the centre.
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+
+  /// Of the point at the end of an arm from the centre.
+  Eigen::Vector3d velocity_at(const Eigen::Vector3d& arm) const {
+    return velocity + angular_velocity.cross(arm);
+  }
+  Eigen::Vector3d velocity_before_at(const Eigen::Vector3d& arm) const {
+    return velocity_before + angular_velocity_before.cross(arm);
+  }
+  void push(const Eigen::Vector3d& given, const Eigen::Vector3d& arm) {
+    const Eigen::Vector3d turn = arm.cross(given);
+    impulse += given;
+    moment += turn;
+    velocity += inverse_mass.cwiseProduct(given);
+    angular_velocity += inverse_inertia * turn;
+  }
+  /// Change of the velocity along a direction by a unit impulse along it.
+  double inverse_mass_along(const Eigen::Vector3d& direction, const Eigen::Vector3d& arm) const {
+    const Eigen::Vector3d turn = arm.cross(direction);
+    return direction.cwiseProduct(direction).dot(inverse_mass) + turn.dot(inverse_inertia * turn);
+  }
+};
+
+/// What the supports of prescribed components do while a body is given an impulse and a moment.
+struct RigidSupport {
+  Eigen::Vector3d impulse;
+  Eigen::Vector3d moment;  ///< about the centre
+  double work_before;      ///< with the velocities before and after the step's impulses
+  double work_after;
+};
+inline RigidSupport support_against(const RigidMotion& body, const Eigen::Vector3d& impulse,
+                                    const Eigen::Vector3d& moment) {
+  RigidSupport support{};
+  const Eigen::Vector3d left = body.inertia * (body.inverse_inertia * moment) - moment;
+  for (int axis = 0; axis < 3; ++axis) {
+    support.impulse[axis] = body.inverse_mass[axis] == 0 ? -impulse[axis] : 0;
+    support.moment[axis] = body.inverse_inertia(axis, axis) == 0 ? left[axis] : 0;
+  }
+  support.work_before =
+      support.impulse.dot(body.velocity_before) + support.moment.dot(body.angular_velocity_before);
+  support.work_after = support.impulse.dot(body.velocity) + support.moment.dot(body.angular_velocity);
+  return support;
+}
+
+}  // namespace brio

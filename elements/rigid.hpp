@@ -1,0 +1,49 @@
+#pragma once
+/// A part that does not deform: what a deck says of it. It has no block and no stress; how it moves is in
+/// src/rigid.hpp.
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "src/base/fields.hpp"
+
+namespace brio {
+
+struct Rigid {
+  static constexpr std::string_view name = "rigid";
+  static constexpr int nodes = 0;  ///< as many as the mesh gives its elements
+  static constexpr bool rotations = false;
+  template <class Law>
+  static constexpr bool accepts = true;  // of a law it takes the density
+
+  std::optional<double> thickness;
+  std::optional<double> mass;
+  std::optional<std::array<double, 6>> inertia;
+  std::optional<std::array<double, 3>> centre;
+
+  static constexpr auto fields() {
+    return std::tuple{
+        optional("thickness", &Rigid::thickness, positive, "of the shells of a shell mesh, length"),
+        optional("mass", &Rigid::mass, positive,
+                 "mass; default: that of the mesh. The inertia of the mesh is scaled alike"),
+        optional(
+            "inertia", &Rigid::inertia, any_number,
+            "xx yy zz xy yz xz of the inertia tensor about the centre, as it lies at the start; default: "
+            "that of the mesh"),
+        optional("centre", &Rigid::centre, any_number,
+                 "centre of mass at the start; default: that of the mesh. Needs an inertia of its own"),
+    };
+  }
+  constexpr std::string_view fault() const {
+    if (centre && !inertia) return "a centre of its own needs an inertia of its own; inertia is missing";
+    if (!inertia) return "";
+    const auto& [xx, yy, zz, xy, yz, xz] = *inertia;
+    const double minor = xx * yy - xy * xy;
+    const double determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    return xx > 0 && minor > 0 && determinant > 0 ? "" : "the inertia is not positive definite";
+  }
+};
+
+}  // namespace brio

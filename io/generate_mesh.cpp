@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "io/section_mesh.hpp"
+#include "io/sphere_mesh.hpp"
 
 namespace brio {
 
@@ -102,6 +103,34 @@ Mesh mesh_of(const RodMesh& rod) {
   return pull_along_z(disc_section(rod.radius, across, rod.keep_volume), 0, rod.length, along);
 }
 
+template <class Set>
+void rename(std::map<std::string, Set>& sets, const std::string& from, const std::string& to) {
+  auto entry = sets.extract(from);
+  entry.key() = to;
+  sets.insert(std::move(entry));
+}
+
+// The section stands up: what was pulled along z is turned to lie along -y.
+Mesh mesh_of(const WedgeMesh& wedge) {
+  const auto [across, up, along] = wedge.elements;
+  Mesh mesh = pull_along_z(
+      blade_section({wedge.thickness, wedge.height, wedge.tip_width, wedge.shoulder()}, across, up),
+      -wedge.length / 2, wedge.length, along);
+  for (auto& [x, y, z] : mesh.position) {
+    const double pulled = z;
+    z = y;
+    y = -pulled;
+  }
+  for (const auto& [from, to] : {std::pair{"bottom", "ymax"}, std::pair{"top", "ymin"}}) {
+    rename(mesh.side_sets, from, to);
+    rename(mesh.node_sets, from, to);
+  }
+  return mesh;
+}
+
+Mesh mesh_of(const SphereMesh& ball) { return sphere_mesh(ball.radius, ball.elements, ball.keep_volume); }
+Mesh mesh_of(const HollowSphereMesh& sphere) { return hollow_sphere_mesh(sphere.radius, sphere.elements); }
+
 /// Cosine and sine of an angle in degrees; exact for quarter turns.
 std::array<double, 2> cosine_and_sine(double degrees) {
   const double turn = std::remainder(degrees, 360);
@@ -132,6 +161,13 @@ Names node_names(const PlateMesh&) { return {"all", "boundary", "xmax", "xmin", 
 Names node_names(const CylinderMesh&) { return {"all", "bottom", "top"}; }
 Names node_names(const TubeMesh&) { return {"all", "bottom", "inside", "outside", "top"}; }
 Names node_names(const RodMesh&) { return {"all", "bottom", "outside", "top"}; }
+Names node_names(const WedgeMesh& wedge) {
+  Names names{"all", "xmax", "xmin", "ymax", "ymin", "zmax"};
+  if (wedge.tip_width > 0) names.push_back("zmin");
+  return names;
+}
+Names node_names(const SphereMesh&) { return {"all", "outside"}; }
+Names node_names(const HollowSphereMesh&) { return {"all"}; }
 
 }  // namespace
 
@@ -148,8 +184,9 @@ Mesh generate_mesh(const MeshSource& source, const Placement& placement) {
 }
 
 int nodes_per_element(const MeshSource& source) {
-  const bool shell =
-      std::holds_alternative<PlateMesh>(source) || std::holds_alternative<CylinderMesh>(source);
+  const bool shell = std::holds_alternative<PlateMesh>(source) ||
+                     std::holds_alternative<CylinderMesh>(source) ||
+                     std::holds_alternative<HollowSphereMesh>(source);
   return shell ? 4 : 8;
 }
 

@@ -160,6 +160,42 @@ Section disc_section(double radius, int across, bool keep_area) {
   return section;
 }
 
+Section blade_section(const BladeSize& size, int across, int up) {
+  // Rows on the flanks and above them; a row of nodes lies on the shoulders.
+  const bool straight = size.shoulder < size.height;
+  const int on_flanks =
+      straight ? std::clamp(static_cast<int>(std::lround(up * size.shoulder / size.height)), 1, up - 1) : up;
+  const bool sharp = size.tip_width == 0;
+  Section section;
+  const auto node = [&](int i, int k) {
+    if (!sharp) return i + (across + 1) * k;
+    return k == 0 ? 0 : 1 + i + (across + 1) * (k - 1);
+  };
+  for (int k = 0; k <= up; ++k) {
+    const double share = std::min(1.0, static_cast<double>(k) / on_flanks);
+    const double width = size.tip_width + share * (size.thickness - size.tip_width);
+    const double z = k <= on_flanks
+                         ? size.shoulder * share
+                         : size.shoulder + (size.height - size.shoulder) * (k - on_flanks) / (up - on_flanks);
+    if (sharp && k == 0) {
+      section.point.push_back({0, 0});
+      continue;
+    }
+    for (int i = 0; i <= across; ++i)
+      section.point.push_back({width * (2.0 * i - across) / (2.0 * across), z});
+  }
+  for (int k = 0; k < up; ++k)
+    for (int i = 0; i < across; ++i) {
+      const int quad = static_cast<int>(section.quad.size());
+      section.quad.push_back({node(i, k), node(i + 1, k), node(i + 1, k + 1), node(i, k + 1)});
+      if (k == 0 && !sharp) section.edges["zmin"].push_back({quad, 0});
+      if (i == across - 1) section.edges["xmax"].push_back({quad, 1});
+      if (k == up - 1) section.edges["zmax"].push_back({quad, 2});
+      if (i == 0) section.edges["xmin"].push_back({quad, 3});
+    }
+  return section;
+}
+
 Mesh pull_along_z(const Section& section, double start, double length, int layers) {
   Mesh mesh;
   mesh.nodes_per_element = 8;

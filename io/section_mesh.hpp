@@ -35,6 +35,17 @@ Section ring_section(double inner_radius, double outer_radius, int around, int t
 /// \param keep_area the outer nodes stand out of the circle so far that the facets enclose its area
 Section disc_section(double radius, int across, bool keep_area);
 
+/// A blade's section: its edge on the point (0, 0), up along the second axis to the height. From the width of
+/// its tip it widens on both sides by the half angle to the thickness. A tip of no width is one point that
+/// the quadrilaterals above it share. Edges: xmin xmax zmax, and zmin where the tip has a width.
+struct BladeSize {
+  double thickness;
+  double height;
+  double tip_width;
+  double shoulder;  ///< height at which the full thickness is reached
+};
+Section blade_section(const BladeSize& size, int across, int up);
+
 /// Hexahedra over a section, in `layers` from z = start to z = start + length. The section's edges become
 /// side sets and node sets; bottom, top and all (the whole surface; every node) are added.
 Mesh pull_along_z(const Section& section, double start, double length, int layers);

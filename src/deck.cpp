@@ -1,6 +1,8 @@
 #include "src/deck.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace brio {
 
@@ -14,6 +16,20 @@ std::size_t next_point(const std::vector<std::array<double, 2>>& points, double 
 }
 
 }  // namespace
+
+double WedgeMesh::shoulder() const {
+  return (thickness - tip_width) / (2 * std::tan(half_angle * std::numbers::pi / 180));
+}
+
+std::string_view WedgeMesh::fault() const {
+  if (tip_width >= thickness) return "the blade has no edge; tip_width must be below thickness";
+  if (shoulder() > height)
+    return "the flanks do not reach the thickness; a larger height or half_angle, or a smaller thickness is "
+           "accepted";
+  if (shoulder() < height && elements[1] < 2)
+    return "the flanks need elements of their own; at least 2 elements up are accepted";
+  return fault_of_size(elements[0], elements[1], elements[2]);
+}
 
 double Curve::operator()(double time) const {
   const std::size_t next = next_point(points, time);

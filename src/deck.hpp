@@ -131,7 +131,72 @@ struct RodMesh {
   }
 };
 
-using MeshSource = std::variant<BoxMesh, PlateMesh, CylinderMesh, TubeMesh, RodMesh>;
+/// Hexahedra filling a blade whose edge lies on the y axis and points down. Sets: xmin xmax (the flanks and
+/// what is above them) ymin ymax zmax all, and zmin where the tip is flat.
+struct WedgeMesh {
+  static constexpr std::string_view name = "wedge";
+  static constexpr std::string_view meaning =
+      "hexahedra filling a blade whose edge lies on the y axis and points down; zmin exists where the tip is "
+      "flat";
+  double thickness = 0;
+  double height = 0;
+  double length = 0;
+  double half_angle = 0;
+  double tip_width = 0;
+  std::array<int, 3> elements{};
+  static constexpr auto fields() {
+    return std::tuple{
+        required("thickness", &WedgeMesh::thickness, positive, "width along x above the edge"),
+        required("height", &WedgeMesh::height, positive, "from the tip at z = 0 to the top"),
+        required("length", &WedgeMesh::length, positive, "along y, centred on the origin"),
+        required("half_angle", &WedgeMesh::half_angle,
+                 Range{.lower = 0, .upper = 90, .lower_open = true, .upper_open = true},
+                 "between a flank of the edge and the z axis, degrees"),
+        optional("tip_width", &WedgeMesh::tip_width, non_negative,
+                 "width of the flat tip; 0: a sharp edge of degenerate hexahedra"),
+        required("elements", &WedgeMesh::elements, at_least_one, "elements across, up, along the edge")};
+  }
+  /// Height at which the full thickness is reached.
+  double shoulder() const;
+  std::string_view fault() const;
+};
+
+/// Hexahedra filling a sphere about the origin. Sets: outside all.
+struct SphereMesh {
+  static constexpr std::string_view name = "sphere";
+  static constexpr std::string_view meaning = "hexahedra filling a sphere about the origin";
+  double radius = 0;
+  int elements = 0;
+  bool keep_volume = false;
+  static constexpr auto fields() {
+    return std::tuple{
+        required("radius", &SphereMesh::radius, positive, "radius"),
+        required("elements", &SphereMesh::elements, at_least_one, "elements across the diameter (even)"),
+        optional("keep_volume", &SphereMesh::keep_volume, any_number,
+                 "draw it so much larger that its elements fill the volume of the round one")};
+  }
+  constexpr std::string_view fault() const {
+    if (elements % 2 != 0) return "the number of elements across the diameter is odd; it must be even";
+    return fault_of_size(elements, elements, elements);
+  }
+};
+
+/// Shells on a sphere about the origin. Set: all.
+struct HollowSphereMesh {
+  static constexpr std::string_view name = "hollow_sphere";
+  static constexpr std::string_view meaning = "shells on a sphere about the origin";
+  double radius = 0;
+  int elements = 0;
+  static constexpr auto fields() {
+    return std::tuple{required("radius", &HollowSphereMesh::radius, positive, "radius of the middle surface"),
+                      required("elements", &HollowSphereMesh::elements, at_least_one,
+                               "elements over a quarter of the equator; there are six times its square")};
+  }
+  constexpr std::string_view fault() const { return fault_of_size(elements, elements, 6); }
+};
+
+using MeshSource = std::variant<BoxMesh, PlateMesh, CylinderMesh, TubeMesh, RodMesh, WedgeMesh, SphereMesh,
+                                HollowSphereMesh>;
 
 // ---- parts
 // ---------------------------------------------------------------------------------------------------

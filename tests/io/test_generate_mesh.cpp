@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/generate_mesh.hpp"
+#include "src/mass_properties.hpp"
 
 namespace brio {
 namespace {
@@ -118,7 +119,7 @@ int euler_characteristic(const Mesh& mesh) {
     }
     for (std::size_t n = 0; n < 4; ++n) {
       vertices.insert(corner[n]);
-      ++edges[{corner[n], corner[(n + 1) % 4]}];
+      if (corner[n] != corner[(n + 1) % 4]) ++edges[{corner[n], corner[(n + 1) % 4]}];
     }
   }
   for (const auto& [edge, count] : edges)
@@ -248,10 +249,115 @@ TEST(GenerateMesh, ElementsAcrossTheDiameterAreCounted) {
       9);
 }
 
+double smallest_scaled_jacobian(const Mesh& mesh) {
+  double worst = 1;
+  for (std::size_t e = 0; e < mesh.element_count(); ++e)
+    for (std::size_t corner = 0; corner < 8; ++corner)
+      worst = std::min(worst, scaled_jacobian(corners_of(mesh, e), corner));
+  return worst;
+}
+
+TEST(GenerateMesh, SphereIsFilledWithGoodElements) {
+  for (const int across : {2, 4, 6, 8, 10, 12, 16, 24}) {
+    const Mesh sphere = mesh_of(SphereMesh{3, across});
+    const int edge = across - 2 * (across / 4);
+    EXPECT_EQ(sphere.element_count(),
+              static_cast<std::size_t>(edge * edge * edge + 6 * edge * edge * (across / 4)));
+    EXPECT_EQ(euler_characteristic(sphere), 2) << across;
+    EXPECT_EQ(free_side_count(sphere), sphere.side_sets.at("all").size());
+    EXPECT_EQ(sphere.node_sets.at("outside").size(), static_cast<std::size_t>(6 * edge * edge + 2));
+    EXPECT_GT(smallest_scaled_jacobian(sphere), across == 2 ? 0.67 : 0.68) << across;
+    for (const int n : sphere.node_sets.at("outside")) {
+      const Triple& x = sphere.position[static_cast<std::size_t>(n)];
+      EXPECT_NEAR(std::sqrt(inner(x, x)), 3, 1e-14);
+    }
+  }
+}
+
+TEST(GenerateMesh, SphereTendsToItsVolumeAndInertia) {
+  const double volume = 4 * pi / 3 * 27;
+  double last = 1;
+  for (const int across : {4, 8, 16}) {
+    const MassProperties found = mass_properties(mesh_of(SphereMesh{3, across}), 2, 0);
+    const double error = 1 - found.mass / (2 * volume);
+    EXPECT_GT(error, 0);
+    if (across > 4) EXPECT_NEAR(last / error, 4, 0.6) << "with the square of the size of the elements";
+    last = error;
+    const Eigen::Matrix3d exact = 0.4 * 2 * volume * 9 * Eigen::Matrix3d::Identity();
+    EXPECT_LE((found.inertia - exact).norm(), 3 * error * exact.norm());
+    EXPECT_LE(found.centre.norm(), 1e-14);
+    const MassProperties kept = mass_properties(mesh_of(SphereMesh{3, across, true}), 2, 0);
+    EXPECT_NEAR(kept.mass / (2 * volume), 1, 1e-14);
+  }
+}
+
+TEST(GenerateMesh, HollowSphereIsClosedAndLooksOutwards) {
+  double last = 1;
+  for (const int quarter : {1, 4, 8}) {
+    const Mesh sphere = mesh_of(HollowSphereMesh{2, quarter});
+    EXPECT_EQ(sphere.element_count(), static_cast<std::size_t>(6 * quarter * quarter));
+    EXPECT_EQ(sphere.position.size(), static_cast<std::size_t>(6 * quarter * quarter + 2));
+    EXPECT_EQ(euler_characteristic(sphere), 2);
+    for (const ElementSide& side : sphere.side_sets.at("all")) {
+      const auto [a, b, c, d] = corners_of(sphere, side);
+      EXPECT_GT(inner(area_vector(a, b, c, d), a), 0);
+    }
+    const double error = 1 - area(sphere, "all") / (4 * pi * 4);
+    EXPECT_GT(error, 0);
+    if (quarter == 8) EXPECT_NEAR(last / error, 4, 0.4);
+    last = error;
+  }
+}
+
+// Section of a blade: its flanks up to the shoulders, a rectangle above them.
+double blade_volume(const WedgeMesh& wedge) {
+  const double shoulder = wedge.shoulder();
+  return wedge.length *
+         (shoulder * (wedge.thickness + wedge.tip_width) / 2 + (wedge.height - shoulder) * wedge.thickness);
+}
+
+TEST(GenerateMesh, WedgeHasTheSectionOfABlade) {
+  for (const WedgeMesh& wedge :
+       {WedgeMesh{0.25, 2, 3, 15, 0.02, {4, 8, 5}}, WedgeMesh{0.25, 2, 3, 15, 0, {4, 8, 5}},
+        WedgeMesh{1, 0.5, 3, 45, 0, {2, 3, 1}}, WedgeMesh{1, 2, 3, 80, 0.5, {3, 2, 2}}}) {
+    const Mesh mesh = mesh_of(wedge);
+    EXPECT_NEAR(mass_properties(mesh, 1, 0).mass, blade_volume(wedge), 1e-13);
+    EXPECT_EQ(euler_characteristic(mesh), 2);
+    double lowest = 1, widest = 0;
+    for (const Triple& x : mesh.position) {
+      lowest = std::min(lowest, x[2]);
+      widest = std::max(widest, x[0]);
+      EXPECT_LE(std::abs(x[1]), wedge.length / 2);
+      EXPECT_LE(x[2], wedge.height);
+    }
+    EXPECT_EQ(lowest, 0);
+    EXPECT_EQ(widest, wedge.thickness / 2);
+    // The angle between the tip and the shoulder.
+    for (const int n : mesh.node_sets.at("xmax")) {
+      const Triple& x = mesh.position[static_cast<std::size_t>(n)];
+      if (x[2] > 0 && x[2] <= wedge.shoulder())
+        EXPECT_NEAR((x[0] - wedge.tip_width / 2) / x[2], std::tan(wedge.half_angle * pi / 180), 1e-12);
+    }
+    if (wedge.tip_width > 0)
+      EXPECT_NEAR(area(mesh, "zmin"), wedge.tip_width * wedge.length, 1e-14);
+    else
+      EXPECT_FALSE(mesh.side_sets.contains("zmin"));
+    EXPECT_NEAR(area(mesh, "zmax"), wedge.thickness * wedge.length, 1e-13);
+  }
+}
+
+TEST(GenerateMesh, BladesThatCannotBeDrawnAreRefused) {
+  EXPECT_NE((WedgeMesh{1, 2, 3, 15, 1, {1, 2, 1}}.fault()), "");
+  EXPECT_NE((WedgeMesh{1, 1, 3, 15, 0, {1, 2, 1}}.fault()), "");
+  EXPECT_NE((WedgeMesh{1, 3, 3, 15, 0, {1, 1, 1}}.fault()), "");
+  EXPECT_EQ((WedgeMesh{1, 3, 3, 15, 0, {1, 2, 1}}.fault()), "");
+}
+
 TEST(GenerateMesh, NamesOfSetsAreThoseOfTheMesh) {
-  const std::array<MeshSource, 5> sources{BoxMesh{{1, 1, 1}, {2, 2, 2}}, PlateMesh{{1, 1}, {2, 2}},
-                                          CylinderMesh{1, 1, {4, 2}}, TubeMesh{1, 2, 1, {4, 2, 2}},
-                                          RodMesh{1, 1, {4, 2}}};
+  const std::array<MeshSource, 9> sources{
+      BoxMesh{{1, 1, 1}, {2, 2, 2}},          PlateMesh{{1, 1}, {2, 2}}, CylinderMesh{1, 1, {4, 2}},
+      TubeMesh{1, 2, 1, {4, 2, 2}},           RodMesh{1, 1, {4, 2}},     WedgeMesh{1, 3, 2, 15, 0, {2, 4, 2}},
+      WedgeMesh{1, 3, 2, 15, 0.1, {2, 4, 2}}, SphereMesh{1, 4},          HollowSphereMesh{1, 2}};
   const auto names = [](const auto& sets) {
     std::vector<std::string_view> keys;
     for (const auto& [key, members] : sets) keys.push_back(key);

@@ -281,7 +281,9 @@ TEST(GenerateMesh, SphereTendsToItsVolumeAndInertia) {
     const MassProperties found = mass_properties(mesh_of(SphereMesh{3, across}), 2, 0);
     const double error = 1 - found.mass / (2 * volume);
     EXPECT_GT(error, 0);
-    if (across > 4) EXPECT_NEAR(last / error, 4, 0.6) << "with the square of the size of the elements";
+    if (across > 4) {
+      EXPECT_NEAR(last / error, 4, 0.6) << "with the square of the size of the elements";
+    }
     last = error;
     const Eigen::Matrix3d exact = 0.4 * 2 * volume * 9 * Eigen::Matrix3d::Identity();
     EXPECT_LE((found.inertia - exact).norm(), 3 * error * exact.norm());
@@ -304,7 +306,9 @@ TEST(GenerateMesh, HollowSphereIsClosedAndLooksOutwards) {
     }
     const double error = 1 - area(sphere, "all") / (4 * pi * 4);
     EXPECT_GT(error, 0);
-    if (quarter == 8) EXPECT_NEAR(last / error, 4, 0.4);
+    if (quarter == 8) {
+      EXPECT_NEAR(last / error, 4, 0.4);
+    }
     last = error;
   }
 }
@@ -335,13 +339,15 @@ TEST(GenerateMesh, WedgeHasTheSectionOfABlade) {
     // The angle between the tip and the shoulder.
     for (const int n : mesh.node_sets.at("xmax")) {
       const Triple& x = mesh.position[static_cast<std::size_t>(n)];
-      if (x[2] > 0 && x[2] <= wedge.shoulder())
+      if (x[2] > 0 && x[2] <= wedge.shoulder()) {
         EXPECT_NEAR((x[0] - wedge.tip_width / 2) / x[2], std::tan(wedge.half_angle * pi / 180), 1e-12);
+      }
     }
-    if (wedge.tip_width > 0)
+    if (wedge.tip_width > 0) {
       EXPECT_NEAR(area(mesh, "zmin"), wedge.tip_width * wedge.length, 1e-14);
-    else
+    } else {
       EXPECT_FALSE(mesh.side_sets.contains("zmin"));
+    }
     EXPECT_NEAR(area(mesh, "zmax"), wedge.thickness * wedge.length, 1e-13);
   }
 }

@@ -18,7 +18,10 @@ std::size_t next_point(const std::vector<std::array<double, 2>>& points, double 
 }  // namespace
 
 double WedgeMesh::shoulder() const {
-  return (thickness - tip_width) / (2 * std::tan(half_angle * std::numbers::pi / 180));
+  const double height_of_flanks =
+      (thickness - tip_width) / (2 * std::tan(half_angle * std::numbers::pi / 180));
+  const bool all_flank = std::abs(height_of_flanks - height) <= 1e-12 * height;  // but for rounding
+  return all_flank ? height : height_of_flanks;
 }
 
 std::string_view WedgeMesh::fault() const {

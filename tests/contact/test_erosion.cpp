@@ -224,6 +224,34 @@ TEST(Erosion, NodesOfAPinchedEdgeAreCarried) {
   EXPECT_EQ(carried, 2);
 }
 
+// One large brick comes down on a block whose thin skin goes: it has no nodes over the block, so that only
+// the nodes laid bare can carry it.
+TEST(Erosion, NodesLaidBareCarryWhatComesDown) {
+  SpringModel model;
+  model.stiffness = 200;
+  const double skin = 1e-3;
+  model.add_box({3, 3, 4}, {3, 3, 4}, 1, [&](const Vector3d& x) -> Vector3d {
+    return {x[0], x[1], x[2] < 3.5 ? x[2] : 3 + skin};
+  });
+  const int brick = model.add_box({1, 1, 1}, {6, 6, 3}, 1, shifted({-1.5, -1.5, 3 + 2 * skin}));
+  model.throw_from(brick, {0, 0, -1});
+  model.start_erodible({});
+  resolve(model.scene, model.nodes, 1e-9, model.alone());
+  std::vector<SurfaceElement> top;
+  for (int e = 27; e < 36; ++e) top.push_back({0, e});
+  model.erode(top);
+  ThreadTeam team(1);
+  for (int i = 0; i < 50; ++i) {
+    model.step(2e-3);
+    EXPECT_FALSE(model.scene.step.searched);
+    if (i == 0) {
+      EXPECT_EQ(model.scene.step.contacts, 16) << "twelve at the rim and four that were inside";
+    }
+    ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << i;
+  }
+  EXPECT_LT(model.scene.totals.deepest_overlap, 0.1 * skin);
+}
+
 // What has nothing to do with the deleted elements goes on to the last bit, with its history.
 TEST(Erosion, OtherContactsGoOnUnchanged) {
   ContactOptions options;
@@ -307,18 +335,24 @@ TEST(Erosion, ATornShellDoesNotPushItselfApart) {
     ASSERT_EQ(model.scene.step.active, 0);
   }
   const auto column = [](int n) { return n % (cells + 1); };
-  // Apart, far enough, and back.
-  for (const double speed : {4.0, -4.0}) {
+  const auto gap = [&] {
+    double nearest = HUGE_VAL;
+    for (int n = 0; n < model.count(); ++n)
+      for (int m = 0; m < model.count(); ++m)
+        if (column(n) == 6 && column(m) == 7) nearest = std::min(nearest, (model.x(n) - model.x(m)).norm());
+    return nearest;
+  };
+  const auto drive = [&](double speed) {
     for (int n = 0; n < model.count(); ++n) model.set_velocity(n, {column(n) > 6 ? speed : 0, 0, 0});
-    for (int i = 0; i < 100; ++i) model.step(1e-3);
-  }
+  };
+  drive(4);
   for (int i = 0; i < 100; ++i) model.step(1e-3);
-  EXPECT_GT(model.scene.totals.contacts, 0U);
-  double nearest = HUGE_VAL;
-  for (int n = 0; n < model.count(); ++n)
-    for (int m = 0; m < model.count(); ++m)
-      if (column(n) == 6 && column(m) == 7) nearest = std::min(nearest, (model.x(n) - model.x(m)).norm());
-  EXPECT_GT(nearest, 0.9 * thickness);
+  ASSERT_GT(gap(), 1.5 * thickness);
+  drive(-4);
+  for (int i = 0; i < 200; ++i) {
+    model.step(1e-3);
+    ASSERT_GT(gap(), 0.9 * thickness) << "step " << i;
+  }
 }
 
 }  // namespace

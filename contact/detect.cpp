@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/convex_feature.hpp"
 #include "contact/face_geometry.hpp"
 #include "contact/velocity_check.hpp"
 
@@ -23,10 +24,6 @@ constexpr double continued_direction = 0.5;
 constexpr double opposing = -0.1;
 /// Overlaps below this share of an edge are rounding and impulses not yet converged, not penetration.
 constexpr double touching_share = 1e-6;
-/// Width, over an edge, within which faces that end at the same place count as meeting edge on edge, ...
-constexpr double hair_share = 1e-5;
-/// ... and how deep a node may then be.
-constexpr double hair_depth = 0.05;
 /// Directions are formed from positions only where these are farther apart than this share of an edge.
 constexpr double direction_share = 1e-8;
 
@@ -177,49 +174,15 @@ class NodeCheck {
     return closest.separation / (outside ? near.distance : -near.distance);
   }
 
-  // Blocks that meet edge on edge: rounding decides whether a node is over a face or a hair beside it, and
-  // which side it is closest to when it is inside. A face that the node looks at, and that ends no more than
-  // that hair beside it, is what it touches.
-  bool meets_edge_on_edge(std::size_t i, std::size_t first) {
-    const NearFace& near = piece_.near[i];
-    const Vector3d& normal = near.closest.normal;
-    const double height = near.closest.separation.dot(normal);
-    if (height < -hair_depth * edge(near.face)) return false;
-    const bool over_face = near.closest.feature == Feature::interior;
-    const double beside = (near.closest.separation - height * normal).norm();
-    if (beside > hair_share * edge(near.face) || !faces_towards(normal)) return false;
-    if (over_face && (height >= 0 || i == first)) return false;  // nothing that rounding could have turned
-    const NearFace& closest = piece_.near[first];
-    if (closest.distance <= hair_share * edge(closest.face)) return true;
-    return over_face && closest.inside && !faces_towards(closest.closest.normal);
-  }
-
-  // The same face with the weights of the point below the node along the normal, a hair beside the face, so
-  // that an impulse along the normal has no moment: the smallest change of weights that moves the point
-  // there.
-  NearFace below_node(const NearFace& near) const {
-    const std::array<Vector3d, 4> corner = vertices(scene_.nodes, face(near.face));
-    const Vector3d centre = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
-    const Vector3d& normal = near.closest.normal;
-    const Vector3d beside = near.closest.separation - near.closest.separation.dot(normal) * normal;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const Vector3d& x : corner) spread += (x - centre) * (x - centre).transpose();
-    spread += spread.trace() * normal * normal.transpose();
-    const Vector3d change = spread.ldlt().solve(beside);
-    NearFace below = near;
-    for (std::size_t k = 0; k < 4; ++k) below.closest.weights[k] += change.dot(corner[k] - centre);
-    return below;
+  NodeAtFeature at_feature(const NearFace& near) const {
+    return {scene_.surface, scene_.nodes, history_,        scene_.swept.dt,    slave_,
+            near.face,      near.closest, edge(near.face), touching(near.face)};
   }
 
   void judge_solid(std::size_t i) {
     const std::size_t first = closest_of_body(i);
     NearFace& near = piece_.near[i];
     const bool self = face(near.face).body == scene_.surface.body[static_cast<std::size_t>(slave_)];
-    if (!self && meets_edge_on_edge(i, first)) {
-      const Vector3d normal = near.closest.normal;
-      add(below_node(near), normal, near.closest.separation.dot(normal) - touching(near.face));
-      return;
-    }
     const bool overlap_matters = !history_.empty() || (!self && first == i);
     if (!within_band(near) && !overlap_matters) return;
     const bool outside = near.distance <= touching_share * edge(near.face) ||
@@ -232,7 +195,21 @@ class NodeCheck {
         return;
       if ((self || first != i) && !was_tracked(near.face, push)) return;
     }
+    if (!self && judge_feature(near, outside, push)) return;
     add(near, push, (outside ? near.distance : -near.distance) - touching(near.face));
+  }
+
+  // \returns false where faces of the body do not meet convexly at the closest point.
+  bool judge_feature(const NearFace& near, bool outside, const Vector3d& push) {
+    const bool straight =
+        outside && near.closest.feature != Feature::interior && near.distance > hair_share * edge(near.face);
+    const auto separation =
+        separate_at_feature(at_feature(near), straight ? push : Vector3d(Vector3d::Zero()));
+    if (!separation) return false;
+    if (separation->needed &&
+        within_reach(separation->face, separation->weights, separation->normal, separation->gap))
+      append(separation->face, separation->weights, separation->normal, separation->gap);
+    return true;
   }
 
   void judge_shell(std::size_t i) {
@@ -263,10 +240,14 @@ class NodeCheck {
     return along < 0 || (along == 0 && approach > 0) ? Vector3d(-near.closest.normal) : near.closest.normal;
   }
 
+  bool within_reach(int f, const std::array<double, 4>& weights, const Vector3d& push, double gap) const {
+    const double approach = relative_velocity(f, weights).dot(push);
+    return gap <= band_share * edge(f) + approach_share * std::abs(approach) * scene_.swept.dt;
+  }
+
   void add(const NearFace& near, const Vector3d& push, double gap) {
-    const double approach = relative_velocity(near.face, near.closest.weights).dot(push);
-    if (gap > band_share * edge(near.face) + approach_share * std::abs(approach) * scene_.swept.dt) return;
-    if (faces_towards(push)) append(near.face, near.closest.weights, push, gap);
+    if (within_reach(near.face, near.closest.weights, push, gap) && faces_towards(push))
+      append(near.face, near.closest.weights, push, gap);
   }
 
   void append(int f, const std::array<double, 4>& weights, const Vector3d& push, double gap) {
@@ -298,11 +279,16 @@ class NodeCheck {
       if (near.distance <= reach || farthest_travel(near.face) < near.distance - reach) continue;
       const auto touch = velocity_check(moving_node(), moving_face(near.face), reach);
       if (!touch || (earliest != nullptr && touch->time >= first.time)) continue;
-      if (!face(near.face).shell && touch->side < 0) continue;
+      if (!face(near.face).shell && (touch->side < 0 || passes(near, *touch))) continue;
       earliest = &near;
       first = *touch;
     }
     if (earliest != nullptr) add_touch(earliest->face, first);
+  }
+
+  bool passes(const NearFace& near, const VelocityContact& touch) const {
+    return face(near.face).body != scene_.surface.body[static_cast<std::size_t>(slave_)] &&
+           passes_by(at_feature(near), touch.weights);
   }
 
   bool in_contact(int f, std::size_t judged) const {

@@ -14,6 +14,9 @@ namespace {
 /// The sweeps end early once no relative velocity changes by more than this share of the smallest edge a
 /// step.
 constexpr double converged_share = 1e-6;
+/// All nodes are held where only rounding of a weight moves the contact: below this share of what its
+/// lightest node alone would move.
+constexpr double held_share = 1e-20;
 /// Contacts whose directions differ by more than 60 degrees do not inherit from each other.
 constexpr double inherited_direction = 0.5;
 
@@ -37,13 +40,15 @@ void apply(const Contact& contact, const Vector3d& impulse, std::span<ContactMot
 double effective_mass(const Contact& contact, const Vector3d& direction,
                       std::span<const ContactMotion> motion) {
   double inverse = 0;
+  double lightest = 0;
   for (std::size_t k = 0; k < 5; ++k) {
     const ContactMotion& node = motion[static_cast<std::size_t>(contact.node[k])];
     double share = 0;
     for (int axis = 0; axis < 3; ++axis) share += direction[axis] * direction[axis] * node.inverse_mass[axis];
     inverse += contact.weight[k] * contact.weight[k] * share;
+    lightest = std::max(lightest, share);
   }
-  return inverse > 0 ? 1 / inverse : 0;
+  return inverse > held_share * lightest ? 1 / inverse : 0;
 }
 
 // Two unit vectors that complete the normal.

@@ -35,7 +35,8 @@ std::size_t state_bytes(const Model& model) {
       (model.nodes.velocity_before.size() + model.nodes.moment.size() + model.nodes.angular_velocity.size()) *
       sizeof(NodeVector);
   for (const Block& block : model.blocks)
-    bytes += block.state.size() + block.connectivity.size() * sizeof(int);
+    bytes += block.state.size() + (block.connectivity.size() + block.lost.size()) * sizeof(int) +
+             block.held.size() * sizeof(double);
   return bytes;
 }
 
@@ -51,7 +52,7 @@ void check(const std::filesystem::path& path, const std::vector<std::string>& ov
   if (std::isfinite(control.stable)) {
     const PartInModel& critical = model.parts[control.critical_block];
     fmt::print("\nstable step {:.4g}, set by element {} of part '{}'; first step {:.4g}\n", control.stable,
-               critical.element_order[control.critical_element], critical.name, model.times.next);
+               control.critical_element, critical.name, model.times.next);
   } else {
     fmt::print("\nall parts are rigid; step {:.4g}\n", model.times.next);
   }

@@ -34,10 +34,11 @@ class ProgressLine {
     const bool finished = progress.time >= progress.end;
     if (!on_terminal_ && !finished && progress.elapsed_s - printed_ < 10) return;
     printed_ = progress.elapsed_s;
-    const std::string line = fmt::format(
+    std::string line = fmt::format(
         "time {:.4e}  step {}  dt {:.3e}  {:5.1f} %  {}  left {}  energy error {:+.3f} %", progress.time,
         progress.step, progress.dt, 100 * progress.time / progress.end, duration(progress.elapsed_s),
         duration(progress.remaining_s), 100 * progress.energy_error);
+    if (progress.deleted > 0) line += fmt::format("  deleted {}", progress.deleted);
     if (on_terminal_) {
       fmt::print(stderr, "\r{:<118}", line);
       if (finished) fmt::print(stderr, "\n");
@@ -64,6 +65,10 @@ void print_outcome(const RunOutcome& outcome) {
       "error {:+.3f} %\n",
       energy.kinetic, energy.internal, energy.hourglass, energy.viscous, energy.contact, energy.friction,
       100 * energy.error_relative);
+  const std::int64_t deleted = summary.deleted.hex8 + summary.deleted.shell4;
+  if (deleted > 0)
+    fmt::print("deleted: {} elements, energy {:.4g}; free nodes: mass {:.4g} flying, {:.4g} dropped\n",
+               deleted, energy.deleted, summary.mass.debris, summary.mass.deleted);
   fmt::print("wall time by stage:");
   for (const auto& [stage, seconds] : summary.wall_s.by_stage)
     if (seconds > 0) fmt::print(" {} {:.2f} s", stage, seconds);

@@ -1,5 +1,6 @@
 #include "elements/block.hpp"
 
+#include <cstring>
 #include <stdexcept>
 #include <type_traits>
 
@@ -16,7 +17,7 @@ bool accepts(const Element& element, const Material& material) {
 }
 
 Block make_block(std::string part, const Element& element, const Material& material, Precision precision,
-                 std::span<const int> connectivity) {
+                 std::span<const int> connectivity, const std::optional<Deletion>& deletion) {
   if (!accepts(element, material))
     throw std::invalid_argument("material model '" + std::string(name_of(material)) +
                                 "' cannot be used by element '" + std::string(name_of(element)) + "'");
@@ -25,6 +26,7 @@ Block make_block(std::string part, const Element& element, const Material& mater
   block.element = element;
   block.material = material;
   block.precision = precision;
+  block.deletion = deletion.value_or(Deletion{});
   block.lanes = precision == Precision::double_precision ? lane_count<double> : lane_count<float>;
   const auto corners = static_cast<std::size_t>(nodes_per_element(element));
   const auto width = static_cast<std::size_t>(block.lanes);
@@ -39,7 +41,44 @@ Block make_block(std::string part, const Element& element, const Material& mater
   }
   std::visit([&](const auto& kind) { choose_kernel(kind, block); }, element);
   block.state = AlignedBuffer<std::byte>(block.pack_count * block.pack_bytes);
+  if (block.loses_elements) {
+    block.held = AlignedBuffer<double>(block.pack_count * 2 * width);
+    block.lost = AlignedBuffer<int>(block.pack_count * width);
+  }
   return block;
+}
+
+HeldEnergy held_energy(const Block& block, std::size_t element) {
+  const auto width = static_cast<std::size_t>(block.lanes);
+  const double* pack = block.held.data() + element / width * 2 * width;
+  return {pack[element % width], pack[width + element % width]};
+}
+
+namespace {
+
+/// One lane of arrays [pack][component][lane].
+template <class Item>
+void copy_place(Item* array, std::size_t components, std::size_t width, std::size_t from, std::size_t to) {
+  const Item* source = array + from / width * components * width + from % width;
+  Item* target = array + to / width * components * width + to % width;
+  for (std::size_t c = 0; c < components; ++c)
+    std::memcpy(target + c * width, source + c * width, sizeof(Item));
+}
+
+}  // namespace
+
+void copy_element(Block& block, std::size_t from, std::size_t to) {
+  const auto width = static_cast<std::size_t>(block.lanes);
+  copy_place(block.connectivity.data(), static_cast<std::size_t>(nodes_per_element(block.element)), width,
+             from, to);
+  copy_place(block.held.data(), 2, width, from, to);
+  if (block.precision == Precision::double_precision) {
+    copy_place(reinterpret_cast<double*>(block.state.data()), block.pack_bytes / (sizeof(double) * width),
+               width, from, to);
+  } else {
+    copy_place(reinterpret_cast<float*>(block.state.data()), block.pack_bytes / (sizeof(float) * width),
+               width, from, to);
+  }
 }
 
 }  // namespace brio

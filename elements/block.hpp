@@ -2,12 +2,14 @@
 /// A block: elements of one kind and one material, state packed lane by lane.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "elements/deletion.hpp"
 #include "elements/hex8.hpp"
 #include "elements/hex8_full.hpp"
 #include "elements/motion.hpp"
@@ -35,9 +37,11 @@ inline std::string_view name_of(const Material& material) {
   return std::visit([](const auto& law) { return law.name; }, material);
 }
 
-/// Packs [first, last) of a block: the piece of work that one thread does at a time.
+/// Packs [first, last) of a block: the piece of work that one thread does at a time. Its elements fill the
+/// first of these packs; what deletion has emptied stands behind them.
 struct Chunk {
   std::size_t first_pack, last_pack;
+  std::size_t element_count;
 };
 
 /// Sums over a chunk since the last step, and what bounds the next one.
@@ -47,6 +51,7 @@ struct SweepResult {
   double viscous_energy = 0;
   double stable_step = 0;            ///< smallest over the chunk; not positive: an element has broken down
   std::size_t critical_element = 0;  ///< index within the block of the element that sets it
+  std::size_t lost = 0;              ///< elements to be deleted, listed in Block::lost
 };
 
 struct Block;
@@ -58,6 +63,7 @@ struct BlockKernel {
   /// Throws std::invalid_argument naming the element where the geometry is not valid.
   void (*initialize)(Block&, Nodes&);
   ElementSample (*sample)(const Block&, const Nodes&, std::size_t element);
+  double (*mass)(const Block&, std::size_t element);
 };
 
 struct Block {
@@ -67,12 +73,19 @@ struct Block {
   Precision precision = Precision::double_precision;
   BlockKernel kernel{};
 
-  std::size_t element_count = 0;
-  int lanes = 0;  ///< elements to a pack
+  std::size_t element_count = 0;  ///< that live
+  int lanes = 0;                  ///< elements to a pack
   std::size_t pack_count = 0;
   std::size_t pack_bytes = 0;
   AlignedBuffer<int> connectivity;  ///< [pack][node][lane]; padding lanes repeat the last element
   AlignedBuffer<std::byte> state;   ///< [pack][component][lane]
+
+  Deletion deletion;
+  /// Whether an element can be deleted at all: by failure of the material or by what `deletion` names. The
+  /// two arrays are empty where not.
+  bool loses_elements = false;
+  AlignedBuffer<double> held;  ///< energy received: [pack][internal, hourglass][lane]
+  AlignedBuffer<int> lost;     ///< by chunk from its first place on: places that the last sweep gave up
 
   int node(std::size_t e, int corner) const {
     const auto width = static_cast<std::size_t>(lanes);
@@ -88,6 +101,15 @@ bool accepts(const Element& element, const Material& material);
 /// \param connectivity nodes of each element, one after the other; ordered for locality by the caller.
 /// \throws std::invalid_argument if the law does not fit the element.
 Block make_block(std::string part, const Element& element, const Material& material, Precision precision,
-                 std::span<const int> connectivity);
+                 std::span<const int> connectivity, const std::optional<Deletion>& deletion = {});
+
+/// Energy that an element has received. \pre block.loses_elements
+struct HeldEnergy {
+  double internal, hourglass;
+};
+HeldEnergy held_energy(const Block& block, std::size_t element);
+
+/// Everything that is kept of an element, to another place.
+void copy_element(Block& block, std::size_t from, std::size_t to);
 
 }  // namespace brio

@@ -49,6 +49,7 @@ struct NodalMass {
 struct ElementSample {
   SymmetricTensor<double> stress{};      ///< Cauchy stress; mean over the points
   double equivalent_plastic_strain = 0;  ///< largest over the points
+  double damage = 0;                     ///< largest over the points
   double internal_energy = 0;
   double thickness = 0;  ///< shells; 0 for solids
 };

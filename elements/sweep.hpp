@@ -25,6 +25,7 @@
 
 #include "elements/block.hpp"
 #include "elements/gather.hpp"
+#include "elements/lose.hpp"
 
 namespace brio {
 
@@ -46,6 +47,14 @@ Law law_of(const Material& material) {
   } else {
     return std::get<Law>(material);
   }
+}
+
+/// The law for one step: one that depends on rates is told the step.
+template <class Law>
+Law law_of(const Material& material, double step) {
+  Law law = law_of<Law>(material);
+  if constexpr (requires { law.time_step; }) law.time_step = step;
+  return law;
 }
 
 template <class Kind, class Law, Floating Real>
@@ -147,18 +156,31 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   constexpr int width = lane_count<Real>;
   // Copies that nothing else can alias, so that what depends on parameters alone leaves the loop.
   const Kind kind = kernel_of<Kind>(block.element);
-  const Law law = law_of<Law>(block.material);
+  const Law law = law_of<Law>(block.material, step);
   LaneSum<Real> internal_energy, hourglass_energy, viscous_energy;
   SweepResult result;
   result.stable_step = HUGE_VAL;
-  for (std::size_t pack = chunk.first_pack; pack < chunk.last_pack; ++pack) {
+  for (std::size_t done = 0; done < chunk.element_count; done += width) {
+    const std::size_t pack = chunk.first_pack + done / width;
     const int* connectivity =
         block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
-    const int count = static_cast<int>(std::min<std::size_t>(width, block.element_count - pack * width));
+    const int count = static_cast<int>(std::min<std::size_t>(width, chunk.element_count - done));
     const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
     ForcesOf<Kind, T> forces;
-    const Increment<T> increment =
+    Increment<T> increment =
         kind.force(motion, T(step), law, Layout::header(block, pack), Layout::points(block, pack), forces);
+    if (block.loses_elements) {
+      const LaneMask<Real> lost =
+          is_lost<Kind, Law, Real>(kind, law, block.deletion, Layout::header(block, pack),
+                                   Layout::points(block, pack), motion, increment.stable_step);
+      if (any(lost)) {
+        take_back<Kind, Real>(lost, motion, step, forces, increment);
+        for (int lane = 0; lane < count; ++lane)
+          if (lost.v[lane] != 0)
+            block.lost[chunk.first_pack * width + result.lost++] = static_cast<int>(pack * width) + lane;
+      }
+      hold<Real>(increment, block.held.data() + pack * 2 * width);
+    }
     if (count == width) {
       scatter<Kind, Real, true>(nodes, connectivity, count, forces);
     } else {
@@ -183,6 +205,22 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   return result;
 }
 
+/// Edge length of what a material point stands for: of its share of the volume in solids, of the area in
+/// shells.
+template <class Kind, Floating Real>
+Lanes<Real> point_size(const Kind& kind, Lanes<Real> nodal_mass, double density) {
+  Lanes<Real> size;
+  for (int lane = 0; lane < lane_count<Real>; ++lane) {
+    const double volume = Kind::nodes * static_cast<double>(nodal_mass[lane]) / density;
+    if constexpr (requires { kind.thickness; }) {
+      size.set(lane, static_cast<Real>(std::sqrt(volume / kind.thickness)));
+    } else {
+      size.set(lane, static_cast<Real>(std::cbrt(volume / kind.points())));
+    }
+  }
+  return size;
+}
+
 template <class Kind, class Law, Floating Real>
 void initialize_block(Block& block, Nodes& nodes) {
   using T = Lanes<Real>;
@@ -196,6 +234,10 @@ void initialize_block(Block& block, Nodes& nodes) {
     const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
     const NodalMass<T> share =
         kind.initialize(motion, law, Layout::header(block, pack), Layout::points(block, pack));
+    if constexpr (requires { law.start(Layout::points(block, pack)->history, share.mass); }) {
+      const T size = point_size<Kind, Real>(kind, share.mass, law.density);
+      for (int p = 0; p < kind.points(); ++p) law.start(Layout::points(block, pack)[p].history, size);
+    }
     for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count;
          ++lane) {
       if (!(share.mass[lane] > 0))
@@ -249,14 +291,26 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
         motion.angular_velocity[i][corner] = nodes.angular_velocity[node].component[i];
     }
   }
-  return kind.sample(motion, law_of<Law>(block.material), header, points.data());
+  ElementSample sample = kind.sample(motion, law_of<Law>(block.material), header, points.data());
+  if constexpr (can_fail<Law>)
+    for (const auto& point : points) sample.damage = std::max(sample.damage, point.history.damage);
+  return sample;
+}
+
+template <class Kind, class Law, Floating Real>
+double mass_of_element(const Block& block, std::size_t e) {
+  typename Kind::template Header<double, Law> header;
+  copy_lane<decltype(header), Real>(block.state.data() + (e / lane_count<Real>)*block.pack_bytes,
+                                    static_cast<int>(e % lane_count<Real>), &header);
+  return header.mass;
 }
 
 template <class Kind, class Law, Floating Real>
 void set_kernel(Block& block) {
   block.pack_bytes = PackLayout<Kind, Law, Real>::bytes(kernel_of<Kind>(block.element));
   block.kernel = {sweep_chunk<Kind, Law, Real>, initialize_block<Kind, Law, Real>,
-                  sample_element<Kind, Law, Real>};
+                  sample_element<Kind, Law, Real>, mass_of_element<Kind, Law, Real>};
+  block.loses_elements = can_fail<Law> || block.deletion.names_a_criterion();
 }
 
 template <class Kind, class Law>
@@ -266,6 +320,18 @@ void set_kernel(Block& block) {
   } else {
     set_kernel<Kind, Law, float>(block);
   }
+}
+
+/// \param settings what the deck says; a law that fails is another type than one that does not.
+template <class Kind, class Law, class Settings>
+void set_kernel_with_failure(const Settings& settings, Block& block) {
+  if constexpr (requires { settings.failure; }) {
+    if (settings.failure) {
+      set_kernel<Kind, Failing<Law>>(block);
+      return;
+    }
+  }
+  set_kernel<Kind, Law>(block);
 }
 
 /// Sets block.kernel and block.pack_bytes; instantiates every accepted law in both precisions.
@@ -280,12 +346,12 @@ void choose_kernel_of(Block& block) {
                                       "' with these settings");
         } else if constexpr (requires { typename Law::Reduced; }) {
           if (law.is_reduced()) {
-            set_kernel<Kind, typename Law::Reduced>(block);
+            set_kernel_with_failure<Kind, typename Law::Reduced>(law, block);
           } else {
-            set_kernel<Kind, Law>(block);
+            set_kernel_with_failure<Kind, Law>(law, block);
           }
         } else {
-          set_kernel<Kind, Law>(block);
+          set_kernel_with_failure<Kind, Law>(law, block);
         }
       },
       block.material);

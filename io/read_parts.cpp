@@ -33,6 +33,18 @@ void check_thickness(const Rigid& rigid, const MeshSource& mesh, const Place& pl
     throw DeckError(place, "a rigid part of solids has a 'thickness'; it is accepted with shells only");
 }
 
+void check_deletion(const YamlEntry& entry, const Part& part, const Material& material) {
+  if (std::holds_alternative<Rigid>(part.element))
+    throw DeckError(entry.place, "'deletion' of a rigid part; parts that deform are accepted");
+  if (part.deletion->plastic_strain && !has_plastic_strain(material))
+    throw DeckError(entry.place, "deletion by plastic_strain, but the material model '" +
+                                     std::string(name_of(material)) +
+                                     "' has none; a plastic one is accepted");
+  if (part.deletion->volume_ratio && nodes_per_element(part.element) != 8)
+    throw DeckError(entry.place, "deletion by volume_ratio of elements '" +
+                                     std::string(name_of(part.element)) + "'; hexahedra are accepted");
+}
+
 }  // namespace
 
 void read_value(const YamlNode& node, const Slot& slot, Material& material) {
@@ -63,6 +75,7 @@ void read_value(const YamlNode& node, const Slot& slot, Part& part) {
   const std::string kind(name_of(part.element));
   if (const auto* rigid = std::get_if<Rigid>(&part.element)) {
     check_thickness(*rigid, part.mesh, place);
+    if (part.deletion) check_deletion(*node.find("deletion"), part, material);
     return;
   }
   if (nodes_per_element(part.element) != nodes_per_element(part.mesh)) {
@@ -70,6 +83,7 @@ void read_value(const YamlNode& node, const Slot& slot, Part& part) {
     throw DeckError(place, "the mesh '" + shape + "' cannot be made of '" + kind + "' elements; " +
                                accepted_words("", elements_with_nodes(nodes_per_element(part.mesh))));
   }
+  if (part.deletion) check_deletion(*node.find("deletion"), part, material);
   if (!accepts(part.element, material))
     throw DeckError(place, "the element '" + kind + "' cannot use the material model '" +
                                std::string(name_of(material)) + "' of '" + part.material + "'; " +

@@ -48,6 +48,7 @@ class ProgressReporter {
                        .step = model.step,
                        .dt = model.times.next,
                        .energy_error = model.energy.relative_error(),
+                       .deleted = model.erosion ? model.erosion->total_deleted() : 0,
                        .elapsed_s = elapsed,
                        .remaining_s = mean_speed_ > 0 ? (end_ - model.times.time) / mean_speed_ : 0});
   }
@@ -171,11 +172,9 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.summary.exit_code = state.exit_code;
   outcome.summary.threads = options.threads;
   outcome.summary.peak_memory_mb = peak_memory_mb();
-  const double elements =
-      static_cast<double>(outcome.summary.elements.hex8 + outcome.summary.elements.shell4);
   outcome.summary.wall_s.total = seconds_since(start);
   outcome.summary.element_updates_per_s =
-      elements * static_cast<double>(model.step) / outcome.summary.wall_s.total;
+      static_cast<double>(model.element_updates) / outcome.summary.wall_s.total;
   writer.write(outcome.summary);
   return outcome;
 }

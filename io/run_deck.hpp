@@ -21,6 +21,7 @@ struct Progress {
   std::int64_t step = 0;
   double dt = 0;
   double energy_error = 0;
+  std::int64_t deleted = 0;  ///< elements
   double elapsed_s = 0;
   double remaining_s = 0;  ///< if the rest goes on like the last part
 };

@@ -24,6 +24,14 @@ Json energies(const Summary::Energies& energy) {
           {"total_start", energy.total_start}, {"error_relative", energy.error_relative}};
 }
 
+Json masses(const Summary::Masses& mass) {
+  return {{"start", mass.start},
+          {"intact", mass.intact},
+          {"debris", mass.debris},
+          {"deleted", mass.deleted},
+          {"of_deleted_elements", mass.of_deleted_elements}};
+}
+
 Json contact_counts(const Summary::ContactCounts& contact) {
   return {{"searches", contact.searches},
           {"comparisons", contact.comparisons},
@@ -53,6 +61,7 @@ std::string summary_json(const Summary& summary) {
                   {"elements", counts(summary.elements)},
                   {"deleted", counts(summary.deleted)},
                   {"energy", energies(summary.energy)},
+                  {"mass", masses(summary.mass)},
                   {"momentum", {{"linear", summary.momentum.linear}, {"angular", summary.momentum.angular}}},
                   {"contact", contact_counts(summary.contact)},
                   {"wall_s", wall_times(summary.wall_s)},

@@ -1,9 +1,11 @@
 #pragma once
 /// J2 plasticity with linear hardening, isotropic, kinematic or a mix of both.
 
+#include <optional>
 #include <string_view>
 #include <tuple>
 
+#include "materials/failure.hpp"
 #include "materials/plastic_flow.hpp"
 
 namespace brio {
@@ -23,6 +25,7 @@ struct ElasticPlastic {
   double yield_stress = 0;
   double hardening_modulus = 0;
   double hardening_mix = 0;
+  std::optional<Failure> failure{};
 
   static constexpr auto fields() {
     return std::tuple{
@@ -35,6 +38,7 @@ struct ElasticPlastic {
                  "slope of uniaxial stress over plastic strain, stress"),
         optional("hardening_mix", &ElasticPlastic::hardening_mix, fraction,
                  "share of the hardening that moves the yield surface: 0 isotropic, 1 kinematic, -"),
+        optional("failure", &ElasticPlastic::failure, any_number, "how the material fails; absent: never"),
     };
   }
 

@@ -1,9 +1,11 @@
 #pragma once
 /// J2 plasticity with power-law hardening and a Lueders plateau (Stone, Wellman & Krieg, SAND90-0153).
 
+#include <optional>
 #include <string_view>
 #include <tuple>
 
+#include "materials/failure.hpp"
 #include "materials/plastic_flow.hpp"
 #include "materials/power_hardening.hpp"
 
@@ -18,6 +20,7 @@ struct PowerLawHardening {
   double hardening_constant = 0;
   double hardening_exponent = 1;
   double luders_strain = 0;
+  std::optional<Failure> failure{};
 
   static constexpr auto fields() {
     return std::tuple{
@@ -32,6 +35,7 @@ struct PowerLawHardening {
                  "exponent of the plastic strain, -"),
         optional("luders_strain", &PowerLawHardening::luders_strain, non_negative,
                  "plastic strain at which hardening sets in, -"),
+        optional("failure", &PowerLawHardening::failure, any_number, "how the material fails; absent: never"),
     };
   }
 

@@ -14,7 +14,7 @@ constexpr double collapse_ratio = 1e-5;
 
 std::string element_name(const Model& model, std::size_t block, std::size_t element) {
   const PartInModel& part = model.parts[block];
-  return "element " + std::to_string(part.element_order[element]) + " of part '" + part.name + "'";
+  return "element " + std::to_string(element) + " of part '" + part.name + "'";
 }
 
 void apply_loads(Model& model) {
@@ -59,19 +59,34 @@ void sweep_elements(Model& model, ThreadTeam& team) {
   model.control.stable = HUGE_VAL;
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
     const SweepResult& result = model.sweep_results[t];
+    model.element_updates += static_cast<std::int64_t>(schedule.tasks[t].chunk.element_count);
     model.energy.internal += result.internal_energy;
     model.energy.hourglass += result.hourglass_energy;
     model.energy.viscous += result.viscous_energy;
     if (result.stable_step < model.control.stable) {
       model.control.stable = result.stable_step;
       model.control.critical_block = schedule.tasks[t].block;
-      model.control.critical_element = result.critical_element;
+      model.control.critical_element = static_cast<std::size_t>(
+          model.parts[model.control.critical_block].element_order[result.critical_element]);
     }
   }
   if (!(model.control.stable > 0))
     throw Breakdown(element_name(model, model.control.critical_block, model.control.critical_element) +
                     " has inverted or holds a value that is not a number, at time " +
                     std::to_string(model.times.time));
+}
+
+// After the sweep, whose order of elements it changes, and before contact, whose surfaces it opens.
+void erode_elements(Model& model) {
+  if (!model.erosion) return;
+  const StageTimer timer(model.stages, Stage::erosion);
+  Erosion& erosion = *model.erosion;
+  erode(erosion, model.schedule, model.sweep_results, model.blocks, model.parts, model.energy);
+  if (erosion.deleted.empty()) return;
+  for (ActiveLoad& load : model.loads) drop_sides(load, erosion.deleted);
+  if (!is_sparse(model.schedule, model.blocks)) return;
+  model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
+  model.sweep_results.resize(model.schedule.tasks.size());
 }
 
 // A step that follows the stable step through every vibration is in time with that vibration and feeds it
@@ -212,8 +227,10 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   EnergyBook& energy = model.energy;
   for (Work* work : {&energy.external, &energy.contact, &energy.friction}) work->begin_step();
 
+  if (model.erosion) drop_nodes(*model.erosion, model.nodes, energy, model.momentum);
   apply_loads(model);
   sweep_elements(model, team);
+  erode_elements(model);
   choose_step(model);
   energy.external.before += load_work(model);
   KineticEnergy kinetic;

@@ -74,7 +74,7 @@ void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connecti
     }
     try {
       model.blocks.push_back(make_block(part.name, part.element, material_of(part, deck),
-                                        deck.numerics.precision, connectivity[p]));
+                                        deck.numerics.precision, connectivity[p], part.deletion));
     } catch (const std::invalid_argument& fault) {
       throw BuildError("part '" + part.name + "': " + fault.what());
     }
@@ -150,8 +150,8 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   }
 }
 
-std::vector<std::array<int, 4>> sides_of(const std::string& side_set, const Deck& deck,
-                                         std::span<const Mesh> meshes, const Model& model) {
+PressureLoad pressure_on(const std::string& side_set, const Curve& pressure, const Deck& deck,
+                         std::span<const Mesh> meshes, const Model& model) {
   const std::size_t dot_at = side_set.find('.');
   const std::string name = side_set.substr(0, dot_at);
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
@@ -160,7 +160,7 @@ std::vector<std::array<int, 4>> sides_of(const std::string& side_set, const Deck
     const auto found = mesh.side_sets.find(side_set.substr(dot_at + 1));
     if (found == mesh.side_sets.end()) break;
     const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
-    std::vector<std::array<int, 4>> sides;
+    PressureLoad load{{}, pressure, static_cast<int>(p), {}};
     for (const ElementSide& side : found->second) {
       std::array<int, 4> nodes{};
       for (std::size_t k = 0; k < 4; ++k) {
@@ -170,9 +170,10 @@ std::vector<std::array<int, 4>> sides_of(const std::string& side_set, const Deck
             static_cast<std::size_t>(side.element) * corners + static_cast<std::size_t>(corner);
         nodes[k] = model.parts[p].node[static_cast<std::size_t>(mesh.connectivity[entry])];
       }
-      sides.push_back(nodes);
+      load.sides.push_back(nodes);
+      load.element.push_back(side.element);
     }
-    return sides;
+    return load;
   }
   throw BuildError("no side set is named '" + side_set + "'");
 }
@@ -230,8 +231,7 @@ void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
       model.loads.push_back(
           {NodalLoad{select_nodes(force->where, deck, meshes, model), force->force, force->factor}, {}});
     if (const auto* pressure = std::get_if<Pressure>(&entry))
-      model.loads.push_back(
-          {PressureLoad{sides_of(pressure->side_set, deck, meshes, model), pressure->pressure}, {}});
+      model.loads.push_back({pressure_on(pressure->side_set, pressure->pressure, deck, meshes, model), {}});
   }
 }
 
@@ -268,6 +268,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   lump_masses(model);
   model.schedule = make_schedule(model.blocks, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());
+  if (can_erode(model.blocks)) model.erosion = make_erosion(model.blocks, model.nodes.size());
   model.kinetic_sums.resize(range_count(model.nodes));
   model.control.settings = deck.time;
   set_initial_velocities(deck, meshes, model);

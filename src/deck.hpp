@@ -231,11 +231,14 @@ struct Part {
   Placement placement;
   Element element;
   std::string material;
+  std::optional<Deletion> deletion{};
   static constexpr auto fields() {
     return std::tuple{required("mesh", &Part::mesh, any_number, "shape and number of elements"),
                       optional("placement", &Part::placement, any_number, "where the shape is put"),
                       required("element", &Part::element, any_number, "kind of element"),
-                      required("material", &Part::material, any_number, "name of one of the materials")};
+                      required("material", &Part::material, any_number, "name of one of the materials"),
+                      optional("deletion", &Part::deletion, any_number,
+                               "when elements are deleted, besides by failure of the material")};
   }
 };
 

@@ -42,15 +42,16 @@ struct EnergyBook {
   double internal = 0;      ///< elastic and plastic
   double hourglass = 0;
   double viscous = 0;
-  Work external;  ///< loads, supports, moving walls
-  Work contact;   ///< normal impulses of contact and walls; negative: taken out of motion
+  double deleted = 0;  ///< what deleted elements had received, and motion of nodes that were dropped
+  Work external;       ///< loads, supports, moving walls
+  Work contact;        ///< normal impulses of contact and walls; negative: taken out of motion
   Work friction;
   double reference = 0;          ///< largest sum of energies so far
   double contact_added_max = 0;  ///< largest work of contact so far; what a faithful contact keeps near 0
   double error_max = 0;
 
   double sum() const {
-    return kinetic + internal + hourglass + viscous - contact.at_step() - friction.at_step();
+    return kinetic + internal + hourglass + viscous + deleted - contact.at_step() - friction.at_step();
   }
   /// What there is, less what there was and what was put in, over the largest sum so far.
   double relative_error() const {
@@ -76,10 +77,11 @@ struct Impulse {
 struct MomentumBook {
   Impulse start, now;  ///< at the last half step, with positions of the step that follows it
   Impulse loads, supports, walls;
+  Impulse dropped;          ///< what left with nodes
   double linear_scale = 0;  ///< largest sum of |m v| so far: what an imbalance is measured against
   double angular_scale = 0;
 
-  /// Largest component of now - start - received, over the scale.
+  /// Largest component of now + dropped - start - received, over the scale.
   double linear_imbalance() const { return imbalance(&Impulse::linear, linear_scale); }
   double angular_imbalance() const { return imbalance(&Impulse::angular, angular_scale); }
 
@@ -88,7 +90,7 @@ struct MomentumBook {
     double largest = 0;
     for (std::size_t i = 0; i < 3; ++i)
       largest = std::max(largest, std::abs((now.*kind)[i] - (start.*kind)[i] - (loads.*kind)[i] -
-                                           (supports.*kind)[i] - (walls.*kind)[i]));
+                                           (supports.*kind)[i] - (walls.*kind)[i] + (dropped.*kind)[i]));
     return scale > 0 ? largest / scale : largest;
   }
 };

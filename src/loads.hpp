@@ -30,6 +30,8 @@ struct NodalLoad {
 struct PressureLoad {
   std::vector<std::array<int, 4>> sides;
   Curve pressure;
+  int part = 0;
+  std::vector<int> element;  ///< of the part's mesh, that each side belongs to
 };
 
 struct ActiveLoad {

@@ -11,6 +11,7 @@
 #include "contact/scene.hpp"
 #include "src/constraints.hpp"
 #include "src/deck.hpp"
+#include "src/erosion.hpp"
 #include "src/ledger.hpp"
 #include "src/loads.hpp"
 #include "src/motion.hpp"
@@ -20,25 +21,14 @@
 
 namespace brio {
 
-/// Where the nodes and elements of a part went.
-struct PartInModel {
-  std::string name;
-  std::size_t block = 0;
-  std::vector<int> node;           ///< node of the part's mesh -> node of the model
-  std::vector<int> element_order;  ///< element of the block -> element of the part's mesh
-  std::vector<int> element_slot;   ///< element of the part's mesh -> element of the block
-  int rigid = -1;                  ///< the rigid body that it is; its block is empty
-  double mass = 0;
-};
-
 /// The step and what bounds it.
 struct StepControl {
   TimeSection settings;
-  double stable = 0;               ///< of all elements, at the present time
-  std::size_t critical_block = 0;  ///< where it is set
-  std::size_t critical_element = 0;
-  double held = 0;          ///< what the bound has left since it last grew
-  double window_least = 0;  ///< least bound of the steps counted in `window`
+  double stable = 0;                 ///< of all elements, at the present time
+  std::size_t critical_block = 0;    ///< where it is set
+  std::size_t critical_element = 0;  ///< of the part's mesh
+  double held = 0;                   ///< what the bound has left since it last grew
+  double window_least = 0;           ///< least bound of the steps counted in `window`
   int window = 0;
   double first = 0;  ///< first step made
   double least = 0;
@@ -46,7 +36,8 @@ struct StepControl {
 };
 
 struct Model {
-  std::int64_t step = 0;  ///< steps made
+  std::int64_t step = 0;             ///< steps made
+  std::int64_t element_updates = 0;  ///< elements swept, summed over the steps
   StepTimes times;
   StepControl control;
   Nodes nodes;
@@ -61,6 +52,8 @@ struct Model {
   std::vector<ContactScene> contacts;            ///< one if the deck names contact, else none
   std::int64_t missed_contacts = 0;              ///< counted by the audit, where the deck asks for it
   std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step
+
+  std::optional<Erosion> erosion;  ///< if elements can be deleted
 
   EnergyBook energy;
   MomentumBook momentum;

@@ -29,11 +29,13 @@ Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBod
     return {v[0], v[1], v[2]};
   }
   Vector sum{};
+  double mass = 0;
   for (int entry : part.node) {
     const auto node = static_cast<std::size_t>(entry);
+    mass += nodes.mass[node];
     for (std::size_t i = 0; i < 3; ++i) sum[i] += nodes.mass[node] * nodes.record[node].velocity[i];
   }
-  for (double& component : sum) component /= part.mass;
+  for (double& component : sum) component = mass > 0 ? component / mass : 0;
   return sum;
 }
 
@@ -56,48 +58,67 @@ void balance_momentum(Model& model) {
   model.momentum.angular_scale = std::max(model.momentum.angular_scale, now.angular_size);
 }
 
+bool can_be_damaged(const Model& model) {
+  return std::any_of(model.blocks.begin(), model.blocks.end(),
+                     [](const Block& block) { return has_failure(block.material); });
+}
+
+std::int64_t deleted_so_far(const Model& model) { return model.erosion ? model.erosion->total_deleted() : 0; }
+
 }  // namespace
 
-FieldObserver::FieldObserver(const Model& model) {
-  std::size_t cells = 0;
-  Topology& topology = snapshot_.topology;
+FieldObserver::FieldObserver(const Model& model) : point_of_node_(model.nodes.size()) {
   for (const PartInModel& part : model.parts) {
-    const auto first_point = static_cast<std::int64_t>(node_of_point_.size());
-    node_of_point_.insert(node_of_point_.end(), part.node.begin(), part.node.end());
-    const Block& block = model.blocks[part.block];
-    const RigidBody* rigid =
-        part.rigid >= 0 ? &model.rigid.body[static_cast<std::size_t>(part.rigid)] : nullptr;
-    const int corners = rigid != nullptr ? rigid->nodes_per_element : nodes_per_element(block.element);
-    std::vector<std::int64_t> point_of_node(model.nodes.size());
-    for (std::size_t i = 0; i < part.node.size(); ++i)
-      point_of_node[static_cast<std::size_t>(part.node[i])] = first_point + static_cast<std::int64_t>(i);
-    for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
-      topology.cell_type.push_back(corners == 8 ? hexahedron_cell : quadrilateral_cell);
-      topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
-      for (int corner = 0; corner < corners; ++corner) {
-        const int node =
-            rigid != nullptr
-                ? rigid
-                      ->connectivity[e * static_cast<std::size_t>(corners) + static_cast<std::size_t>(corner)]
-                : block.node(static_cast<std::size_t>(part.element_slot[e]), corner);
-        topology.connectivity.push_back(point_of_node[static_cast<std::size_t>(node)]);
-      }
+    for (int node : part.node) {
+      point_of_node_[static_cast<std::size_t>(node)] = static_cast<std::int64_t>(node_of_point_.size());
+      node_of_point_.push_back(node);
     }
-    cells += part.element_slot.size();
   }
-  topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
-
   const std::size_t points = node_of_point_.size();
   snapshot_.points.resize(3 * points);
   snapshot_.point_fields = {field("displacement", 3, points, Storage::double_precision),
                             field("velocity", 3, points)};
   if (!model.contacts.empty()) snapshot_.point_fields.push_back(field("contact_force", 3, points));
-  snapshot_.cell_fields = {field("stress", 6, cells), field("equivalent_plastic_strain", 1, cells),
-                           field("part", 1, cells, Storage::integer, true),
-                           field("element_id", 1, cells, Storage::integer, true)};
-  if (has_shells(model)) snapshot_.cell_fields.push_back(field("thickness", 1, cells));
+  snapshot_.cell_fields = {field("stress", 6, 0), field("equivalent_plastic_strain", 1, 0),
+                           field("part", 1, 0, Storage::integer, true),
+                           field("element_id", 1, 0, Storage::integer, true)};
+  const auto add_cell_field = [&](const char* name) {
+    snapshot_.cell_fields.push_back(field(name, 1, 0));
+    return snapshot_.cell_fields.size() - 1;
+  };
+  if (has_shells(model)) thickness_ = add_cell_field("thickness");
+  if (can_be_damaged(model)) damage_ = add_cell_field("damage");
+  take_topology(model);
   fill_points(model);
   reference_ = snapshot_.points;
+}
+
+// Cells of the elements that live, by part and element.
+void FieldObserver::take_topology(const Model& model) {
+  Topology& topology = snapshot_.topology;
+  topology = {};
+  for (const PartInModel& part : model.parts) {
+    const Block& block = model.blocks[part.block];
+    const RigidBody* rigid =
+        part.rigid >= 0 ? &model.rigid.body[static_cast<std::size_t>(part.rigid)] : nullptr;
+    const int corners = rigid != nullptr ? rigid->nodes_per_element : nodes_per_element(block.element);
+    for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
+      if (part.element_slot[e] < 0 && rigid == nullptr) continue;
+      topology.cell_type.push_back(corners == 8 ? hexahedron_cell : quadrilateral_cell);
+      topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+      for (int corner = 0; corner < corners; ++corner) {
+        const std::size_t entry = e * static_cast<std::size_t>(corners) + static_cast<std::size_t>(corner);
+        const int node = rigid != nullptr
+                             ? rigid->connectivity[entry]
+                             : block.node(static_cast<std::size_t>(part.element_slot[e]), corner);
+        topology.connectivity.push_back(point_of_node_[static_cast<std::size_t>(node)]);
+      }
+    }
+  }
+  topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+  for (FieldArray& cell_field : snapshot_.cell_fields)
+    cell_field.values.resize(static_cast<std::size_t>(cell_field.components) * topology.cell_type.size());
+  deleted_ = deleted_so_far(model);
 }
 
 void FieldObserver::fill_points(const Model& model) {
@@ -127,7 +148,8 @@ void FieldObserver::fill_cells(const Model& model) {
   std::size_t cell = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const PartInModel& part = model.parts[p];
-    for (std::size_t e = 0; e < part.element_slot.size(); ++e, ++cell) {
+    for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
+      if (part.element_slot[e] < 0 && part.rigid < 0) continue;
       const ElementSample sample = sample_of(model, part, e);
       double* stress = &snapshot_.cell_fields[0].values[6 * cell];
       const SymmetricTensor<double>& s = sample.stress;
@@ -135,7 +157,9 @@ void FieldObserver::fill_cells(const Model& model) {
       snapshot_.cell_fields[1].values[cell] = sample.equivalent_plastic_strain;
       snapshot_.cell_fields[2].values[cell] = static_cast<double>(p);
       snapshot_.cell_fields[3].values[cell] = static_cast<double>(e);
-      if (snapshot_.cell_fields.size() > 4) snapshot_.cell_fields[4].values[cell] = sample.thickness;
+      if (thickness_) snapshot_.cell_fields[*thickness_].values[cell] = sample.thickness;
+      if (damage_) snapshot_.cell_fields[*damage_].values[cell] = sample.damage;
+      ++cell;
     }
   }
 }
@@ -143,6 +167,10 @@ void FieldObserver::fill_cells(const Model& model) {
 const Snapshot& FieldObserver::observe(const Model& model) {
   snapshot_.time = model.times.time;
   snapshot_.step = model.step;
+  if (deleted_so_far(model) != deleted_) {
+    take_topology(model);
+    ++snapshot_.topology_version;
+  }
   fill_points(model);
   for (std::size_t i = 0; i < reference_.size(); ++i)
     snapshot_.point_fields[0].values[i] = snapshot_.points[i] - reference_[i];
@@ -163,6 +191,7 @@ std::vector<std::string> history_columns(const Model& model) {
                                    "internal",
                                    "hourglass",
                                    "viscous",
+                                   "deleted",
                                    "contact",
                                    "friction",
                                    "external",
@@ -182,7 +211,8 @@ std::vector<std::string> history_columns(const Model& model) {
                                    "support_impulse_z",
                                    "wall_impulse_x",
                                    "wall_impulse_y",
-                                   "wall_impulse_z"};
+                                   "wall_impulse_z",
+                                   "deleted_elements"};
   for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p)
     for (const char* axis : {".velocity_x", ".velocity_y", ".velocity_z"})
       columns.push_back(model.parts[p].name + axis);
@@ -194,7 +224,7 @@ void observe_history(Model& model, std::vector<double>& row) {
   const EnergyBook& energy = model.energy;
   const MomentumBook& book = model.momentum;
   row.assign({model.times.time, static_cast<double>(model.step), model.times.next, energy.kinetic,
-              energy.internal, energy.hourglass, energy.viscous, -energy.contact.at_step(),
+              energy.internal, energy.hourglass, energy.viscous, energy.deleted, -energy.contact.at_step(),
               -energy.friction.at_step(), energy.external.at_step(), energy.sum(), energy.relative_error(),
               energy.contact_added_max});
   for (const Vector& vector : {book.now.linear, book.now.angular})
@@ -203,6 +233,7 @@ void observe_history(Model& model, std::vector<double>& row) {
   row.push_back(book.angular_imbalance());
   for (const Vector& vector : {book.supports.linear, book.walls.linear})
     row.insert(row.end(), vector.begin(), vector.end());
+  row.push_back(static_cast<double>(deleted_so_far(model)));
   for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p) {
     const Vector velocity = mean_velocity(model.parts[p], model.nodes, model.rigid);
     row.insert(row.end(), velocity.begin(), velocity.end());
@@ -222,6 +253,8 @@ std::vector<std::string> active_features(const Model& model) {
   if (!model.prescribed.empty()) features.insert("prescribed_motion");
   if (!model.walls.empty()) features.insert("rigid_wall");
   if (!model.contacts.empty()) features.insert("contact");
+  if (can_be_damaged(model)) features.insert("failure");
+  if (model.erosion) features.insert("deletion");
   return {features.begin(), features.end()};
 }
 
@@ -232,10 +265,26 @@ Summary observe_end(Model& model) {
   summary.time = model.times.time;
   summary.dt = {model.control.least, model.control.largest, model.times.previous};
   summary.nodes = static_cast<std::int64_t>(model.nodes.size());
-  for (const Block& block : model.blocks) {
-    std::int64_t& count =
-        nodes_per_element(block.element) == 8 ? summary.elements.hex8 : summary.elements.shell4;
-    count += static_cast<std::int64_t>(block.element_count);
+  double rigid_mass = 0;
+  for (const PartInModel& part : model.parts) {
+    summary.mass.start += part.mass;
+    if (part.rigid >= 0) {
+      rigid_mass += part.mass;
+      continue;
+    }
+    const bool solid = nodes_per_element(model.blocks[part.block].element) == 8;
+    (solid ? summary.elements.hex8 : summary.elements.shell4) +=
+        static_cast<std::int64_t>(part.element_slot.size());
+    if (model.erosion)
+      (solid ? summary.deleted.hex8 : summary.deleted.shell4) += model.erosion->deleted_count[part.block];
+  }
+  summary.mass.intact = summary.mass.start;
+  if (model.erosion) {
+    const MassBalance balance = mass_balance(*model.erosion, model.nodes);
+    summary.mass.intact = rigid_mass + balance.intact;
+    summary.mass.debris = balance.debris;
+    summary.mass.deleted = model.erosion->dropped_mass;
+    summary.mass.of_deleted_elements = model.erosion->mass_of_deleted;
   }
   const EnergyBook& energy = model.energy;
   summary.energy = {.kinetic = energy.kinetic,
@@ -245,7 +294,7 @@ Summary observe_end(Model& model) {
                     .contact = -energy.contact.at_step(),
                     .friction = -energy.friction.at_step(),
                     .external = energy.external.at_step(),
-                    .deleted = 0,
+                    .deleted = energy.deleted,
                     .total_start = energy.kinetic_start,
                     .error_relative = energy.relative_error()};
   summary.momentum = {model.momentum.now.linear, model.momentum.now.angular};

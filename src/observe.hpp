@@ -1,6 +1,7 @@
 #pragma once
 /// What output shows of a model: fields, history rows, end state.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,12 +24,16 @@ class FieldObserver {
   const Snapshot& observe(const Model& model);
 
  private:
+  void take_topology(const Model& model);
   void fill_points(const Model& model);
   void fill_contact_force(const Model& model);
   void fill_cells(const Model& model);
 
   Snapshot snapshot_;
   std::vector<int> node_of_point_;
+  std::vector<std::int64_t> point_of_node_;
+  std::int64_t deleted_ = 0;                       ///< elements, when the topology was taken
+  std::optional<std::size_t> thickness_, damage_;  ///< places of these among the cell fields
   std::vector<double> reference_;
 };
 

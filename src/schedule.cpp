@@ -100,8 +100,12 @@ SweepSchedule make_schedule(std::span<const Block> blocks, std::size_t node_coun
   std::vector<SweepTask> tasks;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t chunks = std::min(chunk_count(blocks[b].element_count), blocks[b].pack_count);
-    for (std::size_t c = 0; c < chunks; ++c)
-      tasks.push_back({b, {blocks[b].pack_count * c / chunks, blocks[b].pack_count * (c + 1) / chunks}});
+    const auto width = static_cast<std::size_t>(blocks[b].lanes);
+    for (std::size_t c = 0; c < chunks; ++c) {
+      const std::size_t first = blocks[b].pack_count * c / chunks;
+      const std::size_t last = blocks[b].pack_count * (c + 1) / chunks;
+      tasks.push_back({b, {first, last, std::min(last * width, blocks[b].element_count) - first * width}});
+    }
   }
   // Greedy: the first colour that no node of the chunk has seen. A 64-bit set of colours a node is ample for
   // slabs; what finds none free gets a colour of its own.

@@ -23,6 +23,12 @@ struct Summary {
     double total_start = 0;     ///< at the beginning of the run
     double error_relative = 0;  ///< what the balance misses, over the largest energy in it
   };
+  /// Of nodes with elements, of nodes that fly free, of nodes that were dropped: their sum is that of the
+  /// start.
+  struct Masses {
+    double start = 0, intact = 0, debris = 0, deleted = 0;
+    double of_deleted_elements = 0;  ///< rests on their nodes
+  };
   struct Momenta {
     std::array<double, 3> linear{}, angular{};  ///< angular: about the origin
   };
@@ -47,6 +53,7 @@ struct Summary {
   ElementCounts elements;  ///< at the start
   ElementCounts deleted;
   Energies energy;
+  Masses mass;
   Momenta momentum;
   ContactCounts contact;
   WallTimes wall_s;

@@ -50,7 +50,7 @@ class ShellModel {
 
   void sweep(double step) {
     for (std::size_t n = 0; n < nodes.size(); ++n) nodes.force[n] = nodes.moment[n] = {};
-    last = block.kernel.sweep(block, {0, block.pack_count}, nodes, step);
+    last = block.kernel.sweep(block, {0, block.pack_count, block.element_count}, nodes, step);
     work += last.internal_energy + last.hourglass_energy + last.viscous_energy;
   }
 

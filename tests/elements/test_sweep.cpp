@@ -94,7 +94,7 @@ std::vector<double> forces_of_block(const ElasticPlastic& material) {
   for (int step = 0; step < 5; ++step) {
     for (NodeRecord& record : nodes.record)
       for (int k = 0; k < 3; ++k) record.position[k] += 1e-3 * record.velocity[k];
-    block.kernel.sweep(block, {0, 1}, nodes, 1e-3);
+    block.kernel.sweep(block, {0, 1, 1}, nodes, 1e-3);
   }
   for (const NodeVector& force : nodes.force)
     forces.insert(forces.end(), force.component, force.component + 3);

@@ -1,0 +1,51 @@
+#pragma once
+/// When elements of a part are taken out of the run, besides by failure of their material: what a deck says
+/// of it.
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <tuple>
+
+#include "src/base/fields.hpp"
+
+namespace brio {
+
+/// What becomes of a node when its last element is deleted.
+enum class FreeNodes {
+  keep,  ///< it flies on with its mass
+  drop   ///< it leaves the run; its mass, momentum and energy are booked as deleted
+};
+constexpr std::array<NamedValue<FreeNodes>, 2> named_values(FreeNodes) {
+  return {{{"keep", FreeNodes::keep}, {"drop", FreeNodes::drop}}};
+}
+
+struct Deletion {
+  std::optional<double> minimum_step{};
+  bool inverted = false;
+  std::optional<double> plastic_strain{};
+  std::optional<double> volume_ratio{};
+  FreeNodes free_nodes = FreeNodes::keep;
+
+  static constexpr auto fields() {
+    return std::tuple{
+        optional("minimum_step", &Deletion::minimum_step, positive,
+                 "an element whose stable step falls below it is deleted, time"),
+        optional("inverted", &Deletion::inverted, any_number,
+                 "whether an element that inverts is deleted; otherwise it stops the run"),
+        optional("plastic_strain", &Deletion::plastic_strain, positive,
+                 "an element whose equivalent plastic strain, mean of its points, exceeds it is deleted, -"),
+        optional("volume_ratio", &Deletion::volume_ratio,
+                 Range{.lower = 0, .upper = 1, .lower_open = true, .upper_open = true},
+                 "an element whose volume falls below this share of the first is deleted; hexahedra only, -"),
+        optional("free_nodes", &Deletion::free_nodes, any_number,
+                 "whether nodes that have lost all their elements fly on with their mass or leave the run"),
+    };
+  }
+
+  constexpr bool names_a_criterion() const {
+    return minimum_step || inverted || plastic_strain || volume_ratio;
+  }
+};
+
+}  // namespace brio

@@ -1,0 +1,102 @@
+#pragma once
+/// Lanes of a pack whose elements are to be deleted, and what their last step leaves in the books.
+///
+/// An element is deleted at the step at which it asks, before its forces act. Work is booked by the trapezoid
+/// rule: of the step's increments one half belongs to the forces at its start, which acted, and one half to
+/// those at its end, which now do not. That half, f . v dt/2, is taken back; then what the element has
+/// received is what its forces did, and energy is kept as exactly as without deletion.
+
+#include <cmath>
+
+#include "elements/deletion.hpp"
+#include "elements/gather.hpp"
+#include "elements/mean_gradient.hpp"
+#include "elements/motion.hpp"
+#include "materials/failing.hpp"
+
+namespace brio {
+
+/// Mean over the points of an element of what `value` gives for each.
+template <class T, class Point, class Value>
+BRIO_INLINE T mean_over_points(int points, const Point* point, const Value& value) {
+  T sum(0.0);
+  for (int p = 0; p < points; ++p) sum += value(point[p].history);
+  return sum * (1.0 / points);
+}
+
+template <class Kind, class Law, Floating Real, class Header, class Point>
+BRIO_INLINE LaneMask<Real> is_lost(const Kind& kind, const Law& law, const Deletion& deletion,
+                                   const Header& header, const Point* point,
+                                   const MotionOf<Kind, Lanes<Real>>& motion, Lanes<Real> stable_step) {
+  using T = Lanes<Real>;
+  const T zero(0.0);
+  LaneMask<Real> lost = deletion.inverted ? stable_step <= zero : stable_step < T(-HUGE_VAL);
+  if (deletion.minimum_step) lost = lost | ((stable_step < T(*deletion.minimum_step)) & (stable_step > zero));
+  if constexpr (can_fail<Law>) {
+    const T failed = mean_over_points<T>(
+        kind.points(), point, [&](const auto& history) { return where(law.has_failed(history), 1.0, zero); });
+    constexpr double rounding = 1e-6;
+    lost = lost | (failed >= T(law.failure->failed_points - rounding));
+  }
+  if constexpr (requires { point->history.equivalent_plastic_strain; }) {
+    if (deletion.plastic_strain) {
+      const T strain = mean_over_points<T>(
+          kind.points(), point, [](const auto& history) { return history.equivalent_plastic_strain; });
+      lost = lost | (strain > T(*deletion.plastic_strain));
+    }
+  }
+  if constexpr (Kind::nodes == 8) {
+    if (deletion.volume_ratio) {
+      const T volume = mean_gradient(modes(motion.position)).volume;
+      const auto shrunk = volume * T(law.density) < T(*deletion.volume_ratio) * header.mass;
+      lost = lost | (shrunk & (stable_step > zero));
+    }
+  }
+  return lost;
+}
+
+/// Takes back the forces of lost lanes and their half of the step's work. Of an element that has inverted
+/// nothing of this step can be told: its increments are left out.
+template <class Kind, Floating Real>
+BRIO_INLINE void take_back(LaneMask<Real> lost, const MotionOf<Kind, Lanes<Real>>& motion, double step,
+                           ForcesOf<Kind, Lanes<Real>>& forces, Increment<Lanes<Real>>& increment) {
+  using T = Lanes<Real>;
+  const T zero(0.0);
+  T power = zero;
+  for (int corner = 0; corner < Kind::nodes; ++corner)
+    for (int i = 0; i < 3; ++i) {
+      T& force = forces.force[i][corner];
+      power += force * (motion.velocity[i][corner] - motion.velocity[i][0]);
+      force = where(lost, zero, force);
+      if constexpr (Kind::rotations) {
+        T& moment = forces.moment[i][corner];
+        power += moment * motion.angular_velocity[i][corner];
+        moment = where(lost, zero, moment);
+      }
+    }
+  const auto broken = lost & (increment.stable_step <= zero);
+  const T internal = increment.internal_energy - where(lost, (0.5 * step) * power, zero);
+  increment.internal_energy = where(broken, zero, internal);
+  increment.hourglass_energy = where(broken, zero, increment.hourglass_energy);
+  increment.viscous_energy = where(broken, zero, increment.viscous_energy);
+  increment.stable_step = where(lost, T(HUGE_VAL), increment.stable_step);
+}
+
+/// Adds to the energies that the elements of a pack have received: `held` has internal energies of all
+/// lanes, then hourglass energies.
+template <Floating Real>
+BRIO_INLINE void hold(const Increment<Lanes<Real>>& increment, double* held) {
+  constexpr int groups = lane_count<Real> / 8;
+  Row8 energy[2 * groups];
+  widen(increment.internal_energy, energy);
+  widen(increment.hourglass_energy, energy + groups);
+  for (int group = 0; group < 2 * groups; ++group) {
+    Row8 sum;
+    double* place = static_cast<double*>(__builtin_assume_aligned(held + 8 * group, 64));
+    __builtin_memcpy(&sum, place, sizeof sum);
+    sum += energy[group];
+    __builtin_memcpy(place, &sum, sizeof sum);
+  }
+}
+
+}  // namespace brio

@@ -1,0 +1,157 @@
+#pragma once
+/// Any plastic law with damage: the stress carried is (1 - damage) of that of the law, which goes on by
+/// itself (Wellman, SAND2012-1343, and the pipe of Heinstein, Attaway, Swegle & Mello 1993). With sigma_1 the
+/// largest principal stress of the law, n its direction and p the equivalent plastic strain:
+///
+///     failure sets in     p > failure strain, or TP > tearing parameter, where
+///                         TP = integral of < 2 sigma_1 / (3 (sigma_1 - sigma_m)) >^4 dp
+///     opening             d(damage) = <n . d(eps) . n> / opening strain      while sigma_1 > 0, once it has
+///     in tension          d(damage) = dp / failure strain                    while sigma_1 > 0
+///
+/// Of the step in which failure sets in, the part beyond the bound counts. A point whose damage has reached
+/// deletion_damage carries nothing from then on.
+
+#include "materials/failure.hpp"
+#include "materials/principal_stress.hpp"
+#include "materials/stress_state.hpp"
+
+namespace brio {
+
+template <class Law>
+struct DeckLaw {
+  using Type = Law;
+};
+template <class Law>
+requires requires { typename Law::Settings; }
+struct DeckLaw<Law> {
+  using Type = typename Law::Settings;
+};
+
+/// \tparam Law has `failure`, and a history with `equivalent_plastic_strain`.
+template <class Law>
+struct Failing : Law {
+  using Settings = typename DeckLaw<Law>::Type;
+
+  template <class T>
+  struct History : Law::template History<T> {
+    T damage;
+    T tearing_parameter;  ///< 0 where the deck does not name it
+    T opening_strain;     ///< at which damage is 1
+  };
+
+  template <class T>
+  ElasticModuli<T> moduli(const History<T>& history) const {
+    return Law::moduli(static_cast<const typename Law::template History<T>&>(history));
+  }
+
+  /// \param size edge length of the piece of the body that the point stands for
+  template <class T>
+  void start(History<T>& history, T size) const {
+    const Failure& f = *this->failure;
+    history.opening_strain = T(f.opening_strain.value_or(0));
+    if (f.opening_displacement) history.opening_strain = T(*f.opening_displacement) / size;
+  }
+
+  template <class T>
+  BRIO_INLINE MaskOf<T> has_failed(const History<T>& history) const {
+    return history.damage >= T(this->failure->deletion_damage);
+  }
+
+  template <class T>
+  BRIO_INLINE void update(const SymmetricTensor<T>& strain_increment, SymmetricTensor<T>& stress,
+                          History<T>& history) const {
+    stress = undamaged_share(history) * stress;
+    const T plastic_strain = history.equivalent_plastic_strain;
+    Law::update(strain_increment, stress, history);
+    grow_damage(strain_increment, stress, plastic_strain, history);
+    stress = carried_share(history) * stress;
+  }
+
+  template <class T>
+  BRIO_INLINE void update_plane_stress(const ShellTensor<T>& strain_increment, double shear_factor,
+                                       ShellTensor<T>& stress, History<T>& history,
+                                       T& thickness_strain_increment) const {
+    stress = undamaged_share(history) * stress;
+    const T plastic_strain = history.equivalent_plastic_strain;
+    Law::update_plane_stress(strain_increment, shear_factor, stress, history, thickness_strain_increment);
+    const SymmetricTensor<T> strain{strain_increment.xx, strain_increment.yy, thickness_strain_increment,
+                                    strain_increment.xy, strain_increment.yz, strain_increment.xz};
+    const SymmetricTensor<T> in_space{stress.xx, stress.yy, T(0.0), stress.xy, stress.yz, stress.xz};
+    grow_damage(strain, in_space, plastic_strain, history);
+    stress = carried_share(history) * stress;
+  }
+
+ private:
+  /// What a point that has failed holds is nothing, and stays so.
+  template <class T>
+  BRIO_INLINE T undamaged_share(const History<T>& history) const {
+    const auto failed = has_failed(history);
+    return where(failed, T(0.0), 1.0 / where(failed, T(1.0), 1.0 - history.damage));
+  }
+  template <class T>
+  BRIO_INLINE T carried_share(const History<T>& history) const {
+    return where(has_failed(history), T(0.0), 1.0 - history.damage);
+  }
+
+  /// \param before equivalent plastic strain at the start of the step
+  template <class T>
+  BRIO_INLINE void grow_damage(const SymmetricTensor<T>& strain_increment, const SymmetricTensor<T>& stress,
+                               T before, History<T>& history) const {
+    const Failure& f = *this->failure;
+    const auto failed = has_failed(history);
+    // What a failed point does is no longer that of the material.
+    history.equivalent_plastic_strain = where(failed, before, history.equivalent_plastic_strain);
+    const T flow = history.equivalent_plastic_strain - before;
+    if (f.damage_growth == DamageGrowth::plastic_strain_in_tension) {
+      if (!any(flow > T(0.0))) return;
+      const T tension = largest_principal(stress).value;
+      add_damage(where(tension > T(0.0), flow * T(1 / *f.strain), T(0.0)), history);
+      return;
+    }
+    T measure_before = before;
+    T measure = history.equivalent_plastic_strain;
+    double bound = f.strain.value_or(0);
+    if (f.tearing_parameter) {
+      measure_before = history.tearing_parameter;
+      const auto flows = flow > T(0.0);
+      if (any(flows)) {
+        const T growth = tearing(stress, largest_principal(stress).value) * flow;
+        history.tearing_parameter += where(flows, growth, T(0.0));
+      }
+      measure = history.tearing_parameter;
+      bound = *f.tearing_parameter;
+    }
+    const auto fails = (measure > T(bound)) & !failed;
+    if (!any(fails)) return;
+    // The share of the step beyond the bound.
+    const T step = measure - measure_before;
+    const auto crosses = fails & (measure_before < T(bound));
+    const T share = where(crosses, (measure - T(bound)) / where(crosses, step, T(1.0)), T(1.0));
+    const PrincipalValue<T> principal = largest_principal(stress);
+    const T opening = max(along(strain_increment, principal.direction), T(0.0));
+    const auto opens = fails & (principal.value > T(0.0));
+    add_damage(where(opens, share * opening / history.opening_strain, T(0.0)), history);
+  }
+
+  template <class T>
+  BRIO_INLINE static void add_damage(T growth, History<T>& history) {
+    history.damage = min(history.damage + growth, T(1.0));
+  }
+
+  /// < 2 sigma_1 / (3 (sigma_1 - sigma_m)) >^4, 1 in uniaxial tension; 0 where nothing but pressure acts.
+  template <class T>
+  BRIO_INLINE static T tearing(const SymmetricTensor<T>& stress, T largest) {
+    const T deviatoric = largest - trace(stress) * (1.0 / 3.0);
+    const auto sheared = (deviatoric > T(0.0)) & (largest > T(0.0));
+    const T ratio = where(sheared, (2.0 / 3.0) * largest / where(sheared, deviatoric, T(1.0)), T(0.0));
+    return square(square(ratio));
+  }
+};
+
+/// Laws that can lose a point.
+template <class Law>
+inline constexpr bool can_fail = requires(const Law& law, const typename Law::template History<double>& h) {
+  law.has_failed(h);
+};
+
+}  // namespace brio

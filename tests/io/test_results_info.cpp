@@ -59,7 +59,7 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
   using Names = std::vector<std::string>;
   const auto json = nlohmann::ordered_json::parse(summary_json(summary()));
   EXPECT_EQ(keys(json), (Names{"version", "deck", "status", "exit_code", "steps", "time", "dt", "nodes",
-                               "elements", "deleted", "energy", "momentum", "contact", "wall_s",
+                               "elements", "deleted", "energy", "mass", "momentum", "contact", "wall_s",
                                "element_updates_per_s", "peak_memory_mb", "threads", "active_features"}));
   EXPECT_EQ(keys(json["dt"]), (Names{"min", "max", "last"}));
   EXPECT_EQ(keys(json["elements"]), (Names{"hex8", "shell4", "beam2", "particle"}));

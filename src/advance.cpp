@@ -77,13 +77,15 @@ void sweep_elements(Model& model, ThreadTeam& team) {
 }
 
 // After the sweep, whose order of elements it changes, and before contact, whose surfaces it opens.
-void erode_elements(Model& model) {
+void erode_elements(Model& model, ThreadTeam& team) {
   if (!model.erosion) return;
   const StageTimer timer(model.stages, Stage::erosion);
   Erosion& erosion = *model.erosion;
   erode(erosion, model.schedule, model.sweep_results, model.blocks, model.parts, model.energy);
   if (erosion.deleted.empty()) return;
   for (ActiveLoad& load : model.loads) drop_sides(load, erosion.deleted);
+  for (ContactScene& scene : model.contacts)
+    erode(scene, *model.surface_numbers, erosion.deleted, model.nodes, team);
   if (!is_sparse(model.schedule, model.blocks)) return;
   model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());
@@ -230,7 +232,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   if (model.erosion) drop_nodes(*model.erosion, model.nodes, energy, model.momentum);
   apply_loads(model);
   sweep_elements(model, team);
-  erode_elements(model);
+  erode_elements(model, team);
   choose_step(model);
   energy.external.before += load_work(model);
   KineticEnergy kinetic;

@@ -202,11 +202,19 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
                   const std::vector<std::vector<int>>& connectivity, Model& model) {
   if (!deck.contact) return;
   std::vector<SurfacePart> surfaces;
+  if (can_erode(model.blocks))
+    model.surface_numbers = {.part = std::vector<int>(deck.parts.size(), -1),
+                             .element = std::vector<std::vector<int>>(deck.parts.size()),
+                             .deleted = {}};
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Part& part = deck.parts[p];
     if (!takes_part(*deck.contact, part.name)) continue;
     const bool shell = meshes[p].nodes_per_element == 4;
     const std::size_t shells = shell ? meshes[p].element_count() : 0;
+    if (model.surface_numbers) {
+      model.surface_numbers->part[p] = static_cast<int>(surfaces.size());
+      model.surface_numbers->element[p] = model.parts[p].element_slot;
+    }
     surfaces.push_back({.name = part.name,
                         .shell = shell,
                         .nodes_per_element = meshes[p].nodes_per_element,
@@ -216,6 +224,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
   }
   try {
     model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));
+    if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
     ThreadTeam team(1);
     model.initial_overlaps = remove_initial_overlap(model.contacts.back(), model.nodes, team);
   } catch (const std::invalid_argument& fault) {

@@ -18,6 +18,7 @@
 #include "src/rigid.hpp"
 #include "src/schedule.hpp"
 #include "src/stage_times.hpp"
+#include "src/surface_numbers.hpp"
 
 namespace brio {
 
@@ -53,7 +54,8 @@ struct Model {
   std::int64_t missed_contacts = 0;              ///< counted by the audit, where the deck asks for it
   std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step
 
-  std::optional<Erosion> erosion;  ///< if elements can be deleted
+  std::optional<Erosion> erosion;                 ///< if elements can be deleted
+  std::optional<SurfaceNumbers> surface_numbers;  ///< if elements can be deleted and the deck names contact
 
   EnergyBook energy;
   MomentumBook momentum;

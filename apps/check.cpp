@@ -62,9 +62,18 @@ void check(const std::filesystem::path& path, const std::vector<std::string>& ov
   fmt::print("switched on:");
   for (const std::string& feature : active_features(model)) fmt::print(" {}", feature);
   fmt::print("\n");
+  print_overlaps(model.initial_overlaps);
 }
 
 }  // namespace
+
+void print_overlaps(std::span<const InitialOverlap> overlaps) {
+  for (const InitialOverlap& overlap : overlaps)
+    fmt::print(
+        "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
+        "{:.3g}\n",
+        overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
+}
 
 void add_check_command(CLI::App& program, int&) {
   struct Arguments {

@@ -54,6 +54,7 @@ class ProgressLine {
 };
 
 void print_outcome(const RunOutcome& outcome) {
+  print_overlaps(outcome.initial_overlaps);
   const Summary& summary = outcome.summary;
   fmt::print("{} at time {:.6g} after {} steps, {} ({:.3g} million element updates a second)\n",
              summary.status, summary.time, summary.steps, duration(summary.wall_s.total),

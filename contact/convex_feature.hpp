@@ -36,7 +36,7 @@ struct NodeAtFeature {
   double reach;                 ///< distance at which node and face touch
 };
 
-/// Where a contact is put. Without weights (all zero) there is nothing to separate.
+/// Where a contact is put, if one is needed: a node beside the body by more than a hair needs none.
 struct Separation {
   int face = 0;
   std::array<double, 4> weights{};

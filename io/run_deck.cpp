@@ -161,6 +161,7 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.vtkhdf = writer.vtkhdf();
   outcome.xdmf = writer.xdmf();
   outcome.summary_file = writer.summary();
+  outcome.initial_overlaps = model.initial_overlaps;
   Output output(deck, model, writer);
   Summary state;
   outcome.message = march(deck, options, model, output, state);

@@ -106,6 +106,28 @@ TEST_F(Program, CheckSaysWhatIsSwitchedOnAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "cube.results"));
 }
 
+TEST_F(Program, OverlapsOfTheMeshAreReported) {
+  write("two.yaml", R"(
+materials:
+  rubber: {model: elastic, density: 1000, youngs_modulus: 1e6, poissons_ratio: 0.3}
+parts:
+  lower: {mesh: {box: {size: [1, 1, 1], elements: [2, 2, 2]}}, element: hex8, material: rubber}
+  upper:
+    mesh: {box: {size: [0.5, 0.5, 0.5], elements: [1, 1, 1]}}
+    placement: {translate: [0.05, 0.02, 0.745]}
+    element: hex8
+    material: rubber
+contact: {surfaces: all}
+time: {end: 1e-3}
+)");
+  for (const std::string command : {"check two.yaml", "run two.yaml --threads 1"}) {
+    const Ending ending = brio(command);
+    EXPECT_EQ(ending.exit_code, 0) << ending.faults;
+    EXPECT_NE(ending.output.find("nodes of 'upper' lay in 'lower', the deepest by 0.005"), std::string::npos)
+        << ending.output;
+  }
+}
+
 TEST_F(Program, BadDecksEndWithTwoNameThePlaceAndLeaveNothing) {
   const auto with = [](std::string text, const std::string& from, const std::string& to) {
     return text.replace(text.find(from), from.size(), to);

@@ -38,7 +38,7 @@ struct RunOptions {
 struct RunOutcome {
   Summary summary;
   std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step
-  std::string message;  ///< why the run ended early; empty if it reached its end
+  std::string message;                           ///< why the run ended early; empty if it reached its end
   std::filesystem::path folder;
   std::filesystem::path vtkhdf, xdmf, summary_file;
 };

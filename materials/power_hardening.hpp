@@ -33,7 +33,42 @@ struct PowerHardening {
   BRIO_INLINE HardeningPoint<T> at(T plastic_strain) const {
     const T beyond = max(plastic_strain - T(luders_strain), 0.0);
     const T rise = T(constant) * pow(beyond, exponent);
-    return {plastic_strain, T(yield_stress) + rise, T(exponent) * rise / max(beyond, least<T>)};
+    return {plastic_strain, T(yield_stress) + rise, T(exponent) * rise * inverse_of(beyond)};
+  }
+
+  /// The curve at another strain than that of `near`.
+  template <class T>
+  BRIO_INLINE HardeningPoint<T> along(const HardeningPoint<T>& near, T plastic_strain) const {
+    const T distance = plastic_strain - near.plastic_strain;
+    if (!all(is_near(near, distance))) return at(plastic_strain);
+    const T relative = distance * inverse_of(max(near.plastic_strain - T(luders_strain), 0.0));
+    const T rise = (near.stress - T(yield_stress)) * binomial_series(relative);
+    // 1 / (1 + x), as far as a slope needs it that acts over a small distance.
+    const T inverse =
+        1.0 - relative * (1.0 - relative * (1.0 - relative * (1.0 - relative * (1.0 - relative))));
+    return {plastic_strain, T(yield_stress) + rise, near.slope * binomial_series(relative) * inverse};
+  }
+  template <class T>
+  BRIO_INLINE T curvature(const HardeningPoint<T>& point) const {
+    return T(exponent - 1) * point.slope * inverse_of(max(point.plastic_strain - T(luders_strain), 0.0));
+  }
+  template <class T>
+  BRIO_INLINE MaskOf<T> is_near(const HardeningPoint<T>& point, T distance) const {
+    return abs(distance) <= T(series_reach) * max(point.plastic_strain - T(luders_strain), 0.0);
+  }
+  template <class T>
+  BRIO_INLINE MaskOf<T> has_tangent_over(const HardeningPoint<T>& point, T distance) const {
+    return abs(distance) <= max(point.plastic_strain - T(luders_strain), 0.0);
+  }
+  template <class T>
+  BRIO_INLINE MaskOf<T> bends(const HardeningPoint<T>& point, T distance) const {
+    constexpr double round_off = 0.5 * std::numeric_limits<RealOf<T>>::epsilon();
+    return point.slope * square(distance) >=
+           round_off * point.stress * (point.plastic_strain - T(luders_strain));
+  }
+  template <class T>
+  BRIO_INLINE MaskOf<T> is_concave_from(const HardeningPoint<T>& point) const {
+    return point.plastic_strain >= T(luders_strain);
   }
 
   template <class T>
@@ -94,6 +129,11 @@ struct PowerHardening {
   template <class T>
   static constexpr int series_terms = sizeof(RealOf<T>) == 8 ? 10 : 5;
   static constexpr int most_iterations = 100;
+
+  template <class T>
+  BRIO_INLINE T inverse_of(T beyond) const {
+    return 1.0 / max(beyond, least<T>);
+  }
 
   /// (1 + x)^exponent for small x: 1 + n x (1 + (n-1)/2 x (1 + (n-2)/3 x (...))).
   template <class T>

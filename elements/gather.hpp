@@ -112,10 +112,10 @@ BRIO_INLINE void widen(Lanes<Real> lanes, Row8* wide) {
   }
 }
 
-/// Subtract three components from the rows of the first `count` lanes; \param is_full all lanes count.
-template <Floating Real, bool is_full>
-BRIO_INLINE void subtract_from_rows(NodeVector* first, const int* node, int count, Lanes<Real> x,
-                                    Lanes<Real> y, Lanes<Real> z) {
+/// Subtract three components from the rows of all lanes.
+template <Floating Real>
+BRIO_INLINE void subtract_from_rows(NodeVector* first, const int* node, Lanes<Real> x, Lanes<Real> y,
+                                    Lanes<Real> z) {
   WideVector<Real> wide;
   widen(x, wide.x);
   widen(y, wide.y);
@@ -126,7 +126,6 @@ BRIO_INLINE void subtract_from_rows(NodeVector* first, const int* node, int coun
     transpose_lanes(wide.x[group], wide.y[group], wide.z[group], rows);
 #pragma GCC unroll 8
     for (int lane = 0; lane < 8; ++lane) {
-      if (!is_full && 8 * group + lane >= count) break;
       double* row = first[node[8 * group + lane]].component;
       store_row(row, load_row(row) - rows[lane]);
     }

@@ -115,18 +115,40 @@ BRIO_INLINE MotionOf<Kind, Lanes<Real>> gather_motion(const Nodes& nodes, const 
   return motion;
 }
 
-template <class Kind, Floating Real, bool is_full>
-BRIO_INLINE void scatter(Nodes& nodes, const int* connectivity, int count,
-                         const ForcesOf<Kind, Lanes<Real>>& forces) {
+/// The same as a call, where time does not matter.
+template <class Kind, Floating Real>
+[[gnu::noinline]] MotionOf<Kind, Lanes<Real>> gather_motion_once(const Nodes& nodes,
+                                                                 const int* connectivity) {
+  return gather_motion<Kind, Real>(nodes, connectivity);
+}
+
+template <class Kind, Floating Real>
+BRIO_INLINE void scatter(Nodes& nodes, const int* connectivity, const ForcesOf<Kind, Lanes<Real>>& forces) {
 #pragma GCC unroll 8
   for (int corner = 0; corner < Kind::nodes; ++corner) {
     const int* node = connectivity + corner * lane_count<Real>;
-    subtract_from_rows<Real, is_full>(nodes.force.data(), node, count, forces.force[0][corner],
-                                      forces.force[1][corner], forces.force[2][corner]);
+    subtract_from_rows<Real>(nodes.force.data(), node, forces.force[0][corner], forces.force[1][corner],
+                             forces.force[2][corner]);
     if constexpr (Kind::rotations)
-      subtract_from_rows<Real, is_full>(nodes.moment.data(), node, count, forces.moment[0][corner],
-                                        forces.moment[1][corner], forces.moment[2][corner]);
+      subtract_from_rows<Real>(nodes.moment.data(), node, forces.moment[0][corner], forces.moment[1][corner],
+                               forces.moment[2][corner]);
   }
+}
+
+/// The first `count` lanes of the last pack of a chunk: kept out of the loop, where it would be the larger
+/// part of the code.
+template <class Kind, Floating Real>
+[[gnu::noinline]] void scatter_first(Nodes& nodes, const int* connectivity, int count,
+                                     const ForcesOf<Kind, Lanes<Real>>& forces) {
+  for (int corner = 0; corner < Kind::nodes; ++corner)
+    for (int lane = 0; lane < count; ++lane) {
+      const auto node = static_cast<std::size_t>(connectivity[corner * lane_count<Real> + lane]);
+      for (int i = 0; i < 3; ++i) {
+        nodes.force[node].component[i] -= static_cast<double>(forces.force[i][corner][lane]);
+        if constexpr (Kind::rotations)
+          nodes.moment[node].component[i] -= static_cast<double>(forces.moment[i][corner][lane]);
+      }
+    }
 }
 
 /// Sum in double, lane by lane, over the packs of a chunk.
@@ -149,6 +171,16 @@ struct LaneSum {
   }
 };
 
+/// Asks for the state of a pack that comes next: a pack is more work than the processor looks ahead.
+template <class Layout, class Kind>
+BRIO_INLINE void prefetch_state(const Block& block, const Kind& kind, std::size_t pack) {
+  constexpr std::size_t cache_line = 64;
+  if (pack >= block.pack_count) return;
+  const std::byte* state = block.state.data() + pack * block.pack_bytes;
+  for (std::size_t byte = 0; byte < Layout::bytes(kind); byte += cache_line)
+    __builtin_prefetch(state + byte, 1);
+}
+
 template <class Kind, class Law, Floating Real>
 SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   using T = Lanes<Real>;
@@ -166,6 +198,7 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
         block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
     const int count = static_cast<int>(std::min<std::size_t>(width, chunk.element_count - done));
     const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
+    prefetch_state<Layout>(block, kind, pack + 1);
     ForcesOf<Kind, T> forces;
     Increment<T> increment =
         kind.force(motion, T(step), law, Layout::header(block, pack), Layout::points(block, pack), forces);
@@ -182,9 +215,10 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
       hold<Real>(increment, block.held.data() + pack * 2 * width);
     }
     if (count == width) {
-      scatter<Kind, Real, true>(nodes, connectivity, count, forces);
+      scatter<Kind, Real>(nodes, connectivity, forces);
     } else {
-      scatter<Kind, Real, false>(nodes, connectivity, count, forces);
+      const ForcesOf<Kind, T> in_memory = forces;  // so that `forces` itself can stay in registers
+      scatter_first<Kind, Real>(nodes, connectivity, count, in_memory);
     }
     internal_energy.add(increment.internal_energy, count);
     hourglass_energy.add(increment.hourglass_energy, count);
@@ -231,7 +265,7 @@ void initialize_block(Block& block, Nodes& nodes) {
   for (std::size_t pack = 0; pack < block.pack_count; ++pack) {
     const int* connectivity =
         block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
-    const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
+    const MotionOf<Kind, T> motion = gather_motion_once<Kind, Real>(nodes, connectivity);
     const NodalMass<T> share =
         kind.initialize(motion, law, Layout::header(block, pack), Layout::points(block, pack));
     if constexpr (requires { law.start(Layout::points(block, pack)->history, share.mass); }) {
@@ -334,7 +368,8 @@ void set_kernel_with_failure(const Settings& settings, Block& block) {
   set_kernel<Kind, Law>(block);
 }
 
-/// Sets block.kernel and block.pack_bytes; instantiates every accepted law in both precisions.
+/// Sets block.kernel and block.pack_bytes; instantiates every accepted law in both precisions. Compiled in
+/// one source a kind.
 template <class Kind>
 void choose_kernel_of(Block& block) {
   std::visit(
@@ -357,7 +392,7 @@ void choose_kernel_of(Block& block) {
       block.material);
 }
 
-// One translation unit an element kind holds the code of its kernels.
+// One source holds the code of the kernels of an element kind and objective rate.
 void choose_kernel(const Hex8&, Block& block);
 void choose_kernel(const Shell4&, Block& block);
 void choose_kernel(const Hex8Full&, Block& block);

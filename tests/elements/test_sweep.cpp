@@ -57,9 +57,9 @@ TEST(Sweep, ScattersEveryCornerOfFullAndPartialPacks) {
   for (const int count : {1, 7, 8, 9, width}) {
     Nodes nodes(100, false);
     if (count == width) {
-      scatter<Hex8Kernel<ObjectiveRate::jaumann>, float, true>(nodes, connectivity.data(), count, forces);
+      scatter<Hex8Kernel<ObjectiveRate::jaumann>, float>(nodes, connectivity.data(), forces);
     } else {
-      scatter<Hex8Kernel<ObjectiveRate::jaumann>, float, false>(nodes, connectivity.data(), count, forces);
+      scatter_first<Hex8Kernel<ObjectiveRate::jaumann>, float>(nodes, connectivity.data(), count, forces);
     }
     std::vector<double> expected(300, 0.0);
     for (int corner = 0; corner < 8; ++corner)

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/bench/wanted.hpp"
 #include "elements/block.hpp"
 #include "src/motion.hpp"
 #include "src/schedule.hpp"
@@ -145,16 +146,6 @@ double bytes_per_element(const Scene& scene) {
   const Block& block = scene.blocks[0];
   return (nodes + static_cast<double>(block.state.size() + block.connectivity.size() * sizeof(int))) /
          static_cast<double>(scene.elements);
-}
-
-// True where every comma-separated word stands in the line.
-bool wanted(std::string_view words, std::string_view line) {
-  while (!words.empty()) {
-    const std::size_t end = std::min(words.find(','), words.size());
-    if (line.find(words.substr(0, end)) == std::string_view::npos) return false;
-    words.remove_prefix(std::min(end + 1, words.size()));
-  }
-  return true;
 }
 
 void measure(const Settings& settings, const Grid& grid, std::string_view label, const Element& element,

@@ -2,7 +2,7 @@
 // the points through the thickness, hourglass control, stable step, energies, scatter, motion and turning of
 // the nodes).
 //
-//     bench_shell [--size N] [--repeats R] [--csv]
+//     bench_shell [--size N] [--repeats R] [--only WORD,WORD] [--csv]
 //
 // The slow sheet stays elastic; in the fast one most points yield.
 
@@ -13,9 +13,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "apps/bench/wanted.hpp"
 #include "elements/block.hpp"
 #include "src/motion.hpp"
 #include "src/schedule.hpp"
@@ -28,6 +30,7 @@ struct Settings {
   int size = 512;
   int repeats = 9;
   bool csv = false;
+  std::string only;  ///< lines that hold these words
 };
 
 struct Scene {
@@ -142,6 +145,10 @@ double plastic_share(const Scene& scene) {
 
 void measure(const Settings& settings, double speed, const Shell4& shell, const Material& material,
              Precision precision, int threads) {
+  const std::string_view number = precision == Precision::double_precision ? "double" : "float";
+  const std::string_view sheet_name = speed < 100 ? "slow" : "fast";
+  if (!wanted(settings.only, fmt::format("{} {} {} {}", name_of(material), sheet_name, number, threads)))
+    return;
   Scene scene = sheet(settings.size, speed, shell, material, precision);
   ThreadTeam team(threads);
   seconds_per_step(scene, team);
@@ -154,8 +161,7 @@ void measure(const Settings& settings, double speed, const Shell4& shell, const 
   fmt::print(fmt::runtime(settings.csv
                               ? "{},{},{},{},{:.2f},{:.3f},{:.3f},{:.0f},{:.4f}\n"
                               : "{:<20} {:>6} {:<7} {:>7} {:>8.2f} {:>12.2f} {:>12.2f} {:>10.0f} {:>8.4f}\n"),
-             name_of(material), shell.thickness_points,
-             precision == Precision::double_precision ? "double" : "float", threads, plastic_share(scene),
+             name_of(material), shell.thickness_points, number, threads, plastic_share(scene),
              million / seconds.front(), million / seconds[seconds.size() / 2], bytes_per_element(scene),
              energy);
 }
@@ -170,8 +176,10 @@ Settings settings_of(int count, char** words) {
       settings.size = std::max(1, std::atoi(words[++i]));
     } else if (word == "--repeats" && i + 1 < count) {
       settings.repeats = std::max(1, std::atoi(words[++i]));
+    } else if (word == "--only" && i + 1 < count) {
+      settings.only = words[++i];
     } else {
-      fmt::print(stderr, "usage: bench_shell [--size N] [--repeats R] [--csv]\n");
+      fmt::print(stderr, "usage: bench_shell [--size N] [--repeats R] [--only WORD,WORD] [--csv]\n");
       std::exit(2);
     }
   }

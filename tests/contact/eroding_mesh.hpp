@@ -11,7 +11,7 @@
 
 #include "contact/surface_topology.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 
 struct ErodingMesh {
   struct Part {
@@ -186,4 +186,4 @@ inline void expect_same_surface(const Surface& mended, const Surface& rebuilt) {
   }
 }
 
-}  // namespace brio::testing
+}  // namespace brio::test

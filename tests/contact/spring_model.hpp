@@ -16,7 +16,7 @@
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 
 using Eigen::Vector3d;
 
@@ -298,4 +298,4 @@ class SpringModel {
   ThreadTeam alone_{1};
 };
 
-}  // namespace brio::testing
+}  // namespace brio::test

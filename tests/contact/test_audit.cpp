@@ -3,7 +3,7 @@
 #include "contact/audit.hpp"
 #include "tests/contact/spring_model.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 namespace {
 
 void move_nodes(SpringModel& model, int first, int end, const Vector3d& by) {
@@ -68,4 +68,4 @@ TEST(Audit, FindsASolidThatCutsItself) {
 }
 
 }  // namespace
-}  // namespace brio::testing
+}  // namespace brio::test

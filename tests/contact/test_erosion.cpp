@@ -8,7 +8,7 @@
 #include "contact/face_geometry.hpp"
 #include "tests/contact/spring_model.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 namespace {
 
 // Pairs of slave nodes and faces that are not excluded.
@@ -356,4 +356,4 @@ TEST(Erosion, ATornShellDoesNotPushItselfApart) {
 }
 
 }  // namespace
-}  // namespace brio::testing
+}  // namespace brio::test

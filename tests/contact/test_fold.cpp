@@ -3,7 +3,7 @@
 #include "contact/audit.hpp"
 #include "tests/contact/spring_model.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 namespace {
 
 // A strip whose ends are driven together folds onto itself, at three meshes whose cells are one contact
@@ -43,4 +43,4 @@ TEST(FoldingStripSlow, NeverPassesThroughItself) {
 }
 
 }  // namespace
-}  // namespace brio::testing
+}  // namespace brio::test

@@ -2,7 +2,7 @@
 
 #include "tests/contact/spring_model.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 namespace {
 
 const Map as_is = shifted({0, 0, 0});
@@ -57,4 +57,4 @@ TEST(ImpactSlow, TwoEqualBlocksExchangeTheirVelocities) {
 }
 
 }  // namespace
-}  // namespace brio::testing
+}  // namespace brio::test

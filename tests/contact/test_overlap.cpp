@@ -3,7 +3,7 @@
 #include "contact/overlap.hpp"
 #include "tests/contact/spring_model.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 namespace {
 
 // Two blocks of unit cells, the upper one sunk in by `depth`, turned a little so that nodes meet faces.
@@ -74,4 +74,4 @@ TEST(InitialOverlap, HeldPartStaysWhereItIs) {
 }
 
 }  // namespace
-}  // namespace brio::testing
+}  // namespace brio::test

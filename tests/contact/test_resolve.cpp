@@ -5,7 +5,7 @@
 #include "contact/audit.hpp"
 #include "tests/contact/spring_model.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 namespace {
 
 Map turned_and_shifted(double angle, const Vector3d& axis, const Vector3d& by) {
@@ -265,4 +265,4 @@ TEST(Seams, AHitOnASeamIsOneContact) {
 }
 
 }  // namespace
-}  // namespace brio::testing
+}  // namespace brio::test

@@ -7,7 +7,7 @@
 #include "contact/travel.hpp"
 #include "tests/contact/spring_model.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 namespace {
 
 using Build = std::function<void(SpringModel&)>;
@@ -219,4 +219,4 @@ TEST(Travel, BoundsHowMuchNearerAnyNodeComesToAnyFace) {
 }
 
 }  // namespace
-}  // namespace brio::testing
+}  // namespace brio::test

@@ -10,7 +10,7 @@
 #include "contact/face_geometry.hpp"
 #include "tests/contact/spring_model.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 namespace {
 
 // A grid of hexahedra of which some are left out.
@@ -155,4 +155,4 @@ TEST(Exclusion, OfASolidIsItsOwnElements) {
 }
 
 }  // namespace
-}  // namespace brio::testing
+}  // namespace brio::test

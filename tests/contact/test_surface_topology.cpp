@@ -6,7 +6,7 @@
 #include "contact/face_geometry.hpp"
 #include "tests/contact/eroding_mesh.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 namespace {
 
 // Two grids that share nodes, with holes and with nodes merged at random, so that elements are wedges,
@@ -263,4 +263,4 @@ TEST(SurfaceTopology, WorkIsProportionalToWhatIsDeleted) {
 }
 
 }  // namespace
-}  // namespace brio::testing
+}  // namespace brio::test

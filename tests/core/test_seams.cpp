@@ -303,7 +303,7 @@ TEST(RestingCube, StaysOnACubeThatItHangsOver) {
 }
 
 // Three columns and three rows of equal bricks that touch all around, pushed together from one side.
-TEST(BrickWall, SettlesUnderWeightAndASidewaysPush) {
+TEST(BrickWallSlow, SettlesUnderWeightAndASidewaysPush) {
   for (double friction : {0.0, 0.3}) {
     SCOPED_TRACE(friction);
     Deck deck;

@@ -9,7 +9,7 @@
 
 #include "elements/motion.hpp"
 
-namespace brio::testing {
+namespace brio::test {
 
 using Corners = Eigen::Matrix<double, 3, 8>;
 
@@ -128,4 +128,4 @@ struct SingleElement {
   }
 };
 
-}  // namespace brio::testing
+}  // namespace brio::test

@@ -10,9 +10,9 @@
 namespace brio {
 namespace {
 
-using testing::Corners;
-using testing::Noise;
-using testing::SingleElement;
+using test::Corners;
+using test::Noise;
+using test::SingleElement;
 using GreenNaghdi = Hex8Kernel<ObjectiveRate::green_naghdi>;
 using Jaumann = Hex8Kernel<ObjectiveRate::jaumann>;
 
@@ -26,7 +26,7 @@ TYPED_TEST_SUITE(Hex8Rates, Rates);
 TYPED_TEST(Hex8Rates, LinearMotionGivesUniformStrainOnDistortedBricks) {
   Noise noise(11);
   for (int trial = 0; trial < 50; ++trial) {
-    const Corners x = testing::distorted(noise, 0.3);
+    const Corners x = test::distorted(noise, 0.3);
     SingleElement<TypeParam, Elastic> element({}, steel, x);
     Eigen::Matrix3d strain = noise.matrix<Eigen::Matrix3d>();
     strain = 1e-9 * (strain + strain.transpose()).eval();
@@ -54,7 +54,7 @@ ShearCurve exact_shear(ObjectiveRate rate, double gamma) {
 
 template <class Kernel>
 void expect_simple_shear(ObjectiveRate rate) {
-  const Corners x = testing::box(1, 1, 1);
+  const Corners x = test::box(1, 1, 1);
   SingleElement<Kernel, Elastic> element({}, steel, x);
   const double mu = steel.elastic().shear();
   const int steps = 2000;
@@ -83,7 +83,7 @@ TYPED_TEST(Hex8Rates, StepOfACubeIsTheExactOne) {
     const Elastic law{.density = 7800, .youngs_modulus = 2e11, .poissons_ratio = nu};
     TypeParam kernel;
     kernel.linear_bulk_viscosity = 0;
-    SingleElement<TypeParam, Elastic> element(kernel, law, testing::box(0.1, 0.1, 0.1));
+    SingleElement<TypeParam, Elastic> element(kernel, law, test::box(0.1, 0.1, 0.1));
     element.update(element.position, Corners::Zero(), 0);
     const double wave_speed =
         std::sqrt((law.elastic().first_lame() + 2 * law.elastic().shear()) / law.density);

@@ -7,10 +7,10 @@
 namespace brio {
 namespace {
 
-using testing::Corners;
-using testing::Noise;
+using test::Corners;
+using test::Noise;
 using Kernel = Hex8FullKernel<ObjectiveRate::green_naghdi>;
-using FullElement = testing::SingleElement<Kernel, Elastic>;
+using FullElement = test::SingleElement<Kernel, Elastic>;
 using Stiffness = Eigen::Matrix<double, 24, 24>;
 
 Stiffness stiffness_over_shear(double nu, const Corners& x) {
@@ -31,7 +31,7 @@ Stiffness stiffness_over_shear(double nu, const Corners& x) {
 TEST(Hex8Full, ResistsEveryMotionButRigidOnes) {
   Noise noise(41);
   for (int trial = 0; trial < 10; ++trial) {
-    const Corners x = testing::distorted(noise, 0.3);
+    const Corners x = test::distorted(noise, 0.3);
     const Eigen::VectorXd eigenvalues =
         Eigen::SelfAdjointEigenSolver<Stiffness>(stiffness_over_shear(0.3, x)).eigenvalues();
     EXPECT_LT(std::abs(eigenvalues(5)), 1e-5);
@@ -41,7 +41,7 @@ TEST(Hex8Full, ResistsEveryMotionButRigidOnes) {
 
 TEST(Hex8Full, OnlyTheChangeOfVolumeStiffensWhenNearlyIncompressible) {
   Noise noise(42);
-  const Corners x = testing::distorted(noise, 0.3);
+  const Corners x = test::distorted(noise, 0.3);
   const Eigen::VectorXd soft =
       Eigen::SelfAdjointEigenSolver<Stiffness>(stiffness_over_shear(0.3, x)).eigenvalues();
   const Eigen::VectorXd hard =
@@ -55,10 +55,10 @@ TEST(Hex8Full, BendingOfACubeIsThatOfTheExactIntegral) {
   // u_x = xi eta: deviatoric part of the strain eta/(h/2) in xx and half of xi/(h/2) in xy, by B-bar without
   // volume change.
   const double h = 2;
-  const Stiffness k = stiffness_over_shear(0.25, testing::box(h, h, h));
+  const Stiffness k = stiffness_over_shear(0.25, test::box(h, h, h));
   Corners mode = Corners::Zero();
   for (int n = 0; n < 8; ++n) {
-    const Eigen::Vector3d& s = testing::corner_sign[static_cast<std::size_t>(n)];
+    const Eigen::Vector3d& s = test::corner_sign[static_cast<std::size_t>(n)];
     mode(0, n) = s.x() * s.y();
   }
   const Eigen::Map<const Eigen::Matrix<double, 24, 1>> u(mode.data());

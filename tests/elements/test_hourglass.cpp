@@ -57,13 +57,13 @@ TEST(Hourglass, FlowLeavesTheStressAtYieldOfTheElasticTrial) {
   EXPECT_EQ(share_of(-1.0 * small), 1);  // unloading
 }
 
-using Brick = testing::SingleElement<Hex8Kernel<ObjectiveRate::green_naghdi>, ElasticPlastic>;
+using Brick = test::SingleElement<Hex8Kernel<ObjectiveRate::green_naghdi>, ElasticPlastic>;
 
 // A cube bent in the hourglass mode xi zeta along x; the curvature grows by the step.
-testing::Corners bending(double amount) {
-  testing::Corners u = testing::Corners::Zero();
+test::Corners bending(double amount) {
+  test::Corners u = test::Corners::Zero();
   for (int n = 0; n < 8; ++n) {
-    const Eigen::Vector3d& sign = testing::corner_sign[static_cast<std::size_t>(n)];
+    const Eigen::Vector3d& sign = test::corner_sign[static_cast<std::size_t>(n)];
     u(0, n) = amount * sign.x() * sign.z();
   }
   return u;
@@ -74,7 +74,7 @@ TEST(Hourglass, BendingForcesEndAtThoseOfASectionThatYieldsAllOver) {
   ElasticPlastic ideal = metal;
   ideal.hardening_modulus = 0;
   ideal.yield_stress = 0.01;  // small strains
-  const testing::Corners x = testing::box(1, 1, 1);
+  const test::Corners x = test::box(1, 1, 1);
   Brick brick({}, ideal, x);
   double largest = 0, work = 0;
   for (int step = 1; step <= 200; ++step) {
@@ -90,7 +90,7 @@ TEST(Hourglass, BendingForcesEndAtThoseOfASectionThatYieldsAllOver) {
 }
 
 TEST(Hourglass, ForcesFadeInABrickThatFlowsWithoutBending) {
-  const testing::Corners x = testing::box(1, 1, 1);
+  const test::Corners x = test::box(1, 1, 1);
   Brick brick({}, metal, x);
   brick.move_to(x + bending(1e-3), 1e-3);
   const double stored = brick.hourglass_energy;

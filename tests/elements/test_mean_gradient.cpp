@@ -8,7 +8,7 @@
 namespace brio {
 namespace {
 
-using testing::Corners;
+using test::Corners;
 
 /// V B by 3x3x3 Gauss points, exact for the trilinear brick.
 Corners quadrature_gradient(const Corners& x, double& volume) {
@@ -20,7 +20,7 @@ Corners quadrature_gradient(const Corners& x, double& volume) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k < 3; ++k) {
-        const Eigen::Matrix<double, 8, 3> d = testing::shape_derivatives({points[i], points[j], points[k]});
+        const Eigen::Matrix<double, 8, 3> d = test::shape_derivatives({points[i], points[j], points[k]});
         const Eigen::Matrix3d jacobian = x * d;
         const double dv = weights[i] * weights[j] * weights[k] * jacobian.determinant();
         volume += dv;
@@ -30,7 +30,7 @@ Corners quadrature_gradient(const Corners& x, double& volume) {
 }
 
 Corners closed_form_gradient(const Corners& x, double& volume) {
-  const MeanGradient<double> b = mean_gradient(modes(testing::motion_of(x, Corners::Zero()).position));
+  const MeanGradient<double> b = mean_gradient(modes(test::motion_of(x, Corners::Zero()).position));
   volume = b.volume;
   Corners result;
   for (int i = 0; i < 3; ++i) {
@@ -44,9 +44,9 @@ Corners closed_form_gradient(const Corners& x, double& volume) {
 }
 
 TEST(MeanGradient, EqualsQuadratureOnDistortedBricks) {
-  testing::Noise noise(1);
+  test::Noise noise(1);
   for (int trial = 0; trial < 200; ++trial) {
-    const Corners x = testing::distorted(noise, 0.4);
+    const Corners x = test::distorted(noise, 0.4);
     double volume, exact_volume;
     const Corners b = closed_form_gradient(x, volume);
     const Corners exact = quadrature_gradient(x, exact_volume);
@@ -56,8 +56,8 @@ TEST(MeanGradient, EqualsQuadratureOnDistortedBricks) {
 }
 
 TEST(MeanGradient, IsTheDerivativeOfTheVolume) {
-  testing::Noise noise(2);
-  const Corners x = testing::distorted(noise, 0.4);
+  test::Noise noise(2);
+  const Corners x = test::distorted(noise, 0.4);
   double volume;
   const Corners b = closed_form_gradient(x, volume);
   for (int n = 0; n < 8; ++n)
@@ -74,10 +74,10 @@ TEST(MeanGradient, IsTheDerivativeOfTheVolume) {
 }
 
 TEST(MeanGradient, AcceptsBricksWithRepeatedNodes) {
-  Corners wedge = testing::box(1, 1, 1);
+  Corners wedge = test::box(1, 1, 1);
   wedge.col(3) = wedge.col(2);
   wedge.col(7) = wedge.col(6);
-  Corners pyramid = testing::box(1, 1, 1);
+  Corners pyramid = test::box(1, 1, 1);
   for (int n = 5; n < 8; ++n) pyramid.col(n) = pyramid.col(4);
   double volume;
   closed_form_gradient(wedge, volume);
@@ -87,7 +87,7 @@ TEST(MeanGradient, AcceptsBricksWithRepeatedNodes) {
 }
 
 TEST(MeanGradient, CornerValuesAreTheTransposeOfPatternSums) {
-  testing::Noise noise(3);
+  test::Noise noise(3);
   for (int trial = 0; trial < 20; ++trial) {
     double f[8], s[hexahedron_modes], sums[hexahedron_modes], corners[8];
     for (double& value : f) value = noise();

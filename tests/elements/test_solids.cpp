@@ -15,9 +15,9 @@
 namespace brio {
 namespace {
 
-using testing::Corners;
-using testing::Noise;
-using testing::SingleElement;
+using test::Corners;
+using test::Noise;
+using test::SingleElement;
 
 const Elastic steel{.density = 7800, .youngs_modulus = 2e11, .poissons_ratio = 0.3};
 const ElasticPlastic plastic{.density = 7800,
@@ -107,7 +107,7 @@ SingleElement<Kernel, Law> after_a_few_steps(const Law& law, unsigned seed, cons
   const auto placed = [&](const Corners& x) {
     return Corners((turn * (length * x)).colwise() + length * shift);
   };
-  Corners x = testing::distorted(noise, 0.3);
+  Corners x = test::distorted(noise, 0.3);
   SingleElement<Kernel, Law> element({}, law, placed(x));
   for (int step = 0; step < 5; ++step) {
     const Corners v = 200 * noise.matrix<Corners>();
@@ -191,7 +191,7 @@ double energy_gap(const Corners& start, const Corners& amplitude, int steps) {
 
 TYPED_TEST(Solids, BookedEnergyIsTheWorkOfTheForcesToSecondOrder) {
   Noise noise(63);
-  const Corners start = testing::distorted(noise, 0.2);
+  const Corners start = test::distorted(noise, 0.2);
   const Corners affine = 0.3 * noise.matrix<Eigen::Matrix3d>() * start;
   const double coarse = energy_gap<TypeParam>(start, affine, 50);
   const double fine = energy_gap<TypeParam>(start, affine, 200);
@@ -202,7 +202,7 @@ TYPED_TEST(Solids, BookedEnergyIsTheWorkOfTheForcesToSecondOrder) {
 
 TYPED_TEST(Solids, BookedEnergyIsTheWorkOfTheForcesInNonuniformMotion) {
   Noise noise(63);
-  const Corners start = testing::distorted(noise, 0.2);
+  const Corners start = test::distorted(noise, 0.2);
   const Corners amplitude = 0.15 * noise.matrix<Corners>();
   const double coarse = energy_gap<TypeParam>(start, amplitude, 50);
   const double fine = energy_gap<TypeParam>(start, amplitude, 200);
@@ -216,12 +216,12 @@ TYPED_TEST(Solids, ConvergesToSecondOrderInTheStep) {
   const auto stress = [](int steps) {
     Eigen::Matrix3d gradient;
     gradient << 0.3, 0.9, -0.2, 0.1, -0.2, 0.4, -0.5, 0.3, 0.2;
-    SingleElement<TypeParam, Elastic> element({}, steel, testing::box(1, 1, 1));
+    SingleElement<TypeParam, Elastic> element({}, steel, test::box(1, 1, 1));
     for (int i = 1; i <= steps; ++i) {
       const double t = static_cast<double>(i) / steps;
       const Eigen::Matrix3d f =
           Eigen::Matrix3d::Identity() + t * gradient + 0.3 * std::sin(3 * t) * gradient.transpose();
-      element.move_to(f * testing::box(1, 1, 1), 1.0 / steps);
+      element.move_to(f * test::box(1, 1, 1), 1.0 / steps);
     }
     return element.stress();
   };
@@ -239,8 +239,8 @@ TYPED_TEST(Solids, LanesEqualPlainNumbers) {
   NodalMotion<T, 8> motion;
   std::array<NodalMotion<double, 8>, 8> plain;
   for (int lane = 0; lane < 8; ++lane) {
-    const Corners x = testing::distorted(noise, 0.3);
-    plain[static_cast<std::size_t>(lane)] = testing::motion_of(x, 300 * noise.matrix<Corners>());
+    const Corners x = test::distorted(noise, 0.3);
+    plain[static_cast<std::size_t>(lane)] = test::motion_of(x, 300 * noise.matrix<Corners>());
     for (int i = 0; i < 3; ++i)
       for (int n = 0; n < 8; ++n) {
         motion.position[i][n].set(lane, plain[static_cast<std::size_t>(lane)].position[i][n]);
@@ -259,7 +259,7 @@ TYPED_TEST(Solids, LanesEqualPlainNumbers) {
     kernel.initialize(one, plastic, one_header, one_point);
     NodalForces<double, 8> one_forces;
     const Increment<double> expected = kernel.force(one, 1e-4, plastic, one_header, one_point, one_forces);
-    const double size = testing::forces_of(one_forces).norm();
+    const double size = test::forces_of(one_forces).norm();
     for (int i = 0; i < 3; ++i)
       for (int n = 0; n < 8; ++n) EXPECT_NEAR(forces.force[i][n][lane], one_forces.force[i][n], 1e-12 * size);
     EXPECT_NEAR(increment.internal_energy[lane], expected.internal_energy,
@@ -273,17 +273,17 @@ TYPED_TEST(Solids, SinglePrecisionFollowsDoubleToItsOwnAccuracy) {
   Noise noise(65);
   const TypeParam kernel;
   for (int trial = 0; trial < 10; ++trial) {
-    Corners x = testing::distorted(noise, 0.3);
+    Corners x = test::distorted(noise, 0.3);
     SingleElement<TypeParam, ElasticPlastic> exact(kernel, plastic, x);
     typename TypeParam::template Header<T, ElasticPlastic> header{};
     typename TypeParam::template Point<T, ElasticPlastic> point[TypeParam::points()]{};
-    kernel.initialize(testing::motion_of<T>(x, Corners::Zero()), plastic, header, point);
+    kernel.initialize(test::motion_of<T>(x, Corners::Zero()), plastic, header, point);
     NodalForces<T, 8> forces;
     for (int step = 0; step < 10; ++step) {
       const Corners v = 200 * noise.matrix<Corners>();
       x += 1e-4 * v;
       exact.update(x, v, 1e-4);
-      kernel.force(testing::motion_of<T>(x, v), T(1e-4), plastic, header, point, forces);
+      kernel.force(test::motion_of<T>(x, v), T(1e-4), plastic, header, point, forces);
     }
     Corners difference = exact.force;
     for (int i = 0; i < 3; ++i)
@@ -293,8 +293,8 @@ TYPED_TEST(Solids, SinglePrecisionFollowsDoubleToItsOwnAccuracy) {
 }
 
 TYPED_TEST(Solids, RigidRotationKeepsTheStressOfAStretchedBrick) {
-  SingleElement<TypeParam, Elastic> element({}, steel, testing::box(1, 1, 1));
-  const Corners x = testing::box(1.1, 0.95, 1.0);
+  SingleElement<TypeParam, Elastic> element({}, steel, test::box(1, 1, 1));
+  const Corners x = test::box(1.1, 0.95, 1.0);
   element.move_to(x, 1e-4);
   const Eigen::Matrix3d stress = element.stress();
   const double energy = element.internal_energy;
@@ -312,26 +312,26 @@ TYPED_TEST(Solids, RigidRotationKeepsTheStressOfAStretchedBrick) {
 }
 
 TYPED_TEST(Solids, RigidRotationMeetsNoViscosity) {
-  SingleElement<TypeParam, Elastic> element({}, steel, testing::box(1, 1, 1));
+  SingleElement<TypeParam, Elastic> element({}, steel, test::box(1, 1, 1));
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -2) / 3;
   for (int step = 1; step <= 20; ++step) {
     const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.3 * step, axis).toRotationMatrix();
-    element.move_to(turned * testing::box(1, 1, 1), 1e-4);
+    element.move_to(turned * test::box(1, 1, 1), 1e-4);
     // What a rate of dilatation of 1 / step would meet is of the order of the moduli.
     EXPECT_LT(element.force.norm(), 1e-12 * steel.youngs_modulus);
   }
 }
 
 TYPED_TEST(Solids, InvertedBrickHasNoStableStep) {
-  SingleElement<TypeParam, Elastic> element({}, steel, testing::box(1, 1, 1));
-  element.move_to(testing::box(1, 1, -0.1), 1e-3);
+  SingleElement<TypeParam, Elastic> element({}, steel, test::box(1, 1, 1));
+  element.move_to(test::box(1, 1, -0.1), 1e-3);
   EXPECT_LT(element.increment.stable_step, 0);
   EXPECT_TRUE(element.force.allFinite());
 }
 
 TYPED_TEST(Solids, FirstCallNeedsNoStep) {
   Noise noise(66);
-  const Corners x = testing::distorted(noise, 0.3);
+  const Corners x = test::distorted(noise, 0.3);
   SingleElement<TypeParam, Elastic> element({}, steel, x);
   element.update(x, noise.matrix<Corners>(), 0);
   EXPECT_GT(element.increment.stable_step, 0);
@@ -345,13 +345,13 @@ void expect_neo_hookean_stress() {
   const NeoHookean rubber{.density = 1000, .youngs_modulus = 1e6, .poissons_ratio = 0.4};
   const double mu = 1e6 / 2.8, lambda = 1e6 * 0.4 / (1.4 * 0.2);
   Kernel kernel;
-  SingleElement<Kernel, NeoHookean> element(kernel, rubber, testing::box(1, 1, 1));
+  SingleElement<Kernel, NeoHookean> element(kernel, rubber, test::box(1, 1, 1));
   Eigen::Matrix3d gradient;
   gradient << 0.5, 0.9, -0.2, 0.1, -0.2, 0.4, -0.5, 0.3, 0.2;
   const int steps = 4000;
   for (int i = 1; i <= steps; ++i) {
     const Eigen::Matrix3d f = Eigen::Matrix3d::Identity() + gradient * i / steps;
-    element.move_to(f * testing::box(1, 1, 1), 1e-3);
+    element.move_to(f * test::box(1, 1, 1), 1e-3);
     if (i % 1000 != 0) continue;
     const double j = f.determinant();
     const Eigen::Matrix3d exact = (mu * (f * f.transpose() - Eigen::Matrix3d::Identity()) +

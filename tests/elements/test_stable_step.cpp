@@ -11,9 +11,9 @@
 namespace brio {
 namespace {
 
-using testing::Corners;
-using testing::Noise;
-using testing::SingleElement;
+using test::Corners;
+using test::Noise;
+using test::SingleElement;
 using OnePoint = Hex8Kernel<ObjectiveRate::green_naghdi>;
 using Full = Hex8FullKernel<ObjectiveRate::green_naghdi>;
 using Stiffness = Eigen::Matrix<double, 24, 24>;
@@ -71,8 +71,8 @@ void add_ratio(Ratio& ratio, const Kernel& kernel, const Elastic& law, const Cor
 }
 
 bool has_positive_corners(const Corners& x) {
-  for (const Eigen::Vector3d& corner : testing::corner_sign)
-    if ((x * testing::shape_derivatives(corner)).determinant() <= 0) return false;
+  for (const Eigen::Vector3d& corner : test::corner_sign)
+    if ((x * test::shape_derivatives(corner)).determinant() <= 0) return false;
   return true;
 }
 
@@ -82,7 +82,7 @@ Ratio ratio_of_distorted_bricks(const Kernel& kernel, double nu, unsigned seed) 
   Noise noise(seed);
   Ratio ratio;
   for (int trial = 0; trial < 150; ++trial) {
-    const Corners x = testing::distorted(noise, 0.9 * (trial % 10) / 9);
+    const Corners x = test::distorted(noise, 0.9 * (trial % 10) / 9);
     if (has_positive_corners(x)) add_ratio(ratio, kernel, law, x);
   }
   return ratio;
@@ -95,7 +95,7 @@ Ratio ratio_of_slender_bricks(const Kernel& kernel, double nu, const Eigen::Vect
   Noise noise(22);
   Ratio ratio;
   for (int trial = 0; trial < 50; ++trial) {
-    Corners x = testing::box(sides.x(), sides.y(), sides.z());
+    Corners x = test::box(sides.x(), sides.y(), sides.z());
     x += (0.02 * (trial % 10) * sides.minCoeff()) * noise.matrix<Corners>();
     x = noise.rotation() * x;
     add_ratio(ratio, kernel, law, x);
@@ -153,7 +153,7 @@ TEST(StableStep, FreeBricksRunAtTheirBoundAndBlowUpAboveTheCriticalStep) {
   const Elastic law{.density = 7800, .youngs_modulus = 2e11, .poissons_ratio = 0.3};
   for (const Eigen::Vector3d& sides : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(2, 1, 1),
                                        Eigen::Vector3d(8, 1, 1), Eigen::Vector3d(0.01, 0.01, 1)}) {
-    const Corners x = testing::box(sides.x(), sides.y(), sides.z());
+    const Corners x = test::box(sides.x(), sides.y(), sides.z());
     OnePoint kernel = one_point(0.05);
     const double critical = critical_step(assembled_stiffness(kernel, law, x),
                                           SingleElement<OnePoint, Elastic>(kernel, law, x).nodal_mass);
@@ -174,7 +174,7 @@ TEST(StableStep, ViscousHourglassControlKeepsTheBoundSafe) {
   const Elastic law{.density = 7800, .youngs_modulus = 2e11, .poissons_ratio = 0.3};
   Noise noise(25);
   for (int trial = 0; trial < 20; ++trial) {
-    const Corners x = testing::distorted(noise, 0.4);
+    const Corners x = test::distorted(noise, 0.4);
     SingleElement<OnePoint, Elastic> element(kernel, law, x);
     element.update(x, Corners::Zero(), 0);
     EXPECT_LT(growth(kernel, x, element.increment.stable_step, 1000), 10);

@@ -71,6 +71,7 @@ template <ObjectiveRate rate>
 struct Hex8FullKernel : Hex8Full {
   using Settings = Hex8Full;
   static constexpr bool uses_differences = true;
+  static constexpr int most_points = hexahedron_points;
   static constexpr int points() { return hexahedron_points; }
   template <class Law>
   static constexpr bool accepts = RateLaw<Law> || (rate == ObjectiveRate::green_naghdi && StretchLaw<Law>);

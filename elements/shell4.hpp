@@ -64,6 +64,7 @@ struct Shell4 {
     };
   }
 
+  static constexpr int most_points = most_thickness_points;
   int points() const { return thickness_points; }
   const ThicknessRule& rule() const { return thickness_rule(quadrature, thickness_points); }
 

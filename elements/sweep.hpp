@@ -1,22 +1,23 @@
 #pragma once
 /// The one loop over elements. An element kind provides
 ///
-///     static constexpr std::string_view name;
-///     using Settings = ...;                                  // if the deck's struct is another: Kind is
-///     made from it static constexpr int nodes;  static constexpr bool rotations; template <class Law> static
-///     constexpr bool accepts; static constexpr bool uses_differences = true;         // if absolute
-///     positions do as well as relative ones int points() const;                                    //
-///     material points an element template <class T, class Law> struct Header;           // per element, T is
-///     the number of the lanes template <class T, class Law> struct Point;            // per material point
-///     NodalMass<T> initialize(const MotionOf<E, T>&, const Law&, Header<T, Law>&, Point<T, Law>*) const;
-///     Increment<T> force(const MotionOf<E, T>&, T step, const Law&, Header<T, Law>&, Point<T, Law>*,
-///                        ForcesOf<E, T>&) const;
-///     ElementSample sample(const MotionOf<E, double>&, const Law&, const Header<double, Law>&,
-///                          const Point<double, Law>*) const;
+/// - `static constexpr std::string_view name`, `int nodes`, `bool rotations`
+/// - `using Settings = ...` if the deck's struct is another: Kind is made from it
+/// - `template <class Law> static constexpr bool accepts`
+/// - `static constexpr bool uses_differences = true` if absolute positions do as well as relative ones
+/// - `int points() const`, material points of an element, and `static constexpr int most_points`
+/// - `template <class T, class Law> struct Header`, per element, of lanes T, and `struct Point`, per material
+///   point
+/// - `NodalMass<T> initialize(const MotionOf<E, T>&, const Law&, Header<T, Law>&, Point<T, Law>*) const`
+/// - `Increment<T> force(const MotionOf<E, T>&, T step, const Law&, Header<T, Law>&, Point<T, Law>*,
+///   ForcesOf<E, T>&) const`
+/// - `ElementSample sample(const MotionOf<E, double>&, const Law&, const Header<double, Law>&, const
+///   Point<double, Law>*) const`
 ///
 /// and one .cpp with `choose_kernel` for it. Header and Point hold nothing but numbers `T`, so that a pack is
 /// an array [component][lane] and one lane of it can be read back as plain doubles.
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -310,8 +311,9 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
   const int lane = static_cast<int>(e % width);
   typename Kind::template Header<double, Law> header;
   copy_lane<decltype(header), Real>(pack, lane, &header);
-  std::vector<typename Kind::template Point<double, Law>> points(static_cast<std::size_t>(kind.points()));
-  for (std::size_t p = 0; p < points.size(); ++p)
+  std::array<typename Kind::template Point<double, Law>, Kind::most_points> points;
+  const auto count = static_cast<std::size_t>(kind.points());
+  for (std::size_t p = 0; p < count; ++p)
     copy_lane<typename Kind::template Point<double, Law>, Real>(
         pack + sizeof(typename Layout::Header) + p * sizeof(typename Layout::Point), lane, &points[p]);
   MotionOf<Kind, double> motion;
@@ -327,7 +329,7 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
   }
   ElementSample sample = kind.sample(motion, law_of<Law>(block.material), header, points.data());
   if constexpr (can_fail<Law>)
-    for (const auto& point : points) sample.damage = std::max(sample.damage, point.history.damage);
+    for (std::size_t p = 0; p < count; ++p) sample.damage = std::max(sample.damage, points[p].history.damage);
   return sample;
 }
 

@@ -17,7 +17,6 @@ template <ObjectiveRate rate>
 struct Hex8Kernel : Hex8 {
   using Settings = Hex8;
   static constexpr bool uses_differences = true;
-  static constexpr int most_points = 1;
   static constexpr int points() { return 1; }
   static constexpr bool is_unrotated = rate == ObjectiveRate::green_naghdi;
   template <class Law>
@@ -81,16 +80,20 @@ struct Hex8Kernel : Hex8 {
     header.viscous_pressure = viscosity.pressure;
 
     const T distortion = hourglass_distortion(x, g);
-    const T stiffness = brio::hourglass_stiffness(hourglass_stiffness, moduli, volume.end, distortion);
-    SymmetricTensor<T> material_g = g;
+    const HourglassModuli<T> stiffness =
+        brio::hourglass_stiffness(hourglass_stiffness, moduli, volume.end, distortion);
+    HourglassAxes<T> hourglass_axes{g, {}};
+    for (int k = 0; k < linear_modes; ++k) hourglass_axes.normal[k] = scaled_inverse_volume * b.beta[k];
     if constexpr (is_unrotated) {
-      material_g = turned_back(axes.end, g);
+      hourglass_axes.g = turned_back(axes.end, g);
+      for (Vector3<T>& normal : hourglass_axes.normal) normal = turned_back(axes.end, normal);
       for (Vector3<T>& mode : q.mode) mode = turned_back(axes.middle, mode);
     } else {
       for (Vector3<T>& mode : header.hourglass.force.mode) mode = turned(axes.end, mode);
     }
-    const HourglassWork<T> hourglass = resist_hourglass_motion(
-        law, *point, point_step, axes, moduli.shear, stiffness, volume.end, material_g, q, header.hourglass);
+    const HourglassWork<T> hourglass =
+        resist_hourglass_motion(law, *point, point_step, axes, moduli.shear, stiffness, volume.end,
+                                hourglass_axes, q, header.hourglass);
     increment.hourglass_energy = hourglass.stored;
     increment.internal_energy += hourglass.dissipated;
     header.internal_energy += increment.internal_energy;
@@ -108,9 +111,9 @@ struct Hex8Kernel : Hex8 {
     }
     const SymmetricTensor<T> stress = fixed_stress(*point, axes) - isotropic(viscosity.pressure);
     nodal_forces(x, b, stress, q, scaled_inverse_volume, forces);
-    const T largest_stiffness = inverse_mass * stiffness * largest_eigenvalue_bound(g);
-    const T frequency_squared = max(spectrum.uniform, 64.0 * largest_stiffness) +
-                                (8.0 * hourglass_overlap) * largest_stiffness * distortion;
+    const T frequency_squared = spectrum.uniform + (8.0 * hourglass_overlap) * inverse_mass *
+                                                       stiffness.bending * largest_eigenvalue_bound(g) *
+                                                       distortion;
     increment.stable_step = where(volume.is_valid, damped_stable_step(frequency_squared, damping), T(-1.0));
     return increment;
   }
@@ -121,11 +124,11 @@ struct Hex8Kernel : Hex8 {
   template <class T, class Law>
   BRIO_INLINE HourglassWork<T> resist_hourglass_motion(const Law& law, const Point<T, Law>& point,
                                                        const PointStep<T>& step, const MaterialAxes<T>& axes,
-                                                       T shear, T stiffness, T volume,
-                                                       const SymmetricTensor<T>& g,
+                                                       T shear, const HourglassModuli<T>& stiffness, T volume,
+                                                       const HourglassAxes<T>& hourglass_axes,
                                                        const HourglassVectors<T>& q,
                                                        HourglassState<T>& state) const {
-    const T elastic_work = stretch_hourglass(state.force, stiffness * g, q);
+    const T elastic_work = stretch_hourglass(state.force, hourglass_axes, stiffness, q);
     const T old_energy = state.energy;
     state.energy += elastic_work;
     if constexpr (flows<Law>) {
@@ -133,13 +136,14 @@ struct Hex8Kernel : Hex8 {
       const T plastic_strain = point.history.equivalent_plastic_strain;
       const MaskOf<T> has_flowed = plastic_strain > step.old_plastic_strain;
       const T at_first_yield =
-          hourglass_energy_at_yield(T(hardening.initial_yield_stress()), volume, stiffness);
+          hourglass_energy_at_yield(T(hardening.initial_yield_stress()), volume, stiffness.bending);
       const bool any_yields = any(state.energy > at_first_yield);
       if (any(has_flowed) || any_yields) {
         T left =
             share_left_by_flow(step.old_stress, point.stress, T(2.0) * axes.half_strain, shear, has_flowed);
         if (any_yields) {
-          const T most = hourglass_energy_at_yield(hardening.at(plastic_strain).stress, volume, stiffness);
+          const T most =
+              hourglass_energy_at_yield(hardening.at(plastic_strain).stress, volume, stiffness.bending);
           const MaskOf<T> yields = state.energy > most;
           left *= where(yields, sqrt(most / where(yields, state.energy, T(1.0))), T(1.0));
         }

@@ -59,18 +59,24 @@ BRIO_INLINE T largest_gamma(T distortion) {
 /// proportion to p, and the factor is held against assembled stiffness matrices in the tests.
 inline constexpr double hourglass_overlap = 6;
 
-/// Stiffness S of the hourglass forces S G q, a volume times a modulus. The tensor G makes each component of
-/// q meet the stiffness of its own direction, as it does in an assumed-strain element (Belytschko & Bindeman
-/// 1993): the bending of a flat brick is resisted over its length, not over its thickness. For a cube G is a
-/// third of tr G, and the frequency squared is `coefficient` times 8 V / m tr G times the modulus of
-/// plane-strain bending, 4 mu (lambda + mu) / (lambda + 2 mu), which stays finite for incompressible
-/// materials; distorted bricks get less, so that |gamma| does not raise it.
+/// Moduli times a volume: S_b for bending, the modulus of plane-strain bending 4 mu (lambda + mu) /
+/// (lambda + 2 mu), which stays finite for incompressible materials; S_t for twist, mu.
 template <class T>
-BRIO_INLINE T hourglass_stiffness(double coefficient, const ElasticModuli<T>& moduli, T volume,
-                                  T distortion) {
-  const T bending_modulus =
-      4.0 * moduli.shear * (moduli.first_lame + moduli.shear) / (moduli.first_lame + 2.0 * moduli.shear);
-  return 3.0 * coefficient * bending_modulus * volume / (8.0 + distortion);
+struct HourglassModuli {
+  T bending, twist;
+};
+
+/// With the coefficient 1/9 a box bends exactly; distorted bricks get less, so that |gamma| does not raise
+/// the frequency. That of bending squared is at most 24 `coefficient` times 8 V / m g times the modulus, g
+/// the largest eigenvalue of G, and in the range of the coefficient below that of the uniform strains, 16 mu
+/// g (solid.hpp).
+template <class T>
+BRIO_INLINE HourglassModuli<T> hourglass_stiffness(double coefficient, const ElasticModuli<T>& moduli,
+                                                   T volume, T distortion) {
+  const T scaled_volume = 3.0 * coefficient * volume / (8.0 + distortion);
+  return {scaled_volume * (4.0 * moduli.shear * (moduli.first_lame + moduli.shear) /
+                           (moduli.first_lame + 2.0 * moduli.shear)),
+          scaled_volume * moduli.shear};
 }
 
 template <class T>
@@ -92,17 +98,52 @@ struct HourglassWork {
   T stored, dissipated;
 };
 
-/// Forces grow by S G times the displacement. \param stiffness S G. \param q half of the step's hourglass
-/// displacement. \return the work.
+/// The directions in which an element resists hourglass motion, on the axes of the stress.
 template <class T>
-BRIO_INLINE T stretch_hourglass(HourglassVectors<T>& force, const SymmetricTensor<T>& stiffness,
-                                const HourglassVectors<T>& q) {
+struct HourglassAxes {
+  SymmetricTensor<T> g;             ///< G
+  Vector3<T> normal[linear_modes];  ///< beta_k / (64 V): of a box one over four edges
+};
+
+/// Generalized forces of hourglass displacements. Each component meets the stiffness of its own direction, as
+/// in an assumed-strain element (Belytschko & Bindeman 1993): the bending of a flat brick is resisted over
+/// its length, not over its thickness.
+///
+/// Bending is S_b G q_a without the component of q_a along n_a, in which pattern a strains no fibre but
+/// shears: eta zeta along the normal of the faces xi = +-1, and so on. Three such motions a_k of a box of
+/// edges L_k shear it by gamma_kl = (a_k + a_l) times the third coordinate. In the twist of a thin wall these
+/// cancel but for the one that varies over the thickness, so that stiffness against each alone would lock.
+/// With the others free, each meets mu V / 24 times 4 H^2 a_k^2, 1 / H^2 = sum 1 / L_k^2: a third of it for
+/// each of the three together never exceeds the energy of the shears and equals it in a thin wall.
+template <class T>
+BRIO_INLINE HourglassVectors<T> hourglass_forces(const HourglassAxes<T>& axes, const HourglassModuli<T>& s,
+                                                 const HourglassVectors<T>& q) {
+  HourglassVectors<T> force;
+  const SymmetricTensor<T> bending = s.bending * axes.g;
+  for (int a = 0; a < hourglass_modes; ++a) force.mode[a] = bending * q.mode[a];
+  T squared[linear_modes];
+  for (int k = 0; k < linear_modes; ++k) squared[k] = dot(axes.normal[k], axes.normal[k]);
+  const T sum = squared[0] + squared[1] + squared[2];
+  const T inverse_sum = 1.0 / where(sum > T(0.0), sum, T(1.0));
+  for (int k = 0; k < linear_modes; ++k) {
+    const T others = squared[(k + 1) % 3] * inverse_sum * squared[(k + 2) % 3];
+    const T twist = (4.0 / 3.0) * s.twist * others / where(squared[k] > T(0.0), squared[k], T(1.0));
+    force.mode[k] =
+        force.mode[k] + (8.0 * (twist - s.bending) * dot(axes.normal[k], q.mode[k])) * axes.normal[k];
+  }
+  return force;
+}
+
+/// Forces grow with the displacement. \param q half of the step's hourglass displacement. \return the work.
+template <class T>
+BRIO_INLINE T stretch_hourglass(HourglassVectors<T>& force, const HourglassAxes<T>& axes,
+                                const HourglassModuli<T>& stiffness, const HourglassVectors<T>& q) {
+  const HourglassVectors<T> growth = hourglass_forces(axes, stiffness, q);
   T work(0.0);
-  const SymmetricTensor<T> twice_stiffness = T(2.0) * stiffness;
   for (int a = 0; a < hourglass_modes; ++a) {
-    const Vector3<T> old_force = force.mode[a];
-    force.mode[a] = old_force + twice_stiffness * q.mode[a];
-    work += dot(old_force + force.mode[a], q.mode[a]);
+    const Vector3<T> half_way = force.mode[a] + growth.mode[a];
+    force.mode[a] = half_way + growth.mode[a];
+    work += 2.0 * dot(half_way, q.mode[a]);
   }
   return work;
 }

@@ -93,15 +93,27 @@ TEST(Invariance, PowersOfTwoInLengthTimeAndMassGiveTheSameBits) {
   }
 }
 
+// Elastic bodies that slide with Coulomb friction are unstable (Adams 1995): rounding grows by 3.5 in 0.05 ms
+// while they do, so that with friction the end comes early.
 TEST(Invariance, FrameAtAThousandTimesTheSpeedOfTheImpactSeesTheSameContacts) {
   const Triple frame{10000, -8000, 6000};
-  const Watched reference(collision());
-  const Watched other(collision({}, frame));
-  EXPECT_EQ(reference.contacts, other.contacts);
-  EXPECT_EQ(reference.active, other.active);
-  const Difference found = difference(reference.model, other.model, frame, {});
-  EXPECT_LE(found.velocity, 1e-9 * 10);
-  EXPECT_LE(found.position, 1e-9);
+  for (const bool has_friction : {false, true}) {
+    Deck at_rest = collision(), moving_on = collision({}, frame);
+    for (Deck* deck : {&at_rest, &moving_on}) {
+      if (has_friction) {
+        deck->time.end = 2.5e-4;
+      } else {
+        deck->contact->options.friction = 0;
+      }
+    }
+    const Watched reference(at_rest);
+    const Watched other(moving_on);
+    EXPECT_EQ(reference.contacts, other.contacts);
+    EXPECT_EQ(reference.active, other.active);
+    const Difference found = difference(reference.model, other.model, frame, {});
+    EXPECT_LE(found.velocity, 1e-9 * 10);
+    EXPECT_LE(found.position, 1e-9);
+  }
 }
 
 // Positions have an ulp of 1e-10 there, and an element an edge of 0.05.

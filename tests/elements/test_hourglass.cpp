@@ -23,7 +23,7 @@ double stiffness_along(double a, double h, int axis) {
   place_brick(a, h, x);
   const MeanGradient<double> b = mean_gradient(modes(x));
   const SymmetricTensor<double> g = gradient_product(b, gradient_scale / b.volume);
-  const double s = hourglass_stiffness(0.05, ElasticModuli<double>{1.5, 1.0}, b.volume, 0.0);
+  const double s = hourglass_stiffness(0.05, ElasticModuli<double>{1.5, 1.0}, b.volume, 0.0).bending;
   return s * (axis == 2 ? g.zz : g.xx);
 }
 

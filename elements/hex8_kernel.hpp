@@ -17,6 +17,7 @@ template <ObjectiveRate rate>
 struct Hex8Kernel : Hex8 {
   using Settings = Hex8;
   static constexpr bool uses_differences = true;
+  static constexpr int most_points = 1;
   static constexpr int points() { return 1; }
   static constexpr bool is_unrotated = rate == ObjectiveRate::green_naghdi;
   template <class Law>

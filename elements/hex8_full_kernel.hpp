@@ -10,6 +10,7 @@
 
 #include "elements/hex8_full.hpp"
 #include "elements/mean_gradient.hpp"
+#include "src/base/fetch_ahead.hpp"
 
 namespace brio {
 
@@ -72,6 +73,7 @@ struct Hex8FullKernel : Hex8Full {
   using Settings = Hex8Full;
   static constexpr bool uses_differences = true;
   static constexpr int most_points = hexahedron_points;
+  static constexpr bool fetches_points_ahead = true;
   static constexpr int points() { return hexahedron_points; }
   template <class Law>
   static constexpr bool accepts = RateLaw<Law> || (rate == ObjectiveRate::green_naghdi && StretchLaw<Law>);
@@ -116,6 +118,7 @@ struct Hex8FullKernel : Hex8Full {
     ElasticModuli<T> moduli = law.moduli(point[0].history);
     T pressure_force(0.0);   // sum over the points of mean stress times volume
     T gradient_square(0.0);  // sum over the points and corners of volume |B|^2
+    constexpr std::size_t pack_bytes = sizeof(Header<T, Law>) + hexahedron_points * sizeof(Point<T, Law>);
 #pragma GCC unroll 1
     for (int p = 0; p < hexahedron_points; ++p) {
       const double* xi = point_position[p];
@@ -132,6 +135,7 @@ struct Hex8FullKernel : Hex8Full {
       MaterialAxes<T> axes;
       increment.internal_energy +=
           volume * where(determinant > T(0.0), determinant, T(1.0)) * update(law, n, point[p], axes).work;
+      fetch_ahead(reinterpret_cast<std::uintptr_t>(point + p) + pack_bytes, sizeof(Point<T, Law>));
       const SymmetricTensor<T> stress = fixed_stress(point[p], axes);
       const T mean_stress = trace(stress) * (1.0 / 3.0);
       pressure_force += volume * mean_stress;

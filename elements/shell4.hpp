@@ -17,6 +17,7 @@
 #include "elements/shell_step.hpp"
 #include "elements/shell_strain.hpp"
 #include "elements/through_thickness.hpp"
+#include "src/base/fetch_ahead.hpp"
 
 namespace brio {
 
@@ -30,6 +31,7 @@ struct Shell4 {
   static constexpr std::string_view name = "shell4";
   static constexpr int nodes = 4;
   static constexpr bool rotations = true;
+  static constexpr bool fetches_points_ahead = true;
   template <class Law>
   static constexpr bool accepts = ShellLaw<Law>;
 
@@ -183,6 +185,8 @@ struct Shell4 {
     T shear[2] = {T(0.0), T(0.0)};
     T thickness_strain = T(0.0);
     T work = T(0.0);
+    const std::size_t pack_bytes =
+        sizeof(Header<T, Law>) + static_cast<std::size_t>(thickness_points) * sizeof(Point<T, Law>);
     for (int p = 0; p < thickness_points; ++p) {
       const T place(quadrature_rule.place[static_cast<std::size_t>(p)]);
       const T weight(quadrature_rule.weight[static_cast<std::size_t>(p)]);
@@ -193,6 +197,7 @@ struct Shell4 {
       T through = T(0.0);
       law.update_plane_stress(strain_increment, shear_factor, stress, point[p].history, through);
       point[p].stress = stress;
+      fetch_ahead(reinterpret_cast<std::uintptr_t>(point + p) + pack_bytes, sizeof(Point<T, Law>));
       thickness_strain += weight * through;
       const T normal_work =
           (before.xx + stress.xx) * strain_increment.xx + (before.yy + stress.yy) * strain_increment.yy;

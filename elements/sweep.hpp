@@ -5,6 +5,7 @@
 /// - `using Settings = ...` if the deck's struct is another: Kind is made from it
 /// - `template <class Law> static constexpr bool accepts`
 /// - `static constexpr bool uses_differences = true` if absolute positions do as well as relative ones
+/// - `static constexpr bool fetches_points_ahead = true` if it asks for the points of the next pack itself
 /// - `int points() const`, material points of an element, and `static constexpr int most_points`
 /// - `template <class T, class Law> struct Header`, per element, of lanes T, and `struct Point`, per material
 ///   point
@@ -27,6 +28,7 @@
 #include "elements/block.hpp"
 #include "elements/gather.hpp"
 #include "elements/lose.hpp"
+#include "src/base/fetch_ahead.hpp"
 
 namespace brio {
 
@@ -172,14 +174,23 @@ struct LaneSum {
   }
 };
 
-/// Asks for the state of a pack that comes next: a pack is more work than the processor looks ahead.
-template <class Layout, class Kind>
-BRIO_INLINE void prefetch_state(const Block& block, const Kind& kind, std::size_t pack) {
-  constexpr std::size_t cache_line = 64;
-  if (pack >= block.pack_count) return;
-  const std::byte* state = block.state.data() + pack * block.pack_bytes;
-  for (std::size_t byte = 0; byte < Layout::bytes(kind); byte += cache_line)
-    __builtin_prefetch(state + byte, 1);
+/// Asks for a half of the state of the pack that comes next: a pack is more work than the processor looks
+/// ahead. In halves, before and after the element's forces, because all at once they would wait for each
+/// other; a kind with many points asks for those itself, as it comes to them.
+enum class StateHalf { first, second };
+template <StateHalf half, class Layout, class Kind>
+BRIO_INLINE void fetch_next_state(const Block& block, const Kind& kind, std::size_t pack) {
+  const auto next = reinterpret_cast<std::uintptr_t>(block.state.data()) + (pack + 1) * block.pack_bytes;
+  if constexpr (requires { requires Kind::fetches_points_ahead; }) {
+    if (half == StateHalf::first) fetch_ahead(next, sizeof(typename Layout::Header));
+  } else {
+    const std::size_t first = Layout::bytes(kind) / (2 * cache_line) * cache_line;
+    if (half == StateHalf::first) {
+      fetch_ahead(next, first);
+    } else {
+      fetch_ahead(next + first, Layout::bytes(kind) - first);
+    }
+  }
 }
 
 template <class Kind, class Law, Floating Real>
@@ -199,10 +210,11 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
         block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
     const int count = static_cast<int>(std::min<std::size_t>(width, chunk.element_count - done));
     const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
-    prefetch_state<Layout>(block, kind, pack + 1);
+    fetch_next_state<StateHalf::first, Layout>(block, kind, pack);
     ForcesOf<Kind, T> forces;
     Increment<T> increment =
         kind.force(motion, T(step), law, Layout::header(block, pack), Layout::points(block, pack), forces);
+    fetch_next_state<StateHalf::second, Layout>(block, kind, pack);
     if (block.loses_elements) {
       const LaneMask<Real> lost =
           is_lost<Kind, Law, Real>(kind, law, block.deletion, Layout::header(block, pack),

@@ -260,14 +260,14 @@ TEST(RigidPlate, HitBesideItsCentreSpinsByTheMomentOfTheImpulse) {
 
 // ---- friction
 
-double sliding_distance(const Element& block, const Element& floor) {
+double sliding_distance(const Element& block, const Element& floor, double speed) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
   deck.parts = {box("block", {1, 1, 0.5}, {4, 4, 2}, {0, 0, 0.25}, block),
                 box("floor", {3, 2, 0.25}, {11, 7, 1}, {0.5, 0, -0.125}, floor)};
   deck.boundary_conditions = {fix("floor", {0, 1, 2, 3, 4, 5})};
   if (!std::holds_alternative<Rigid>(floor)) deck.boundary_conditions = {fix("floor.zmin", {0, 1, 2})};
-  deck.initial_conditions = {moving("block", {5, 0, 0})};
+  deck.initial_conditions = {moving("block", {speed, 0, 0})};
   Gravity gravity;
   gravity.acceleration = {0, 0, -100};
   deck.loads = {gravity};
@@ -284,10 +284,12 @@ double sliding_distance(const Element& block, const Element& floor) {
 }
 
 TEST(RigidSlidingBlock, StopsAfterTheDistanceOfCoulomb) {
-  const double distance = 25 / (2 * 0.3 * 100);
-  EXPECT_NEAR(sliding_distance(Rigid{}, hex8()), distance, 0.01 * distance);
-  EXPECT_NEAR(sliding_distance(hex8(), Rigid{}), distance, 0.01 * distance);
-  EXPECT_NEAR(sliding_distance(Rigid{}, Rigid{}), distance, 0.01 * distance);
+  for (double speed : {4., 5.}) {
+    const double distance = speed * speed / (2 * 0.3 * 100);
+    EXPECT_NEAR(sliding_distance(Rigid{}, hex8(), speed), distance, 0.01 * distance) << speed;
+    EXPECT_NEAR(sliding_distance(hex8(), Rigid{}, speed), distance, 0.01 * distance) << speed;
+    EXPECT_NEAR(sliding_distance(Rigid{}, Rigid{}, speed), distance, 0.01 * distance) << speed;
+  }
 }
 
 // ---- prescribed blade, shells

@@ -23,12 +23,11 @@ void include(Spread& spread, const Eigen::Vector3d& value) {
 }
 constexpr Spread nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 
-// Relative motion since the search, now and as far ahead as constraints look, and what shells gained in
-// thickness.
-bool within_buffer(const Candidates& candidates, const Travel& travel, double thicker) {
+// Relative motion since the search, now and as far ahead as constraints look.
+bool within_buffer(const Candidates& candidates, const Travel& travel) {
   if (candidates.growth[0] < 0) return false;
   for (int axis = 0; axis < 3; ++axis)
-    if (!(std::max(travel.displacements().width(axis), travel.displacements_ahead().width(axis)) + thicker <=
+    if (!(std::max(travel.displacements().width(axis), travel.displacements_ahead().width(axis)) <=
           candidates.growth[axis]))
       return false;
   return true;
@@ -117,9 +116,7 @@ double influence(const Surface& surface, const ContactOptions& options, const Ca
 
 bool refresh(Candidates& candidates, const Surface& surface, const Lists& excluded,
              const ContactOptions& options, const Nodes& nodes, Travel& travel, ThreadTeam& team) {
-  const double thicker = options.shell_thickness_scale * (surface.grown - candidates.grown_at_search);
-  if (surface.face.empty() || within_buffer(candidates, travel, thicker)) return false;
-  candidates.grown_at_search = surface.grown;
+  if (surface.face.empty() || within_buffer(candidates, travel)) return false;
   measure_edges(candidates, surface, nodes);
   for (int axis = 0; axis < 3; ++axis)
     candidates.growth[axis] = options.reach_buffer * candidates.mean_edge +

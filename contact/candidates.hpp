@@ -37,7 +37,6 @@ struct Candidates {
   std::uint64_t changes = 0;  ///< of the lists: searches, and additions between them
   std::vector<int> fill;
   double growth[3] = {-1, -1, -1};  ///< what may be travelled; negative: no search yet
-  double grown_at_search = 0;       ///< Surface::grown then
 
   explicit Candidates(SearchStrategy strategy = SearchStrategy::automatic) : search(strategy) {}
 };

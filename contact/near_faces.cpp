@@ -107,7 +107,6 @@ void SweptFaces::begin_step(const Surface& surface, const Candidates& candidates
                             ThreadTeam& team) {
   dt = travel.dt();
   for (int axis = 0; axis < 3; ++axis) frame[axis] = travel.velocities().middle(axis);
-  grown_ = options.shell_thickness_scale * surface.grown;
   solid_.resize(surface.face.size());
   if (changes_ != candidates.changes || !may_sleep) wake_all(surface, candidates);
   team.for_ranges(solids_.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
@@ -132,7 +131,7 @@ void SweptFaces::find(const Surface& surface, const Candidates& candidates, cons
   CaptureBox own = box_of({&path, 1});
   grow(own, radius);
   const Vector3d own_velocity = velocity(nodes, node);
-  const double so_far = this->so_far(travel, slave);
+  const double so_far = this->travel.so_far(slave);
   const double ahead = travel.ahead(slave);
   double first_wake = std::numeric_limits<double>::infinity();
   // Notes the length by which a pair is too far apart. \returns whether the pair sleeps.

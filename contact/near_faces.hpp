@@ -50,7 +50,7 @@ struct SweptFaces {
 
   /// Whether nothing can be near a slave node.
   bool sleeps(const Travel& travel, int slave) const {
-    return so_far(travel, slave) + travel.ahead(slave) < wake_of_slave_[static_cast<std::size_t>(slave)];
+    return travel.so_far(slave) + travel.ahead(slave) < wake_of_slave_[static_cast<std::size_t>(slave)];
   }
 
   /// Replace `near` by the faces near a slave node, the closest first. Faces of closed bodies that the node
@@ -61,15 +61,12 @@ struct SweptFaces {
             std::vector<NearFace>& near);
 
  private:
-  // What brings a node nearer to touching any face.
-  double so_far(const Travel& travel, int slave) const { return travel.so_far(slave) + grown_; }
   void wake_all(const Surface& surface, const Candidates& candidates);
 
   std::vector<SweptFace> solid_;  ///< by face; of those that are candidates and sides of hexahedra
   std::vector<int> solids_;       ///< these faces
   std::vector<double> wake_;      ///< of each candidate pair: travel at which it may be near
   std::vector<double> wake_of_slave_;
-  double grown_ = 0;           ///< of distances of touching, by the thickness of shells
   std::uint64_t changes_ = 0;  ///< of the candidates, as far as pairs know of them
 };
 

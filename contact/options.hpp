@@ -26,7 +26,9 @@ struct ContactOptions {
   /// ... and the most it may remove, over the smallest edge: about 0.001 of the speed of sound, so that no
   /// overlap, whatever its depth, turns into a kick.
   double overlap_recovery_cap = 1e-3;
-  /// Scale of the thickness at which shells touch; 1 is the true thickness, also while it changes.
+  /// Scale of the thickness at which shells touch; 1 is the true thickness at the start. It is kept: in the
+  /// hinge of a fold a shell thickens by as much as its edges shorten, and neighbours would meet that are no
+  /// fold (in the crushed can contact then adds 0.7 % of the energy and misses two contacts, measured).
   double shell_thickness_scale = 1;
   /// Initial overlaps up to this share of the edge (or of the thickness of a shell) are removed by moving
   /// nodes before the first step; deeper ones are an error of the input.

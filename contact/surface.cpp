@@ -219,17 +219,4 @@ Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count)
   return surface;
 }
 
-void update_thickness(Surface& surface, int part, std::span<const double> thickness) {
-  double growth = 0;
-  for (std::size_t f = 0; f < surface.face.size(); ++f) {
-    const Face& face = surface.face[f];
-    if (face.part != part || !face.shell) continue;
-    const double now = thickness[static_cast<std::size_t>(face.element)];
-    growth = std::max(growth, now - surface.thickness[f]);
-    surface.thickness[f] = now;
-  }
-  surface.grown += growth;  // half of it on the face's side and half on the node's
-  for (std::size_t s = 0; s < surface.slaves(); ++s) update_slave(surface, static_cast<int>(s));
-}
-
 }  // namespace brio

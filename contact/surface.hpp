@@ -55,7 +55,6 @@ struct Surface {
   std::vector<int> body;               ///< of each slave node
   Lists faces_of;                      ///< of each slave node: the faces it belongs to, ascending
   int body_count = 0;
-  double grown = 0;  ///< sum over the updates of thickness of the most that distances of touching grew
   std::vector<int> rigid_of_node;  ///< of each global node: its rigid body, or -1; empty where there is none
 
   /// -1: none.
@@ -97,8 +96,5 @@ void for_fan(const Surface& surface, int slave, int face, const Visit& visit) {
     if (f == face) break;
   }
 }
-
-/// Take over the current thickness of the shells of a part, in the order of its elements.
-void update_thickness(Surface& surface, int part, std::span<const double> thickness);
 
 }  // namespace brio

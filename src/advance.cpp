@@ -163,14 +163,6 @@ void carry_rigid(Model& model, ThreadTeam& team) {
   carry_velocities(model.rigid, model.nodes, team);
 }
 
-// Seldom enough to cost nothing, often enough to see no jump: with every search.
-void follow_thickness(Model& model, Surface& surface) {
-  for (ContactThickness& shells : model.contact_thickness) {
-    const PartInModel& part = model.parts[shells.part];
-    follow(shells, part, model.blocks[part.block], model.nodes, surface);
-  }
-}
-
 void resolve_contact(Model& model, ThreadTeam& team) {
   if (model.contacts.empty()) return;
   const StageTimer timer(model.stages, Stage::contact);
@@ -178,7 +170,6 @@ void resolve_contact(Model& model, ThreadTeam& team) {
     resolve(scene, model.nodes, model.times.next, team, model.rigid.motion);
     settle(model.rigid);
     const ContactStep& step = scene.step;
-    if (step.searched) follow_thickness(model, scene.surface);
     model.stages[Stage::contact_search] += step.search_seconds;
     model.stages[Stage::contact] -= step.search_seconds;
     model.energy.contact.before += step.normal_work_before;

@@ -215,12 +215,6 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
       model.surface_numbers->part[p] = static_cast<int>(surfaces.size());
       model.surface_numbers->element[p] = model.parts[p].element_slot;
     }
-    const auto* thinning = std::get_if<Shell4>(&part.element);
-    if (thinning != nullptr && thinning->thickness_update)
-      model.contact_thickness.push_back({.part = p,
-                                         .surface_part = static_cast<int>(surfaces.size()),
-                                         .element = model.parts[p].element_slot,
-                                         .thickness = std::vector<double>(shells, thinning->thickness)});
     surfaces.push_back({.name = part.name,
                         .shell = shell,
                         .nodes_per_element = meshes[p].nodes_per_element,

@@ -10,7 +10,6 @@
 #include "contact/overlap.hpp"
 #include "contact/scene.hpp"
 #include "src/constraints.hpp"
-#include "src/contact_thickness.hpp"
 #include "src/deck.hpp"
 #include "src/erosion.hpp"
 #include "src/ledger.hpp"
@@ -51,10 +50,9 @@ struct Model {
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
   RigidBodies rigid;
-  std::vector<ContactScene> contacts;               ///< one if the deck names contact, else none
-  std::int64_t missed_contacts = 0;                 ///< counted by the audit, where the deck asks for it
-  std::vector<ContactThickness> contact_thickness;  ///< of parts of shells that are in contact
-  std::vector<InitialOverlap> initial_overlaps;     ///< removed before the first step
+  std::vector<ContactScene> contacts;            ///< one if the deck names contact, else none
+  std::int64_t missed_contacts = 0;              ///< counted by the audit, where the deck asks for it
+  std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step
 
   std::optional<Erosion> erosion;                 ///< if elements can be deleted
   std::optional<SurfaceNumbers> surface_numbers;  ///< if elements can be deleted and the deck names contact

@@ -87,16 +87,6 @@ TEST(Surface, ShellsAreOneFaceEachWithFreeEdges) {
   for (double radius : surface.radius) EXPECT_DOUBLE_EQ(radius, 0.05);
 }
 
-TEST(Surface, ThicknessIsTakenOver) {
-  SpringModel model;
-  model.add_sheet({2, 1}, {2, 1}, 0.1, 1, shifted({0, 0, 0}));
-  model.start({});
-  update_thickness(model.scene.surface, 0, std::vector<double>{0.1, 0.06});
-  EXPECT_DOUBLE_EQ(model.scene.surface.radius[0], 0.05);
-  EXPECT_DOUBLE_EQ(model.scene.surface.radius[1], 0.04) << "between both";
-  EXPECT_DOUBLE_EQ(model.scene.surface.radius[2], 0.03);
-}
-
 TEST(Surface, RefusesWhatHasNone) {
   const std::vector<int> nodes{0, 1, 2, 3};
   const std::vector<SurfacePart> thin{

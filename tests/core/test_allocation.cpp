@@ -78,10 +78,6 @@ Counted count(const Deck& deck, int threads, int steps) {
   model.nodes = start.nodes;
   model.blocks = start.blocks;
   model.energy = start.energy;
-  for (std::size_t i = 0; i < model.contacts.size(); ++i) {
-    model.contacts[i].surface.thickness = start.contacts[i].surface.thickness;
-    model.contacts[i].surface.radius = start.contacts[i].surface.radius;
-  }
   for (int step = 0; step < 10; ++step) advance();
   Counted counted;
   const AllocationCount allocations;

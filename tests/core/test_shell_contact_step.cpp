@@ -67,55 +67,5 @@ TEST(ShellContactStep, BitsDoNotDependOnTheNumberOfThreads) {
   }
 }
 
-// A sheet drawn out to twice its length under a block that comes down on it: how thick the surface is.
-Model drawn_sheet(bool thickness_update) {
-  ElasticPlastic law;
-  law.density = 1000;
-  law.youngs_modulus = 1e9;
-  law.poissons_ratio = 0.3;
-  law.yield_stress = 2e6;
-  law.hardening_modulus = 1e7;
-  Shell4 shell;
-  shell.thickness = 0.02;
-  shell.thickness_update = thickness_update;
-  Deck deck;
-  deck.materials = {{"metal", law}, {"material", elastic(0.3)}};
-  deck.parts = {{"sheet", PlateMesh{{1, 1}, {8, 8}}, {}, shell, "metal"},
-                box("block", {0.3, 0.3, 0.1}, {2, 2, 1}, {0, 0, 0.1}, hex8())};
-  PrescribedMotion pulled = fix("sheet.xmax", {0, 2});
-  pulled.components[0].curve = Curve{{{0, 20}}};
-  deck.boundary_conditions = {fix("sheet.xmin", {0, 2}), pulled};
-  deck.initial_conditions = {moving("block", {0, 0, -4})};
-  deck.contact.emplace();
-  deck.time.end = 0.05;
-  Model model = build_model(deck);
-  ThreadTeam team(1);
-  run(model, deck, team);
-  return model;
-}
-
-TEST(ShellContactStep, SurfaceIsAsThickAsTheDrawnSheet) {
-  const Model model = drawn_sheet(true);
-  const Surface& surface = model.contacts[0].surface;
-  const Block& block = model.blocks[0];
-  int shells = 0;
-  for (std::size_t f = 0; f < surface.face.size(); ++f) {
-    if (!surface.face[f].shell) continue;
-    ++shells;
-    const auto place = static_cast<std::size_t>(surface.face[f].element);
-    const double thickness = block.kernel.sample(block, model.nodes, place).thickness;
-    EXPECT_LT(thickness, 0.017);
-    EXPECT_NEAR(surface.thickness[f], thickness, 0.02 * (0.02 - thickness));
-  }
-  EXPECT_EQ(shells, 64);
-  EXPECT_LT(model.energy.contact_added_max, 1e-3 * model.energy.internal);
-}
-
-TEST(ShellContactStep, SurfaceKeepsAThicknessThatTheDeckHolds) {
-  const Model model = drawn_sheet(false);
-  for (double thickness : model.contacts[0].surface.thickness)
-    EXPECT_TRUE(thickness == 0.02 || thickness == 0) << thickness;
-}
-
 }  // namespace
 }  // namespace brio

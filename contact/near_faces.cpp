@@ -131,7 +131,7 @@ void SweptFaces::find(const Surface& surface, const Candidates& candidates, cons
   CaptureBox own = box_of({&path, 1});
   grow(own, radius);
   const Vector3d own_velocity = velocity(nodes, node);
-  const double so_far = this->travel.so_far(slave);
+  const double so_far = travel.so_far(slave);
   const double ahead = travel.ahead(slave);
   double first_wake = std::numeric_limits<double>::infinity();
   // Notes the length by which a pair is too far apart. \returns whether the pair sleeps.

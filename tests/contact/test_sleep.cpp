@@ -94,8 +94,8 @@ int awake(const SpringModel& model) {
   return count;
 }
 
-// Steps of both with thickness that changes where asked; \returns the share of nodes that slept.
-double compare(const Build& build, double dt, int steps, bool thicken = false) {
+// Steps of both; \returns the share of nodes that slept.
+double compare(const Build& build, double dt, int steps) {
   SpringModel sleeping, sleepless;
   build(sleeping);
   build(sleepless);
@@ -103,12 +103,6 @@ double compare(const Build& build, double dt, int steps, bool thicken = false) {
   double asleep = 0;
   std::uint64_t active = 0;
   for (int step = 0; step < steps; ++step) {
-    if (thicken)
-      for (SpringModel* model : {&sleeping, &sleepless})
-        for (int part = 0; part < static_cast<int>(model->scene.surface.part_name.size()); ++part) {
-          const std::vector<double> thickness(64, 0.1 + 0.05 * step / steps);
-          update_thickness(model->scene.surface, part, thickness);
-        }
     sleeping.step(dt);
     sleepless.step(dt);
     for (int n = 0; n < sleeping.count(); ++n)
@@ -149,11 +143,6 @@ TEST(Sleep, LeavesNoTraceAtHighSpeed) {
 TEST(Sleep, LeavesNoTraceInAPile) { EXPECT_GT(compare(pile, 5e-4, 3000), 0.1); }
 
 TEST(Sleep, LeavesNoTraceWhereAShellFolds) { EXPECT_GT(compare(fold, 2e-3, 1000), 0.1); }
-
-TEST(Sleep, LeavesNoTraceWhereShellsThicken) {
-  const auto build = [](SpringModel& model) { throw_things(model, 6, 2, Vector3d::Zero()); };
-  EXPECT_GT(compare(build, 1e-3, 800, true), 0.2);
-}
 
 // Nodes that wander while all of them travel: no node comes nearer to any face than the bound says.
 TEST(Travel, BoundsHowMuchNearerAnyNodeComesToAnyFace) {

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -42,8 +43,7 @@ TEST(Schema, CommittedReferenceIsUpToDate) {
 
 /// What validate_decks.py says of each deck; nothing if Python lacks a package.
 std::map<std::string, std::string> verdicts(const std::vector<std::string>& decks) {
-  const fs::path schema =
-      fs::temp_directory_path() / ("brio_schema_" + std::to_string(std::rand()) + ".json");
+  const fs::path schema = fs::temp_directory_path() / ("brio_schema_" + std::to_string(::getpid()) + ".json");
   std::ofstream(schema) << deck_schema();
   std::string command =
       BRIO_PYTHON " '" BRIO_SOURCE_DIR "/tests/io/validate_decks.py' '" + schema.string() + "'";

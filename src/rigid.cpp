@@ -122,7 +122,7 @@ Vector3d given_turn(RigidBody& body, RigidMotion& motion, double step) {
     const double change = (next - end).norm();
     end = next;
     if (change <= converged_share * start.norm()) {
-      const Vector3d added = motion.inertia * end - body.angular_momentum;
+      Vector3d added = motion.inertia * end - body.angular_momentum;
       body.angular_momentum += added;
       return added;
     }

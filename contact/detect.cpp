@@ -20,7 +20,7 @@ constexpr double same_direction = 0.99;
 /// A contact of the last step whose direction differs less than this continues; beyond, it is another
 /// contact.
 constexpr double continued_direction = 0.5;
-/// A node belongs on the face's outside only if its own normal opposes the face's by at least this.
+/// A node belongs on the face's outside only if its own surface opposes the face's by at least this.
 constexpr double opposing = -0.1;
 /// Overlaps below this share of an edge are rounding and impulses not yet converged, not penetration.
 constexpr double touching_share = 1e-6;
@@ -37,7 +37,6 @@ class NodeCheck {
     const auto s = static_cast<std::size_t>(slave);
     node_ = scene_.surface.node[s];
     solid_ = scene_.surface.of_solid[s] != 0;
-    normal_known_ = false;
     begin_ = piece_.contact.size();
     // Whoever seems to be inside a body is judged once more with all that is near in sight.
     if (!judge_all(false)) {
@@ -114,21 +113,27 @@ class NodeCheck {
     return false;
   }
 
-  // A contact of the last step with this face or one beside it that pushed about the same way.
-  bool was_tracked(int f, const Vector3d& direction) const {
+  // A contact of the last step with this face or one beside it that pushed about the same way and was about
+  // as deep: around the edge of a thin body another face may be near in direction, but not in depth.
+  bool was_tracked(int f, const Vector3d& direction, double gap) const {
     for (const Contact& old : history_)
-      if (old.normal.dot(direction) > continued_direction && neighbors(old.face, f)) return true;
+      if (old.normal.dot(direction) > continued_direction && neighbors(old.face, f) &&
+          gap > std::min(old.gap, 0.0) - band_share * edge(f))
+        return true;
     return false;
   }
 
-  // Whether the node's own surface faces the other way; nodes of shells alone face all ways.
-  bool faces_towards(const Vector3d& direction) {
-    if (!solid_) return true;
-    if (scene_.surface.pinched[static_cast<std::size_t>(slave_)] != 0)
-      return looks_against(scene_.surface, scene_.nodes, slave_, direction, opposing);
-    if (!normal_known_) node_normal_ = vertex_normal(scene_.surface, scene_.nodes, slave_);
-    normal_known_ = true;
-    return node_normal_.dot(direction) < opposing;
+  // Whether the node's own surface faces the other way; nodes of shells alone face all ways. Any part of it
+  // will do: on a rim the mean looks along the surface that it meets.
+  bool faces_towards(const Vector3d& direction) const {
+    return !solid_ || looks_against(scene_.surface, scene_.nodes, slave_, direction, opposing);
+  }
+
+  // Where a node is found deep inside a body, the mean of its own surface tells which way it came.
+  bool came_against(const Vector3d& direction) const {
+    if (!solid_ || scene_.surface.pinched[static_cast<std::size_t>(slave_)] != 0)
+      return faces_towards(direction);
+    return vertex_normal(scene_.surface, scene_.nodes, slave_).dot(direction) < opposing;
   }
 
   Vector3d relative_velocity(int f, const std::array<double, 4>& weights) const {
@@ -174,6 +179,16 @@ class NodeCheck {
     return closest.separation / (outside ? near.distance : -near.distance);
   }
 
+  // Just under the surface of another body a node is stopped by the closest place whichever way its own
+  // surface faces; deep below, that and the last step tell where it came from.
+  bool may_stop(const NearFace& near, const Vector3d& push, double gap, bool outside,
+                bool closest_of_other) const {
+    if (outside) return faces_towards(push);
+    if (near.distance > band_share * edge(near.face))
+      return was_tracked(near.face, push, gap) || came_against(push);
+    return closest_of_other || faces_towards(push);
+  }
+
   NodeAtFeature at_feature(const NearFace& near) const {
     return {scene_.surface, scene_.nodes, history_,        scene_.swept.dt,    slave_,
             near.face,      near.closest, edge(near.face), touching(near.face)};
@@ -190,13 +205,14 @@ class NodeCheck {
     if (first == i) near.inside = !outside;
     if (repeated(i)) return;
     const Vector3d push = way_out(near, outside);
+    const double gap = (outside ? near.distance : -near.distance) - touching(near.face);
     if (!outside) {
       if (!piece_.near[first].inside || near.distance > scene_.candidates.depth_share * edge(near.face))
         return;
-      if ((self || first != i) && !was_tracked(near.face, push)) return;
+      if ((self || first != i) && !was_tracked(near.face, push, gap)) return;
     }
     if (!self && judge_feature(near, outside, push)) return;
-    add(near, push, (outside ? near.distance : -near.distance) - touching(near.face));
+    if (may_stop(near, push, gap, outside, !self && first == i)) add(near, push, gap);
   }
 
   // \returns false where faces of the body do not meet convexly at the closest point.
@@ -228,7 +244,7 @@ class NodeCheck {
         distance = -distance;
       }
     }
-    add(near, push, distance - reach);
+    if (faces_towards(push)) add(near, push, distance - reach);
   }
 
   // The side of a shell on which the node belongs: the last step's, else where it is now.
@@ -246,7 +262,7 @@ class NodeCheck {
   }
 
   void add(const NearFace& near, const Vector3d& push, double gap) {
-    if (within_reach(near.face, near.closest.weights, push, gap) && faces_towards(push))
+    if (within_reach(near.face, near.closest.weights, push, gap))
       append(near.face, near.closest.weights, push, gap);
   }
 
@@ -336,12 +352,10 @@ class NodeCheck {
   const Scenery& scene_;
   DetectionPiece& piece_;
   std::span<const Contact> history_;
-  Vector3d node_normal_ = Vector3d::Zero();
   std::size_t begin_ = 0;
   int slave_ = 0;
   int node_ = 0;
   bool solid_ = false;
-  bool normal_known_ = false;
 };
 
 }  // namespace

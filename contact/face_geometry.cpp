@@ -83,10 +83,14 @@ Vector3d fan_normal(const Surface& surface, const Nodes& nodes, int slave, int f
 
 bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const Vector3d& direction,
                    double limit) {
-  for (int f : surface.faces_of.of(slave))
-    if (!surface.face[static_cast<std::size_t>(f)].shell &&
-        fan_normal(surface, nodes, slave, f).dot(direction) < limit)
-      return true;
+  const int node = surface.node[static_cast<std::size_t>(slave)];
+  for (int f : surface.faces_of.of(slave)) {
+    const Face& face = surface.face[static_cast<std::size_t>(f)];
+    if (face.shell) continue;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(face.corners()); ++k)
+      if (face.node[k] == node && unit(corner_share(vertices(nodes, face), k)).dot(direction) < limit)
+        return true;
+  }
   return false;
 }
 

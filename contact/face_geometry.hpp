@@ -40,8 +40,9 @@ Eigen::Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int sl
 /// The same of one fan of them.
 Eigen::Vector3d fan_normal(const Surface& surface, const Nodes& nodes, int slave, int face);
 
-/// Whether any of the fans at a pinched slave node looks against a unit vector: its normal times the vector
-/// is below a limit.
+/// Whether any of the hexahedron sides around a slave node looks against a unit vector there: its normal
+/// times the vector is below a limit. Their mean would not tell: that of a rim sees neither of the surfaces
+/// that meet in it.
 bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const Eigen::Vector3d& direction,
                    double limit);
 

@@ -110,26 +110,26 @@ struct HourglassAxes {
 /// its length, not over its thickness.
 ///
 /// Bending is S_b G q_a without the component of q_a along n_a, in which pattern a strains no fibre but
-/// shears: eta zeta along the normal of the faces xi = +-1, and so on. Three such motions a_k of a box of
-/// edges L_k shear it by gamma_kl = (a_k + a_l) times the third coordinate. In the twist of a thin wall these
-/// cancel but for the one that varies over the thickness, so that stiffness against each alone would lock.
-/// With the others free, each meets mu V / 24 times 4 H^2 a_k^2, 1 / H^2 = sum 1 / L_k^2: a third of it for
-/// each of the three together never exceeds the energy of the shears and equals it in a thin wall.
+/// shears: eta zeta along the normal of the faces xi = +-1, and so on. Three such motions a_k, u_k = a_k x_l
+/// x_m, shear a box of edges L_k by gamma_kl = (a_k + a_l) x_m and store mu V / 24 times the sum of
+/// L_m^2 (a_k + a_l)^2. Taken one by one they would lock: in the twist of a thin wall all shears cancel but
+/// the one that varies over the thickness.
 template <class T>
 BRIO_INLINE HourglassVectors<T> hourglass_forces(const HourglassAxes<T>& axes, const HourglassModuli<T>& s,
                                                  const HourglassVectors<T>& q) {
   HourglassVectors<T> force;
   const SymmetricTensor<T> bending = s.bending * axes.g;
   for (int a = 0; a < hourglass_modes; ++a) force.mode[a] = bending * q.mode[a];
-  T squared[linear_modes];
-  for (int k = 0; k < linear_modes; ++k) squared[k] = dot(axes.normal[k], axes.normal[k]);
-  const T sum = squared[0] + squared[1] + squared[2];
-  const T inverse_sum = 1.0 / where(sum > T(0.0), sum, T(1.0));
+  T squared[linear_modes], along[linear_modes];
   for (int k = 0; k < linear_modes; ++k) {
-    const T others = squared[(k + 1) % 3] * inverse_sum * squared[(k + 2) % 3];
-    const T twist = (4.0 / 3.0) * s.twist * others / where(squared[k] > T(0.0), squared[k], T(1.0));
-    force.mode[k] =
-        force.mode[k] + (8.0 * (twist - s.bending) * dot(axes.normal[k], q.mode[k])) * axes.normal[k];
+    squared[k] = dot(axes.normal[k], axes.normal[k]);
+    along[k] = dot(axes.normal[k], q.mode[k]);
+  }
+  for (int k = 0; k < linear_modes; ++k) {
+    const int l = (k + 1) % linear_modes, m = (k + 2) % linear_modes;
+    const T others = (squared[l] + squared[m]) / where(squared[k] > T(0.0), squared[k], T(1.0));
+    const T twist = s.twist * (others * along[k] + along[l] + along[m]);
+    force.mode[k] = force.mode[k] + (8.0 * (twist - s.bending * along[k])) * axes.normal[k];
   }
   return force;
 }

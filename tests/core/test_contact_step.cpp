@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "tests/core/scene.hpp"
 
@@ -116,6 +117,35 @@ TEST(ContactStep, SceneWithoutContactBuildsAndTimesNone) {
   EXPECT_EQ(model.stages[Stage::contact], 0);
   EXPECT_EQ(model.stages[Stage::constraints], 0);
   EXPECT_GT(model.stages[Stage::elements], 0);
+}
+
+// A blade of 8 degrees falls flat on the floor. At its edge the mean of its surfaces looks along the floor.
+TEST(ContactStep, SharpEdgeThatLooksAlongAFloorDoesNotSinkIn) {
+  Deck deck;
+  deck.materials = {{"material", elastic()}};
+  WedgeMesh blade;
+  blade.half_angle = 4;
+  blade.height = 1;
+  blade.thickness = 2 * std::tan(4 * std::numbers::pi / 180);
+  blade.length = 0.5;
+  blade.elements = {2, 8, 3};
+  Placement flat;  // the lower flank on z = 0, the edge at x = 0
+  flat.rotate = Rotation{{0, 1, 0}, -86};
+  deck.parts = {{"blade", blade, flat, hex8(), "material"},
+                box("floor", {2, 1, 0.1}, {1, 1, 1}, {-0.4, 0, -0.051}, hex8())};
+  deck.boundary_conditions = {fix("floor", {0, 1, 2})};
+  deck.initial_conditions = {moving("blade", {0, 0, -2})};
+  deck.contact.emplace();
+  deck.time.end = 3e-3;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  double lowest = 0;
+  run(model, deck, team, [&](Model& m) {
+    for (int node : m.parts[0].node)
+      lowest = std::min(lowest, m.nodes.record[static_cast<std::size_t>(node)].position[2]);
+  });
+  EXPECT_GT(mean_velocity(model, 0, 2), -1);
+  EXPECT_NEAR(lowest, -1e-3, 1e-5);
 }
 
 }  // namespace

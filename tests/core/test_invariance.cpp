@@ -162,8 +162,9 @@ TEST(Invariance, TwoHundredTurnsOfAFreeCubeKeepEnergyAndAngularMomentum) {
 // A cube that turns and vibrates in every uniform strain at about 1/s and in every hourglass mode, 170 times
 // a turn; 1 % of the energy vibrates. A step in time with the vibrations would feed them, hourglass forces
 // that lag behind the turning as well.
-void expect_no_gain_of_energy(ObjectiveRate rate, double turns, double book_error) {
+void expect_no_gain_of_energy(ObjectiveRate rate, double turns, double step_scale, double book_error) {
   TurningCube cube(10, turns, rate);
+  cube.deck.time.step_scale = step_scale;
   cube.deck.numerics.energy_error_limit = 1e9;  // the motion is set after the books were opened
   Model model = build_model(cube.deck);
   const double gradient[3][3] = {{1, 0.3, -0.2}, {0.3, -0.6, 0.4}, {-0.2, 0.4, 0.2}};
@@ -188,11 +189,14 @@ void expect_no_gain_of_energy(ObjectiveRate rate, double turns, double book_erro
 
 TEST(Invariance, TurningAndVibratingCubeGainsNoEnergy) {
   for (const ObjectiveRate rate : {ObjectiveRate::green_naghdi, ObjectiveRate::jaumann})
-    expect_no_gain_of_energy(rate, 300, 3e-3);
+    expect_no_gain_of_energy(rate, 300, 0.9, 3e-3);
 }
 
-TEST(InvarianceSlow, TurningAndVibratingCubeGainsNoEnergyInTenThousandTurns) {
-  expect_no_gain_of_energy(ObjectiveRate::green_naghdi, 10000, 0.06);
+// Hourglass stiffness is that of the end of a step, half a step late: with seven steps to a vibration it
+// feeds 0.5 % in the 1.7 million vibrations of 10,000 turns, with fourteen nothing.
+TEST(InvarianceSlow, TurningAndVibratingCubeGainsNoEnergyInThousandsOfTurns) {
+  expect_no_gain_of_energy(ObjectiveRate::green_naghdi, 1000, 0.9, 3e-3);
+  expect_no_gain_of_energy(ObjectiveRate::green_naghdi, 10000, 0.45, 0.01);
 }
 
 }  // namespace

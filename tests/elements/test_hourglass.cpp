@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "elements/hex8_full_kernel.hpp"
 #include "elements/hex8_kernel.hpp"
+#include "materials/elastic.hpp"
 #include "materials/elastic_plastic.hpp"
 #include "tests/elements/hexahedra.hpp"
 
@@ -67,6 +71,37 @@ test::Corners bending(double amount) {
     u(0, n) = amount * sign.x() * sign.z();
   }
   return u;
+}
+
+// Warping u_k = a_k x_l x_m strains no fibre: full integration of its shears is exact. One warping that comes
+// alone, as in a checkerboard of bricks, is stiff; the twist of a flat brick, in which they cancel, is not.
+TEST(Hourglass, WarpingInAnyCombinationIsResistedAsIfFullyIntegrated) {
+  const Elastic law{.density = 1, .youngs_modulus = 260, .poissons_ratio = 0.3};
+  Hex8Kernel<ObjectiveRate::green_naghdi> one_point;
+  Hex8FullKernel<ObjectiveRate::green_naghdi> full;
+  one_point.hourglass_stiffness = 1.0 / 9;
+  one_point.linear_bulk_viscosity = one_point.quadratic_bulk_viscosity = 0;
+  full.linear_bulk_viscosity = full.quadratic_bulk_viscosity = 0;
+  test::Noise noise(7);
+  const Eigen::Vector3d lone = Eigen::Vector3d::UnitZ(), twist(1, 1, -1);
+  for (const Eigen::Vector3d& edges : {Eigen::Vector3d(1, 1, 1), Eigen::Vector3d(2, 3, 0.1)}) {
+    const test::Corners x = test::box(edges.x(), edges.y(), edges.z());
+    for (const Eigen::Vector3d& a : {lone, twist, noise.matrix<Eigen::Vector3d>()}) {
+      test::Corners u;
+      for (int n = 0; n < 8; ++n)
+        for (int k = 0; k < 3; ++k) u(k, n) = 1e-8 * a[k] * x((k + 1) % 3, n) * x((k + 2) % 3, n);
+      test::SingleElement<Hex8Kernel<ObjectiveRate::green_naghdi>, Elastic> brick(one_point, law, x);
+      test::SingleElement<Hex8FullKernel<ObjectiveRate::green_naghdi>, Elastic> reference(full, law, x);
+      brick.move_to(x + u, 1);
+      reference.move_to(x + u, 1);
+      const Eigen::Vector3d l2 = edges.cwiseProduct(edges);
+      const double exact = 1e-16 * 100 * edges.prod() / 12 *
+                           (l2.x() * std::pow(a.y() + a.z(), 2) + l2.y() * std::pow(a.x() + a.z(), 2) +
+                            l2.z() * std::pow(a.x() + a.y(), 2));
+      EXPECT_NEAR(brick.force.cwiseProduct(u).sum(), exact, 1e-5 * exact);
+      EXPECT_LE((brick.force - reference.force).norm(), 2e-5 * reference.force.norm());
+    }
+  }
 }
 
 // The nodal forces of a section that yields all over: s V / (8 L).

@@ -229,7 +229,10 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   EnergyBook& energy = model.energy;
   for (Work* work : {&energy.external, &energy.contact, &energy.friction}) work->begin_step();
 
-  if (model.erosion) drop_nodes(*model.erosion, model.nodes, energy, model.momentum);
+  if (model.erosion) {
+    for (ActiveLoad& load : model.loads) drop_nodes(load, model.erosion->dropping);
+    drop_nodes(*model.erosion, model.nodes, energy, model.momentum);
+  }
   apply_loads(model);
   sweep_elements(model, team);
   erode_elements(model, team);

@@ -104,6 +104,7 @@ void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResul
   }
   std::sort(erosion.deleted.begin(), erosion.deleted.end());
   std::sort(erosion.freed.begin(), erosion.freed.end());
+  std::sort(erosion.dropping.begin(), erosion.dropping.end());
 }
 
 bool is_sparse(const SweepSchedule& schedule, std::span<const Block> blocks) {
@@ -154,6 +155,13 @@ void drop_sides(ActiveLoad& load, std::span<const DeletedElement> deleted) {
   }
   pressure->sides.resize(kept);
   pressure->element.resize(kept);
+}
+
+void drop_nodes(ActiveLoad& load, std::span<const int> dropping) {
+  auto* nodal = std::get_if<NodalLoad>(&load.load);
+  if (nodal == nullptr || dropping.empty()) return;
+  std::erase_if(nodal->nodes,
+                [&](int node) { return std::binary_search(dropping.begin(), dropping.end(), node); });
 }
 
 void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBook& energy, MomentumBook& momentum) {

@@ -44,7 +44,7 @@ struct Erosion {
   std::vector<int> elements_of_node;        ///< that live
   std::vector<std::int64_t> deleted_count;  ///< of each part, so far
   double mass_of_deleted = 0;               ///< of deleted elements so far; it stays on their nodes
-  std::vector<int> dropping;                ///< nodes that leave before the next step
+  std::vector<int> dropping;                ///< nodes that leave before the next step, ascending
   double dropped_mass = 0;
 
   std::int64_t total_deleted() const;
@@ -69,6 +69,9 @@ SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std
 
 /// Takes the sides of deleted elements out of a load. \param deleted ascending
 void drop_sides(ActiveLoad& load, std::span<const DeletedElement> deleted);
+
+/// Takes nodes that leave out of a load. \param dropping ascending
+void drop_nodes(ActiveLoad& load, std::span<const int> dropping);
 
 /// Lets the nodes go that are listed in `dropping`: mass, momentum and kinetic energy go to the books.
 void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBook& energy, MomentumBook& momentum);

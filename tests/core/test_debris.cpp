@@ -1,0 +1,103 @@
+// Nodes left without elements, in contact: those that are dropped are gone from it at once.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/observe.hpp"
+#include "tests/core/scene.hpp"
+
+namespace brio {
+namespace {
+
+using namespace test;
+
+ElasticPlastic soft() {
+  return {.density = 1000,
+          .youngs_modulus = 1e9,
+          .poissons_ratio = 0.3,
+          .yield_stress = 1e6,
+          .hardening_modulus = 1e7};
+}
+
+constexpr std::size_t column = 0, block = 1;
+
+// A soft column comes down on a block that nothing holds; its lowest element is crushed and goes.
+Deck crushed_column(FreeNodes free_nodes) {
+  Deck deck;
+  deck.materials = {{"material", soft()}, {"hard", elastic(0.3)}};
+  deck.parts = {box("column", {0.1, 0.1, 0.3}, {1, 1, 3}, {0.013, 0.017, 0.2505}, hex8()),
+                box("block", {0.4, 0.4, 0.2}, {4, 4, 2}, {0, 0, 0}, hex8(), "hard")};
+  deck.parts[column].deletion.emplace().plastic_strain = 0.04;
+  deck.parts[column].deletion->free_nodes = free_nodes;
+  deck.initial_conditions = {moving("column", {0, 0, -10})};
+  NodalForce force;
+  force.where.set = "column.zmin";
+  force.force = {3, 0, -20};
+  deck.loads = {force};
+  deck.contact.emplace();
+  deck.time.end = 0.03;
+  return deck;
+}
+
+Vector momentum_of_part(const Model& model, std::size_t part) {
+  Vector sum{};
+  for (const int entry : model.parts[part].node) {
+    const auto node = static_cast<std::size_t>(entry);
+    for (std::size_t i = 0; i < 3; ++i)
+      sum[i] += model.nodes.mass[node] * model.nodes.record[node].velocity[i];
+  }
+  return sum;
+}
+
+double distance(const Vector& a, const Vector& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+TEST(Debris, DroppedNodesAreOutOfContactInTheStepInWhichTheyAreFreed) {
+  const Deck deck = crushed_column(FreeNodes::drop);
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  Vector before = momentum_of_part(model, block);
+  const double scale = 10 * model.parts[column].mass;
+  int active_before = 0, freed_in_contact = 0, active_later = 0;
+  std::vector<int> gone;
+  run(model, deck, team, [&](Model& m) {
+    const ContactScene& scene = m.contacts[0];
+    gone.insert(gone.end(), m.erosion->freed.begin(), m.erosion->freed.end());
+    std::sort(gone.begin(), gone.end());
+    if (!m.erosion->freed.empty()) freed_in_contact += active_before;
+    if (!gone.empty()) active_later += scene.step.active;
+    for (const int node : gone) ASSERT_LT(scene.surface.slave(node), 0) << "step " << m.step;
+    for (const Contact& contact : scene.contacts)
+      for (const int slave : contact.node) {
+        const int node = scene.surface.node[static_cast<std::size_t>(slave)];
+        ASSERT_FALSE(std::binary_search(gone.begin(), gone.end(), node));
+        ASSERT_GT(m.nodes.mass[static_cast<std::size_t>(node)], 0);
+      }
+    for (std::size_t s = 0; s < scene.surface.slaves(); ++s)
+      if (scene.surface.node[s] < 0) {
+        ASSERT_TRUE(scene.candidates.faces_of.of(static_cast<int>(s)).empty());
+      }
+    const Vector now = momentum_of_part(m, block);
+    if (scene.step.active == 0) {
+      ASSERT_LT(distance(now, before), 1e-12 * scale) << "step " << m.step;
+    }
+    before = now;
+    active_before = scene.step.active;
+  });
+  EXPECT_GT(freed_in_contact, 0) << "nodes were freed while they pushed";
+  EXPECT_GT(active_later, 0) << "the rest of the column came down";
+  EXPECT_GE(gone.size(), 4u);
+  EXPECT_LT(gone.size(), 16u);
+  for (const int node : gone) EXPECT_EQ(model.nodes.mass[static_cast<std::size_t>(node)], 0);
+  EXPECT_GT(momentum_of_part(model, block)[2], -scale);
+  std::vector<double> row;
+  observe_history(model, row);
+  EXPECT_LT(model.momentum.linear_imbalance(), 1e-12);
+  EXPECT_LT(model.momentum.angular_imbalance(), 1e-12);
+  EXPECT_LT(model.energy.error_max, 0.02);
+}
+
+}  // namespace
+}  // namespace brio

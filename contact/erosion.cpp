@@ -1,22 +1,25 @@
 #include "contact/erosion.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "contact/face_geometry.hpp"
 #include "contact/scene.hpp"
 
 namespace brio {
 
-void make_erodible(ContactScene& scene, std::span<const SurfacePart> parts, const Nodes& nodes,
-                   double debris_radius) {
+using Eigen::Vector3d;
+
+void make_erodible(ContactScene& scene, std::span<const SurfacePart> parts, const Nodes& nodes) {
   scene.erosion.emplace(ContactErosion{.topology = make_topology(scene.surface, parts),
                                        .exclusion = ErodingExclusion(scene.surface, nodes),
                                        .local = {},
-                                       .change = {}});
-  scene.erosion->topology.debris_radius = debris_radius;
+                                       .change = {},
+                                       .growing = {}});
   // A mean over fewer shells may be larger than any mean so far.
   double& bound = scene.candidates.radius_bound;
-  bound = debris_radius;
+  for (const SurfacePart& part : parts) bound = std::max(bound, part.debris_radius);
   for (double thickness : scene.surface.thickness) bound = std::max(bound, 0.5 * thickness);
 }
 
@@ -46,6 +49,7 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const N
       scene.normal_impulse[static_cast<std::size_t>(slave)].setZero();
       scene.friction_impulse[static_cast<std::size_t>(slave)].setZero();
     }
+  erosion.growing.insert(erosion.growing.end(), erosion.change.debris.begin(), erosion.change.debris.end());
   erosion.local.add(scene.candidates, surface, scene.excluded, scene.options, nodes, erosion.change, team);
 }
 
@@ -62,6 +66,45 @@ void release_torn_pairs(ContactScene& scene, const Nodes& nodes, ThreadTeam& tea
     scene.excluded.erase(slave, f);
     if (scene.candidates.growth[0] >= 0) scene.erosion->local.add_pair(scene.candidates, slave, f, team);
     return true;
+  });
+}
+
+namespace {
+
+// How large a radius touches no face; nothing where the node is inside of a body.
+double room_around(const ContactScene& scene, const Nodes& nodes, int slave) {
+  const double scale = scene.options.shell_thickness_scale;
+  const Vector3d x = position(nodes, scene.surface.node[static_cast<std::size_t>(slave)]);
+  double room = std::numeric_limits<double>::infinity();
+  double nearest = room;
+  bool inside = false;
+  for (int f : scene.candidates.faces_of.of(slave)) {
+    const Face& face = scene.surface.face[static_cast<std::size_t>(f)];
+    if (!face.alive()) continue;
+    const ClosestPoint closest = closest_point_on_quad(x, vertices(nodes, face));
+    const double distance = std::sqrt(closest.squared_distance);
+    room = std::min(room, distance / scale - 0.5 * scene.surface.thickness[static_cast<std::size_t>(f)]);
+    if (face.shell || distance >= nearest) continue;
+    nearest = distance;
+    inside = !is_outside(scene.surface, nodes, f, closest);
+  }
+  return inside ? 0 : room;
+}
+
+}  // namespace
+
+void grow_debris(ContactScene& scene, const Nodes& nodes) {
+  std::erase_if(scene.erosion->growing, [&](int slave) {
+    const auto s = static_cast<std::size_t>(slave);
+    double& radius = scene.surface.radius[s];
+    const double full =
+        scene.erosion->topology.debris[static_cast<std::size_t>(scene.surface.node[s])].radius;
+    const double room = std::min(room_around(scene, nodes, slave), full);
+    if (room > radius) {
+      radius = room;
+      ++scene.candidates.changes;
+    }
+    return radius == full;
   });
 }
 

@@ -134,6 +134,7 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std
   scene.step.searched =
       refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, scene.travel, team);
   scene.step.search_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  if (scene.erosion && !scene.erosion->growing.empty()) grow_debris(scene, nodes);
   scene.last.swap(scene.contacts);
   detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, scene.travel, scene.last,
          team, scene.contacts);

@@ -21,6 +21,7 @@ struct SurfacePart {
   std::span<const int> connectivity;  ///< global node numbers, nodes_per_element of each element
   std::vector<double> thickness;      ///< of each shell; empty for hexahedra
   int rigid = -1;                     ///< the rigid body that all of its nodes belong to
+  double debris_radius = 0;  ///< of its nodes once they are left without elements; 0: they touch nothing
 };
 
 struct Face {

@@ -123,6 +123,18 @@ void find_hexahedra_under_shells(std::size_t node_count, SurfaceTopology& topolo
   std::sort(topology.under_shells.begin(), topology.under_shells.end());
 }
 
+void prepare_debris(std::span<const SurfacePart> parts, std::size_t node_count, SurfaceTopology& topology) {
+  if (std::none_of(parts.begin(), parts.end(), [](const SurfacePart& p) { return p.debris_radius > 0; }))
+    return;
+  topology.debris.resize(node_count);
+  for (const SurfacePart& part : parts)
+    for (int node : part.connectivity) {
+      DebrisNode& debris = topology.debris[static_cast<std::size_t>(node)];
+      debris.radius = std::max(debris.radius, part.debris_radius);
+      ++debris.elements;
+    }
+}
+
 void sort_out(std::vector<int>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -180,12 +192,17 @@ class Deletion {
     for (int side : exposed_)
       if (state(side) == side_state::alone) add_face(side);
     settle();
+    sort_out(corner_);
+    if (!topology_.debris.empty()) bring_up_debris();
     look_for_split();
   }
 
   void remove(int element) {
     topology_.body[static_cast<std::size_t>(element)] = -1;
-    for (int node : nodes_of(topology_, element)) corner_.push_back(node);
+    for (int node : nodes_of(topology_, element)) {
+      corner_.push_back(node);
+      if (!topology_.debris.empty()) --topology_.debris[static_cast<std::size_t>(node)].elements;
+    }
     const TopologyPart& part = part_of_element(topology_, element);
     const int first = part.first_side + part.sides() * (element - part.first_element);
     for (int side = first; side < first + part.sides(); ++side) {
@@ -303,17 +320,48 @@ class Deletion {
     }
   }
 
-  // A node left without elements.
-  void leave(int slave) {
+  // Radius of a node that has become debris; 0 of others.
+  double debris_radius(int node) const {
+    if (topology_.debris.empty()) return 0;
+    const DebrisNode& debris = topology_.debris[static_cast<std::size_t>(node)];
+    return debris.elements == 0 ? debris.radius : 0;
+  }
+
+  void become_debris(int slave, double radius) {
     const auto s = static_cast<std::size_t>(slave);
     surface_.of_solid[s] = 0;
     surface_.pinched[s] = 0;
-    surface_.radius[s] = topology_.debris_radius;
+    surface_.radius[s] = std::min(surface_.radius[s], radius);
     surface_.body[s] = -1;
-    if (topology_.debris_radius > 0) {
-      change_.changed_slave.push_back(slave);
+    change_.changed_slave.push_back(slave);
+    change_.debris.push_back(slave);
+  }
+
+  // Nodes of a cluster that never were on the surface.
+  void bring_up_debris() {
+    for (int node : corner_) {
+      const double radius = debris_radius(node);
+      if (radius == 0 || surface_.slave(node) >= 0) continue;
+      const int slave = slave_number();
+      surface_.slave_of[static_cast<std::size_t>(node)] = slave;
+      surface_.node[static_cast<std::size_t>(slave)] = node;
+      surface_.radius[static_cast<std::size_t>(slave)] = 0;
+      change_.new_slave.push_back(slave);
+      become_debris(slave, radius);
+    }
+  }
+
+  // A node left without faces.
+  void leave(int slave) {
+    const auto s = static_cast<std::size_t>(slave);
+    if (const double radius = debris_radius(surface_.node[s]); radius > 0) {
+      become_debris(slave, radius);
       return;
     }
+    surface_.of_solid[s] = 0;
+    surface_.pinched[s] = 0;
+    surface_.radius[s] = 0;
+    surface_.body[s] = -1;
     surface_.slave_of[static_cast<std::size_t>(surface_.node[s])] = -1;
     surface_.node[s] = -1;
     change_.dead_slave.push_back(slave);
@@ -332,7 +380,6 @@ class Deletion {
   // Nothing has split if all nodes left of a cluster are still connected among themselves through faces
   // around; else something may have.
   void look_for_split() {
-    sort_out(corner_);
     const int count = static_cast<int>(corner_.size());
     DisjointSets connected(corner_.size());
     for (int i = 0; i < count; ++i) {
@@ -370,6 +417,7 @@ SurfaceTopology make_topology(Surface& surface, std::span<const SurfacePart> par
   give_faces(surface, topology);
   number_bodies(surface, topology);
   find_hexahedra_under_shells(surface.slave_of.size(), topology);
+  prepare_debris(parts, surface.slave_of.size(), topology);
   topology.mark.assign(topology.body.size(), 0);
   return topology;
 }

@@ -53,11 +53,19 @@ struct SurfaceChange {
   std::vector<int> dead_slave;
   std::vector<int> new_slave;
   std::vector<int> changed_slave;  ///< living ones that gained or lost faces, new ones among them; ascending
+  std::vector<int> debris;         ///< changed ones that were left without elements and stay
   bool split = false;              ///< there are new bodies
   void clear() {
-    for (auto* list : {&dead_face, &new_face, &dead_slave, &new_slave, &changed_slave}) list->clear();
+    for (auto* list : {&dead_face, &new_face, &dead_slave, &new_slave, &changed_slave, &debris})
+      list->clear();
     split = false;
   }
+};
+
+/// What a node is once it is left without elements.
+struct DebrisNode {
+  double radius = 0;  ///< that it may have, beginning with the one it had; 0: it leaves contact
+  int elements = 0;   ///< that live
 };
 
 struct SurfaceTopology {
@@ -65,8 +73,8 @@ struct SurfaceTopology {
   /// Of each side: the next side with the same nodes, round in a ring; else its face, or that it has none
   /// (see side_state in the source).
   std::vector<int> side;
-  std::vector<int> body;     ///< of each element; -1: deleted
-  double debris_radius = 0;  ///< of nodes left without elements; 0: they leave contact
+  std::vector<int> body;           ///< of each element; -1: deleted
+  std::vector<DebrisNode> debris;  ///< of each global node; empty where none stays without elements
   std::vector<std::pair<int, int>>
       under_shells;  ///< (node, hexahedron) of nodes that shells have too; ascending
 

@@ -26,6 +26,7 @@ struct Deletion {
   std::optional<double> plastic_strain{};
   std::optional<double> volume_ratio{};
   FreeNodes free_nodes = FreeNodes::keep;
+  std::optional<double> debris_radius{};
 
   static constexpr auto fields() {
     return std::tuple{
@@ -40,6 +41,9 @@ struct Deletion {
                  "an element whose volume falls below this share of the first is deleted; hexahedra only, -"),
         optional("free_nodes", &Deletion::free_nodes, any_number,
                  "whether nodes that have lost all their elements fly on with their mass or leave the run"),
+        optional("debris_radius", &Deletion::debris_radius, positive,
+                 "distance at which nodes that have lost all their elements touch surfaces; without it they "
+                 "touch nothing, length"),
     };
   }
 

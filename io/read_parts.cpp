@@ -43,6 +43,9 @@ void check_deletion(const YamlEntry& entry, const Part& part, const Material& ma
   if (part.deletion->volume_ratio && nodes_per_element(part.element) != 8)
     throw DeckError(entry.place, "deletion by volume_ratio of elements '" +
                                      std::string(name_of(part.element)) + "'; hexahedra are accepted");
+  if (part.deletion->debris_radius && part.deletion->free_nodes == FreeNodes::drop)
+    throw DeckError(entry.place,
+                    "debris_radius of nodes that leave the run; it is accepted with free_nodes: keep");
 }
 
 }  // namespace

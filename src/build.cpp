@@ -197,9 +197,21 @@ double shell_thickness(const Element& element) {
       element);
 }
 
+double debris_radius(const Part& part) {
+  return part.deletion ? part.deletion->debris_radius.value_or(0) : 0;
+}
+
+void check_debris_in_contact(const Deck& deck) {
+  for (const Part& part : deck.parts)
+    if (debris_radius(part) > 0 && !(deck.contact && takes_part(*deck.contact, part.name)))
+      throw BuildError("part '" + part.name +
+                       "' has a debris_radius but is not in contact; accepted are parts that are");
+}
+
 // Before masses are lumped: small initial overlaps are removed by moving nodes.
 void make_contact(const Deck& deck, std::span<const Mesh> meshes,
                   const std::vector<std::vector<int>>& connectivity, Model& model) {
+  check_debris_in_contact(deck);
   if (!deck.contact) return;
   std::vector<SurfacePart> surfaces;
   if (can_erode(model.blocks))
@@ -220,7 +232,8 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
                         .nodes_per_element = meshes[p].nodes_per_element,
                         .connectivity = connectivity[p],
                         .thickness = std::vector<double>(shells, shell_thickness(part.element)),
-                        .rigid = model.parts[p].rigid});
+                        .rigid = model.parts[p].rigid,
+                        .debris_radius = debris_radius(part)});
   }
   try {
     model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));

@@ -31,7 +31,8 @@ class SpringModel {
  public:
   double stiffness = 1e4;  ///< of a spring times its length
   Vector3d gravity = Vector3d::Zero();
-  double damping = 0;  ///< rate at which velocities decay
+  double damping = 0;        ///< rate at which velocities decay
+  double debris_radius = 0;  ///< of nodes left without elements
   Nodes nodes;
   ContactScene scene;
 
@@ -119,7 +120,9 @@ class SpringModel {
   /// The same, and elements may be deleted.
   void start_erodible(const ContactOptions& options) {
     start(options);
-    make_erodible(scene, parts(), nodes);
+    std::vector<SurfacePart> erodible = parts();
+    for (SurfacePart& part : erodible) part.debris_radius = debris_radius;
+    make_erodible(scene, erodible, nodes);
   }
   /// Delete elements with their springs; mass stays on the nodes.
   void erode(std::span<const SurfaceElement> deleted, ThreadTeam& team) {

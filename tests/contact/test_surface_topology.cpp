@@ -189,8 +189,9 @@ TEST(SurfaceTopology, DebrisKeepsItsNodesWithARadius) {
   ErodingMesh mesh;
   mesh.add_block(2, 1, 1);
   Surface surface = make_surface(mesh.parts(), mesh.nodes);
-  SurfaceTopology topology = make_topology(surface, mesh.parts());
-  topology.debris_radius = 0.2;
+  std::vector<SurfacePart> parts = mesh.parts();
+  parts[0].debris_radius = 0.2;
+  SurfaceTopology topology = make_topology(surface, parts);
   SurfaceChange change;
   delete_elements(surface, topology, std::vector<SurfaceElement>{{0, 1}}, change);
   EXPECT_TRUE(change.dead_slave.empty());
@@ -198,11 +199,39 @@ TEST(SurfaceTopology, DebrisKeepsItsNodesWithARadius) {
   for (std::size_t s = 0; s < surface.slaves(); ++s)
     if (surface.faces_of.of(static_cast<int>(s)).empty()) {
       ++debris;
-      EXPECT_EQ(surface.radius[s], 0.2);
+      EXPECT_EQ(surface.radius[s], 0) << "grows where there is room";
       EXPECT_EQ(surface.of_solid[s], 0);
       EXPECT_EQ(surface.body[s], -1);
     }
   EXPECT_EQ(debris, 4);
+  EXPECT_EQ(change.debris.size(), 4U);
+}
+
+// Eight elements around a node that was inside go at once.
+TEST(SurfaceTopology, NodesThatNeverWereOnTheSurfaceBecomeDebris) {
+  ErodingMesh mesh;
+  mesh.add_block(4, 4, 4);
+  std::vector<SurfaceElement> middle;
+  for (int k : {1, 2})
+    for (int j : {1, 2})
+      for (int i : {1, 2}) middle.push_back({0, i + 4 * (j + 4 * k)});
+  for (const double radius : {0.0, 0.2}) {
+    Surface surface = make_surface(mesh.parts(), mesh.nodes);
+    std::vector<SurfacePart> parts = mesh.parts();
+    parts[0].debris_radius = radius;
+    SurfaceTopology topology = make_topology(surface, parts);
+    SurfaceChange change;
+    delete_elements(surface, topology, middle, change);
+    const int inner = surface.slave(62);
+    EXPECT_EQ(inner >= 0, radius > 0);
+    EXPECT_EQ(change.new_slave.size(), radius > 0 ? 27U : 26U);
+    if (inner < 0) continue;
+    EXPECT_TRUE(surface.faces_of.of(inner).empty());
+    EXPECT_EQ(change.debris, std::vector<int>{inner});
+    EXPECT_EQ(surface.body[static_cast<std::size_t>(inner)], -1);
+    EXPECT_TRUE(std::is_sorted(change.changed_slave.begin(), change.changed_slave.end()));
+    EXPECT_TRUE(std::binary_search(change.changed_slave.begin(), change.changed_slave.end(), inner));
+  }
 }
 
 TEST(SurfaceTopology, ABlockTornInTwoIsTwoBodies) {

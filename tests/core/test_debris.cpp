@@ -1,4 +1,5 @@
-// Nodes left without elements, in contact: those that are dropped are gone from it at once.
+// Nodes left without elements, in contact: those that are dropped are gone from it at once, those that are
+// kept go on as points with a radius.
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,46 @@ TEST(Debris, DroppedNodesAreOutOfContactInTheStepInWhichTheyAreFreed) {
   EXPECT_LT(model.momentum.linear_imbalance(), 1e-12);
   EXPECT_LT(model.momentum.angular_imbalance(), 1e-12);
   EXPECT_LT(model.energy.error_max, 0.02);
+}
+
+// The nodes of the crushed element are caught between the block and the rest of the column, which comes down
+// on them; without a radius it comes down on the block itself.
+TEST(Debris, WithARadiusIsCaughtBetweenWhatMeets) {
+  constexpr double radius = 0.02;
+  for (const bool with_radius : {false, true}) {
+    Deck deck = crushed_column(FreeNodes::keep);
+    if (with_radius) deck.parts[column].deletion->debris_radius = radius;
+    Model model = build_model(deck);
+    ThreadTeam team(1);
+    std::vector<int> freed;
+    int pushed = 0;
+    double added = 0;
+    run(model, deck, team, [&](Model& m) {
+      const ContactScene& scene = m.contacts[0];
+      freed.insert(freed.end(), m.erosion->freed.begin(), m.erosion->freed.end());
+      for (const int node : freed) ASSERT_EQ(scene.surface.slave(node) >= 0, with_radius);
+      for (const Contact& contact : scene.contacts)
+        pushed += contact.impulse > 0 && scene.surface.faces_of.of(contact.slave).empty();
+      added = scene.totals.largest_normal_work;
+    });
+    EXPECT_GE(freed.size(), 4u);
+    EXPECT_EQ(pushed > 0, with_radius);
+    EXPECT_LT(added, 1e-3 * model.energy.reference);
+    EXPECT_LT(model.energy.error_max, 0.02);
+    std::vector<double> row;
+    observe_history(model, row);
+    EXPECT_LT(model.momentum.linear_imbalance(), 1e-12);
+    EXPECT_LT(model.momentum.angular_imbalance(), 1e-12);
+  }
+}
+
+TEST(Debris, RadiusIsOfPartsInContactOnly) {
+  Deck deck = crushed_column(FreeNodes::keep);
+  deck.parts[column].deletion->debris_radius = 0.02;
+  deck.contact->exclude = {"column"};
+  EXPECT_THROW(build_model(deck), BuildError);
+  deck.contact.reset();
+  EXPECT_THROW(build_model(deck), BuildError);
 }
 
 }  // namespace

@@ -60,9 +60,15 @@ void span_plane(const Vector3d& normal, Vector3d (&tangent)[2]) {
   tangent[1] = normal.cross(tangent[0]);
 }
 
-double target_velocity(const ContactOptions& options, double gap, double smallest_edge, double dt) {
-  if (gap >= 0) return -gap / dt;
-  return std::min(options.overlap_recovery * -gap, options.overlap_recovery_cap * smallest_edge) / dt;
+// A contact under load is opened the slower the more it carries beyond what a node gains at the fastest
+// recovery: pinched between bodies that cannot give way, it would otherwise be opened with any force.
+double target_velocity(const ContactOptions& options, const Contact& contact, double normal_mass,
+                       double smallest_edge, double dt) {
+  if (contact.gap >= 0) return -contact.gap / dt;
+  const double fastest = options.overlap_recovery_cap * smallest_edge / dt;
+  const double unloaded = std::min(options.overlap_recovery * -contact.gap / dt, fastest);
+  const double gain = normal_mass * fastest;
+  return contact.impulse > gain ? unloaded * (gain / contact.impulse) : unloaded;
 }
 
 // \returns the change of the relative velocity that was asked for.
@@ -127,7 +133,7 @@ void solve_for(Solver& solver, const ContactOptions& options, double smallest_ed
     Contact& contact = contacts[i];
     ContactFrame& frame = solver.frame[i];
     frame.normal_mass = effective_mass(contact, contact.normal, motion);
-    frame.target = target_velocity(options, contact.gap, smallest_edge, dt);
+    frame.target = target_velocity(options, contact, frame.normal_mass, smallest_edge, dt);
     if (frame.normal_mass == 0) {
       contact.impulse = 0;
       contact.friction.setZero();

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "contact/audit.hpp"
+#include "contact/solve.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -31,6 +32,30 @@ void throw_things(SpringModel& model, unsigned seed, const ContactOptions& optio
       }
   model.stiffness = 200;
   model.start(options);
+}
+
+// A node of mass 2 pressed with `load` a step against a face that cannot move, overlapping by 0.1.
+double opening_velocity(double load) {
+  const double dt = 0.01;
+  ContactOptions options;  // recovery: a tenth of the overlap, at most 1e-3 edges, in a step
+  std::vector<ContactMotion> motion(4, ContactMotion{{0, 0, 0}, {0, 0, 0}});
+  motion[0] = {{0, 0, -load / 2}, {0.5, 0.5, 0.5}};
+  Contact contact;
+  contact.node = {0, 1, 2, 3, 3};
+  contact.weight = {1, -0.5, -0.25, -0.25, 0};
+  contact.normal = Vector3d::UnitZ();
+  contact.gap = -0.1;
+  contact.impulse = load;
+  Solver solver;
+  solve(solver, options, 1.0, dt, {&contact, 1}, motion);
+  return motion[0].velocity[2];
+}
+
+TEST(Recovery, IsSlowerWhereTheContactIsLoaded) {
+  const double fastest = 1e-3 / 0.01;
+  EXPECT_NEAR(opening_velocity(0), fastest, 1e-12);
+  EXPECT_NEAR(opening_velocity(2 * fastest), fastest, 1e-12);
+  EXPECT_NEAR(opening_velocity(2000 * fastest), fastest / 1000, 1e-12);
 }
 
 TEST(Momentum, IsKeptToRoundingInRandomScenes) {

@@ -12,6 +12,7 @@ writes PREFIX_0.png, PREFIX_1.png, ... one for each time, at most 100 kB each, a
   --camera X Y Z       direction from the scene to the eye; default 1 -2 0.7, z is up
   --zoom FACTOR        above 1 is closer
   --clip X Y Z         cut the scene open through its middle, normal to this direction
+  --box X0 X1 Y0 Y1 Z0 Z1  what to frame; default all that occurs, debris too
   --hide-edges         surface without the edges of elements
   --thicken            beams as tubes and particles as spheres of their radius
   --size WIDTH HEIGHT  default 800 600
@@ -42,6 +43,7 @@ def arguments():
     parser.add_argument("--camera", nargs=3, type=float, default=[1.0, -2.0, 0.7])
     parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--clip", nargs=3, type=float)
+    parser.add_argument("--box", nargs=6, type=float)
     parser.add_argument("--hide-edges", action="store_true")
     parser.add_argument("--thicken", action="store_true")
     parser.add_argument("--size", nargs=2, type=int, default=[800, 600])
@@ -207,7 +209,7 @@ def main():
         source, options.color = von_mises(source), "von Mises stress"
         source.UpdatePipeline(times[0])
     colour = (*information(source, options.color),) if options.color else None
-    box = box_over(source, times)
+    box = options.box or box_over(source, times)
     limits = options.range or (limits_over(source, times, colour[0], options.color, colour[1]) if colour else None)
     if options.clip:
         source = simple.Clip(Input=source, ClipType="Plane", Crinkleclip=1)

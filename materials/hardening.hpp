@@ -11,17 +11,16 @@
 ///     q(p) = effective_stress - stiffness (p - near.plastic_strain)
 ///
 /// on which elastic unloading by plastic flow takes the effective stress: the solution of the consistency
-/// condition of a radial return. The line starts on or above the curve, but for the last digits; stiffness >
-/// 0. Everything that flows (solids, shells, fibres) is written on these three. Plane stress is quick for
-/// curves that say more of their shape (plane_stress_flow.hpp): `static constexpr bool is_straight = true`,
-/// or
+/// condition of a radial return; its stress is NaN if none is found. The line starts on or above the curve,
+/// but for the last digits; stiffness > 0. Everything that flows (solids, shells, fibres) is written on these
+/// three. Plane stress is quick for curves that say more of their shape (plane_stress_flow.hpp): `static
+/// constexpr bool is_straight = true`, or
 ///
 ///     HardeningPoint<T> along(HardeningPoint<T> near, T plastic_strain) const;  // cheaper than at()
 ///     T curvature(HardeningPoint<T>) const;                                     // second derivative
 ///     mask is_concave_from(HardeningPoint<T>) const;
 ///     mask has_tangent_over(HardeningPoint<T>, T distance) const;               // that is near the curve
-///     mask bends(HardeningPoint<T>, T distance) const;                          // so that round-off shows
-///     it
+///     mask bends(HardeningPoint<T>, T distance) const;                          // visibly, for round-off
 
 #include "src/base/lanes.hpp"
 

@@ -82,30 +82,42 @@ struct JohnsonCookHardening {
   }
 
   /// Newton's method within a bracket. The stiffness of a metal is far above its hardening, so that the
-  /// start from no hardening is near.
+  /// start from no hardening is near. What Newton's method has not found is halved, which comes to an end
+  /// unless the input is not a number.
   BRIO_INLINE HardeningPoint<T> meet(HardeningPoint<T> near, T effective_stress, T stiffness) const {
     T low = min(base, near.plastic_strain);
     T high = near.plastic_strain + max(effective_stress - initial_yield_stress(), T(0.0)) / stiffness;
     T strain = near.plastic_strain + max(effective_stress - near.stress, T(0.0)) / stiffness;
     HardeningPoint<T> point = at(strain);
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const T distance = T(exact) * effective_stress / stiffness;
+    MaskOf<T> found = low > high;  // none
+    for (int iteration = 0; iteration < most_iterations && !all(found); ++iteration) {
       const T over = effective_stress - stiffness * (strain - near.plastic_strain) - point.stress;
       low = where(over > T(0.0), strain, low);
       high = where(over > T(0.0), high, strain);
       T next = strain + over / (stiffness + point.slope);
-      next = where((next >= low) & (next <= high), next, 0.5 * (low + high));
-      const T moved = abs(next - strain);
+      const T middle = 0.5 * (low + high);
+      if (iteration < newton_iterations) {
+        next = where((next >= low) & (next <= high), next, middle);
+      } else {
+        next = middle;
+      }
+      next = where(found, strain, next);
+      found = found | (abs(next - strain) <= distance + T(round_off) * strain);
       strain = next;
       point = at(strain);
-      if (all(stiffness * moved <= T(exact) * effective_stress)) break;
     }
+    point.stress = where(found, point.stress, T(std::numeric_limits<RealOf<T>>::quiet_NaN()));
     return point;
   }
 
  private:
   static constexpr double least = sizeof(RealOf<T>) == 8 ? 1e-200 : 1e-25;
   static constexpr double exact = sizeof(RealOf<T>) == 8 ? 1e-14 : 1e-6;
-  static constexpr int most_iterations = 100;
+  static constexpr double round_off = std::numeric_limits<RealOf<T>>::epsilon();
+  static constexpr int newton_iterations = 20;
+  /// Each beyond halves the bracket, whose first width is at most the effective stress over the stiffness.
+  static constexpr int most_iterations = newton_iterations + (sizeof(RealOf<T>) == 8 ? 48 : 22);
 };
 
 struct JohnsonCook {

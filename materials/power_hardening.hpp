@@ -112,6 +112,7 @@ struct PowerHardening {
   template <class T>
   struct Rise {
     T u, value;
+    MaskOf<T> found;
   };
 
   /// Relative distance in u over which the cubic remainder of a Taylor series is below round-off.
@@ -128,7 +129,9 @@ struct PowerHardening {
   static constexpr double series_reach = 1.0 / 32;
   template <class T>
   static constexpr int series_terms = sizeof(RealOf<T>) == 8 ? 10 : 5;
-  static constexpr int most_iterations = 100;
+  /// What goes to and fro between two digits of the rise by then is halved.
+  static constexpr int newton_iterations = 6;
+  static constexpr int most_iterations = 40;
 
   template <class T>
   BRIO_INLINE T inverse_of(T beyond) const {
@@ -156,26 +159,27 @@ struct PowerHardening {
     const T inverse_u = 1.0 / rise.u;
     const T correction = (max(strain - T(luders_strain), 0.0) - rise.u) * inverse_u;
     const T bend = 1.0 + T(0.5 * (exponent - 1)) * correction;
-    const T stress = T(yield_stress) + rise.value * (1.0 + T(exponent) * correction * bend);
-    if (!all(abs(correction) <= T(near_enough<T>))) return at(strain);
+    T stress = T(yield_stress) + rise.value * (1.0 + T(exponent) * correction * bend);
+    stress = where(rise.found, stress, T(std::numeric_limits<RealOf<T>>::quiet_NaN()));
+    if (all(rise.found) && !all(abs(correction) <= T(near_enough<T>))) return at(strain);
     return {strain, stress, T(exponent) * rise.value * inverse_u};
   }
 
   /// Chebyshev's step towards a rise larger by `missing`, relative to u: Newton's step and at most as much
   /// again for the curvature.
   template <class T>
-  BRIO_INLINE T relative_step(T missing, T stiffness, const Rise<T>& rise) const {
-    const T hardening_part = T(exponent) * rise.value;
-    const T inverse = 1.0 / (stiffness * rise.u + hardening_part);
+  BRIO_INLINE T relative_step(T missing, T stiffness, T u, T rise) const {
+    const T hardening_part = T(exponent) * rise;
+    const T inverse = 1.0 / (stiffness * u + hardening_part);
     const T newton = missing * inverse;
     return newton + newton * min(T(0.5 * (1 - exponent)) * (hardening_part * inverse) * newton, 1.0);
   }
 
   template <class T>
   BRIO_INLINE T first_guess(const Crossing<T>& crossing, T height) const {
-    const Rise<T> rise{max(crossing.base, least<T>), crossing.base_rise};
-    const T relative = relative_step(crossing.excess, crossing.stiffness, rise);
-    const T step = relative * rise.u;
+    const T u = max(crossing.base, least<T>);
+    const T relative = relative_step(crossing.excess, crossing.stiffness, u, crossing.base_rise);
+    const T step = relative * u;
     const auto leaves = relative > T(0.5);
     if (!(constant > 0) || !any(leaves)) return step;
     return where(leaves, max(exp(log_of_crossing(crossing.stiffness, height)) - crossing.base, 0.0), step);
@@ -196,31 +200,46 @@ struct PowerHardening {
     return w;
   }
 
-  /// Takes the step to the root, but for a change that a Taylor series from the rise returned covers.
+  /// Takes the step to the root, but for a change that a Taylor series from the rise returned covers. Comes
+  /// to an end by far before most_iterations, unless the input is not a number.
   template <class T>
   BRIO_INLINE Rise<T> solve(const Crossing<T>& crossing, T& step) const {
+    const T unbounded(std::numeric_limits<RealOf<T>>::max());
     T low = -crossing.base;
-    T high(std::numeric_limits<RealOf<T>>::max());
+    T high = unbounded;
     const T inverse_base = 1.0 / max(crossing.base, least<T>);
-    Rise<T> rise;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      const T u = max(crossing.base + step, least<T>);
+    // A crossing below `least` counts as one there.
+    T least_rise = crossing.base_rise;
+    MaskOf<T> at_least = crossing.base < T(least<T>);
+    if (any(at_least & (crossing.excess > T(0.0)))) {
+      least_rise = T(constant) * pow(T(least<T>), exponent);
+      const T reach = crossing.stiffness * (T(least<T>) - crossing.base) + (least_rise - crossing.base_rise);
+      at_least = at_least & (crossing.excess <= reach);
+    }
+    const MaskOf<T> has_series = at_least | (crossing.base >= T(least<T>));
+    T u(0.0), value(0.0);
+    MaskOf<T> found = at_least;
+    for (int iteration = 0; iteration < most_iterations && !all(found); ++iteration) {
+      u = max(crossing.base + step, least<T>);
       const T relative = step * inverse_base;
-      if (all(abs(relative) <= T(series_reach))) {
-        rise = {u, crossing.base_rise * binomial_series(relative)};
+      if (all(has_series & (abs(relative) <= T(series_reach)))) {
+        value = crossing.base_rise * binomial_series(relative);
       } else {
-        rise = {u, T(constant) * pow(u, exponent)};
+        value = T(constant) * pow(u, exponent);
       }
-      const T missing = crossing.excess - crossing.stiffness * step - (rise.value - crossing.base_rise);
+      const T missing = crossing.excess - crossing.stiffness * step - (value - crossing.base_rise);
       low = where(missing > T(0.0), step, low);
       high = where(missing > T(0.0), high, step);
-      T next = step + u * relative_step(missing, crossing.stiffness, rise);
-      next = where((next >= low) & (next <= high), next, 0.5 * (low + high));
-      const T moved = abs(next - step);
+      T next = step + u * relative_step(missing, crossing.stiffness, u, value);
+      MaskOf<T> newton = (next >= low) & (next <= high);
+      if (iteration >= newton_iterations) newton = newton & (high >= unbounded);
+      next = where(newton, next, 0.5 * (low + high));
+      next = where(found, step, next);
+      found = found | (abs(next - step) <= near_enough<T> * u);
       step = next;
-      if (all(moved <= near_enough<T> * u)) break;
     }
-    return rise;
+    step = where(at_least, T(least<T>) - crossing.base, step);
+    return {where(at_least, T(least<T>), u), where(at_least, least_rise, value), found};
   }
 };
 

@@ -126,6 +126,37 @@ TEST(JohnsonCook, PlaneStressIsThatOfThreeDimensionsWithAFreeThirdDirection) {
   EXPECT_NEAR(in_plane.temperature_rise, in_space.temperature_rise, 0.05);
 }
 
+// Far beyond any metal: the search must come to its end, which it says by a number, on the yield stress.
+template <Floating Real>
+void expect_found(unsigned seed, double tolerance) {
+  using T = Lanes<Real>;
+  RandomPath random(seed);
+  const auto decades = [&](double low, double high) { return std::pow(10.0, random.uniform(low, high)); };
+  for (int k = 0; k < 100000; ++k) {
+    const double yield = decades(0, 10);
+    const T start(random.uniform(0, 1) < 0.2 ? 0 : decades(-20, 1.5));
+    const double rate_constant = random.uniform(0, 1) < 0.3 ? 0 : decades(-5, 0);
+    const JohnsonCookHardening<T> law{
+        yield, yield * decades(-6, 3), random.uniform(0.05, 1), rate_constant, decades(-12, 3),
+        start, T(decades(-10, 0))};
+    const HardeningPoint<T> near = law.at(start);
+    const T stress = near.stress * T(1 + decades(-17, 3));
+    const HardeningPoint<T> end = law.meet(near, stress, T(yield * decades(0, 6)));
+    ASSERT_GE(end.plastic_strain[0], start[0]) << k;
+    const T yields_at = law.at(end.plastic_strain).stress;
+    ASSERT_NEAR(end.stress[0], yields_at[0], tolerance * static_cast<double>(yields_at[0])) << k;
+  }
+}
+TEST(JohnsonCookHardening, SearchComesToItsEnd) {
+  expect_found<double>(21, 1e-14);
+  expect_found<float>(22, 1e-6);
+}
+
+TEST(JohnsonCookHardening, WhatIsNotANumberIsNotSolved) {
+  const JohnsonCookHardening<double> law{800e6, 600e6, 0.2, 0.01, 1e-6, 0.1, 0.8};
+  EXPECT_TRUE(std::isnan(law.meet(law.at(0.1), std::nan(""), 200e9).stress));
+}
+
 template <Floating Real>
 void expect_lanes_agree(double tolerance) {
   using T = Lanes<Real>;

@@ -146,5 +146,33 @@ TEST(PowerHardening, SinglePrecisionFollowsDouble) {
   }
 }
 
+// Far beyond any metal: the search must come to its end, which it says by a number.
+template <Floating Real>
+void expect_found(unsigned seed) {
+  using T = Lanes<Real>;
+  RandomPath random(seed);
+  const auto decades = [&](double low, double high) { return std::pow(10.0, random.uniform(low, high)); };
+  for (int k = 0; k < 100000; ++k) {
+    const double yield = decades(0, 10);
+    const double exponent = random.uniform(0, 1) < 0.5 ? decades(-3, 0) : random.uniform(0.05, 1);
+    const double luders = random.uniform(0, 1) < 0.5 ? 0 : decades(-6, 0);
+    const double constant = random.uniform(0, 1) < 0.05 ? 0 : yield * decades(-6, 4);
+    const PowerHardening law{yield, constant, exponent, luders};
+    const double starts[] = {0, luders, luders * (1 + decades(-16, 0)), decades(-300, 1),
+                             luders + decades(-20, 2)};
+    const T start(starts[static_cast<int>(random.uniform(0, 5))]);
+    const HardeningPoint<T> near = law.at(start);
+    const T stress = near.stress * T(1 + decades(-17, 4));
+    const HardeningPoint<T> end = law.meet(near, stress, T(yield * decades(-1, 6)));
+    ASSERT_TRUE(std::isfinite(end.plastic_strain[0]) && std::isfinite(end.stress[0]))
+        << k << " n " << exponent << " luders " << luders << " start " << start[0];
+    ASSERT_GE(end.plastic_strain[0], start[0]);
+  }
+}
+TEST(PowerHardening, SearchComesToItsEnd) {
+  expect_found<double>(21);
+  expect_found<float>(22);
+}
+
 }  // namespace
 }  // namespace brio

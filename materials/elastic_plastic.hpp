@@ -41,6 +41,7 @@ struct ElasticPlastic {
         optional("failure", &ElasticPlastic::failure, any_number, "how the material fails; absent: never"),
     };
   }
+  constexpr std::string_view fault() const { return fault_without_rate(failure); }
 
   template <class T>
   struct History {

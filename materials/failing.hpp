@@ -4,14 +4,17 @@
 /// largest principal stress of the law, n its direction and p the equivalent plastic strain:
 ///
 ///     failure sets in     p > failure strain, or TP > tearing parameter, where
-///                         TP = integral of < 2 sigma_1 / (3 (sigma_1 - sigma_m)) >^4 dp
+///                         TP = integral of < 2 sigma_1 / (3 (sigma_1 - sigma_m)) >^4 dp,
+///                         or D > 1 of Johnson & Cook (johnson_cook_fracture.hpp)
 ///     opening             d(damage) = <n . d(eps) . n> / opening strain      while sigma_1 > 0, once it has
 ///     in tension          d(damage) = dp / failure strain                    while sigma_1 > 0
+///     sudden              damage = TP / tearing parameter, or D; the stress is whole until it is dropped
 ///
 /// Of the step in which failure sets in, the part beyond the bound counts. A point whose damage has reached
 /// deletion_damage carries nothing from then on.
 
 #include "materials/failure.hpp"
+#include "materials/johnson_cook_fracture.hpp"
 #include "materials/principal_stress.hpp"
 #include "materials/stress_state.hpp"
 
@@ -35,8 +38,8 @@ struct Failing : Law {
   template <class T>
   struct History : Law::template History<T> {
     T damage;
-    T tearing_parameter;  ///< 0 where the deck does not name it
-    T opening_strain;     ///< at which damage is 1
+    T measure;         ///< tearing parameter or D of Johnson and Cook; 0 where the deck names neither
+    T opening_strain;  ///< at which damage is 1
   };
 
   template <class T>
@@ -54,7 +57,7 @@ struct Failing : Law {
 
   template <class T>
   BRIO_INLINE MaskOf<T> has_failed(const History<T>& history) const {
-    return history.damage >= T(this->failure->deletion_damage);
+    return history.damage >= T(this->failure->end_of_damage());
   }
 
   template <class T>
@@ -86,12 +89,14 @@ struct Failing : Law {
   template <class T>
   BRIO_INLINE T undamaged_share(const History<T>& history) const {
     const auto failed = has_failed(history);
+    if (!weakens()) return where(failed, T(0.0), T(1.0));
     return where(failed, T(0.0), 1.0 / where(failed, T(1.0), 1.0 - history.damage));
   }
   template <class T>
   BRIO_INLINE T carried_share(const History<T>& history) const {
-    return where(has_failed(history), T(0.0), 1.0 - history.damage);
+    return where(has_failed(history), T(0.0), weakens() ? 1.0 - history.damage : T(1.0));
   }
+  bool weakens() const { return this->failure->damage_growth != DamageGrowth::sudden; }
 
   /// \param before equivalent plastic strain at the start of the step
   template <class T>
@@ -111,15 +116,16 @@ struct Failing : Law {
     T measure_before = before;
     T measure = history.equivalent_plastic_strain;
     double bound = f.strain.value_or(0);
-    if (f.tearing_parameter) {
-      measure_before = history.tearing_parameter;
+    if (!f.strain) {
+      measure_before = history.measure;
       const auto flows = flow > T(0.0);
-      if (any(flows)) {
-        const T growth = tearing(stress, largest_principal(stress).value) * flow;
-        history.tearing_parameter += where(flows, growth, T(0.0));
-      }
-      measure = history.tearing_parameter;
-      bound = *f.tearing_parameter;
+      if (any(flows)) history.measure += where(flows, growth_of_measure(stress, flow, history), T(0.0));
+      measure = history.measure;
+      bound = f.tearing_parameter.value_or(1);
+    }
+    if (f.damage_growth == DamageGrowth::sudden) {
+      history.damage = min(measure / T(bound), T(1.0));
+      return;
     }
     const auto fails = (measure > T(bound)) & !failed;
     if (!any(fails)) return;
@@ -131,6 +137,20 @@ struct Failing : Law {
     const T opening = max(along(strain_increment, principal.direction), T(0.0));
     const auto opens = fails & (principal.value > T(0.0));
     add_damage(where(opens, share * opening / history.opening_strain, T(0.0)), history);
+  }
+
+  /// Of the tearing parameter or of D.
+  template <class T>
+  BRIO_INLINE T growth_of_measure(const SymmetricTensor<T>& stress, T flow, const History<T>& history) const {
+    const Failure& f = *this->failure;
+    if (f.tearing_parameter) return tearing(stress, largest_principal(stress).value) * flow;
+    T rate_logarithm(0.0), homologous_temperature(0.0);
+    if constexpr (requires { Law::rate_logarithm(flow); }) {
+      if (f.johnson_cook->d4 != 0) rate_logarithm = Law::rate_logarithm(flow);
+      if (f.johnson_cook->d5 != 0) homologous_temperature = Law::homologous_temperature(history);
+    }
+    return johnson_cook_damage(*f.johnson_cook, stress, flow, rate_logarithm, homologous_temperature,
+                               1e-9 * this->youngs_modulus);
   }
 
   template <class T>

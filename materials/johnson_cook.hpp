@@ -154,6 +154,11 @@ struct JohnsonCook {
         optional("failure", &JohnsonCook::failure, any_number, "how the material fails; absent: never"),
     };
   }
+  constexpr std::string_view fault() const {
+    if (failure && failure->johnson_cook && failure->johnson_cook->d5 != 0 && !thermal)
+      return "d5 of johnson_cook acts on the temperature, which is known with 'thermal' only";
+    return "";
+  }
 
   template <class T>
   struct History {
@@ -196,16 +201,25 @@ struct JohnsonCook {
   template <class T>
   BRIO_INLINE JohnsonCookHardening<T> hardening_from(const History<T>& history) const {
     T softened(1.0);
-    if (thermal) {
-      const double range = thermal->melting_temperature - thermal->reference_temperature;
-      const T above =
-          (T(thermal->start() - thermal->reference_temperature) + history.temperature_rise) * T(1 / range);
-      const T share = min(max(above, T(0.0)), T(1.0));
-      softened = 1.0 - pow(share, T(thermal->exponent));
-    }
+    if (thermal) softened = 1.0 - pow(homologous_temperature(history), T(thermal->exponent));
     return {yield_stress,  hardening_constant,         hardening_exponent,
             rate_constant, reference_rate * time_step, history.equivalent_plastic_strain,
             softened};
+  }
+
+  /// T*: 0 at and below the reference temperature, 1 at melting and above.
+  template <class T>
+  BRIO_INLINE T homologous_temperature(const History<T>& history) const {
+    if (!thermal) return T(0.0);
+    const double range = thermal->melting_temperature - thermal->reference_temperature;
+    const T above =
+        (T(thermal->start() - thermal->reference_temperature) + history.temperature_rise) * T(1 / range);
+    return min(max(above, T(0.0)), T(1.0));
+  }
+  /// ln of the plastic strain rate over the reference rate; 0 below that.
+  template <class T>
+  BRIO_INLINE T rate_logarithm(T flow) const {
+    return log(max(flow * T(1 / (reference_rate * time_step)), T(1.0)));
   }
 
  private:

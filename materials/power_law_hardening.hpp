@@ -38,6 +38,7 @@ struct PowerLawHardening {
         optional("failure", &PowerLawHardening::failure, any_number, "how the material fails; absent: never"),
     };
   }
+  constexpr std::string_view fault() const { return fault_without_rate(failure); }
 
   template <class T>
   struct History {

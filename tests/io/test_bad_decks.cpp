@@ -99,11 +99,28 @@ constexpr Edit edits[] = {
     {"material: steel", "material: ^stahl", "no material is called 'stahl'"},
     {"model: elastic, ", "model: elastic, ^failure: {strain: 1}, ", "unknown key 'failure'"},
     {"model: elastic, ", "model: elastic_plastic, yield_stress: 1, failure: ^{}, ",
-     "accepted is one of strain and tearing_parameter"},
+     "accepted is one of strain, tearing_parameter and johnson_cook"},
     {"model: elastic, ", "model: elastic_plastic, yield_stress: 1, failure: ^{strain: 1}, ",
      "accepted is one of opening_strain and opening_displacement"},
     {"model: elastic, ", "model: elastic_plastic, yield_stress: 1, failure: {strain: ^0}, ",
      "'strain' is '0'; expected a number > 0"},
+    {"model: elastic, ",
+     "model: elastic_plastic, yield_stress: 1, failure: ^{johnson_cook: {d1: 1, d2: 0, d3: 0}}, ",
+     "or damage_growth: sudden"},
+    {"model: elastic, ",
+     "model: elastic_plastic, yield_stress: 1, failure: {damage_growth: sudden, johnson_cook: ^{d1: -1, d2: "
+     "2, "
+     "d3: -1}}, ",
+     "least_strain is required"},
+    {"{model: elastic, ",
+     "^{model: elastic_plastic, yield_stress: 1, failure: {damage_growth: sudden, johnson_cook: {d1: 1, d2: "
+     "0, d3: 0, "
+     "d4: 0.01}}, ",
+     "accepted is 0, or the model johnson_cook"},
+    {"{model: elastic, ",
+     "^{model: johnson_cook, yield_stress: 1, hardening_constant: 0, hardening_exponent: 1, failure: "
+     "{damage_growth: sudden, johnson_cook: {d1: 1, d2: 0, d3: 0, d5: 1}}, ",
+     "known with 'thermal' only"},
     {"element: hex8", "element: hex8\n    deletion: {inverted: ^1}", "expected true or false"},
     {"element: hex8", "element: hex8\n    deletion: {volume_ratio: ^1}", "expected a number > 0 and < 1"},
     {"element: hex8", "element: hex8\n    deletion: {debris_radius: ^0}", "expected a number > 0"},

@@ -137,7 +137,7 @@ bool refresh(Candidates& candidates, const Surface& surface, const Lists& exclud
         surface.face[f].alive() ? capture_box(candidates, surface, options, static_cast<int>(f)) : empty_box;
   candidates.search.find(candidates.point, candidates.box, team, candidates.pairs, candidates.counts);
   sort_by_slave(candidates, surface, excluded);
-  ++candidates.changes;
+  candidates.renewed.clear();
   travel.restart();
   return true;
 }

@@ -34,7 +34,8 @@ struct Candidates {
   std::vector<Vector3<double>> point;  ///< slave positions at the last search
   std::vector<CaptureBox> box;
   CandidatePairs pairs;
-  std::uint64_t changes = 0;  ///< of the lists: searches, and additions between them
+  /// Slave nodes whose list or radius has changed since pairs were looked at, other than by a search.
+  std::vector<int> renewed;
   std::vector<int> fill;
   double growth[3] = {-1, -1, -1};  ///< what may be travelled; negative: no search yet
 

@@ -39,6 +39,7 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const N
     for (Contact& contact : scene.contacts)
       contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;
   erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
+  scene.travel.join(surface, nodes, erosion.change.new_slave);
   scene.motion.resize(surface.slaves());
   scene.in_contact.resize(surface.slaves());
   scene.pushed.resize(surface.slaves());
@@ -102,7 +103,7 @@ void grow_debris(ContactScene& scene, const Nodes& nodes) {
     const double room = std::min(room_around(scene, nodes, slave), full);
     if (room > radius) {
       radius = room;
-      ++scene.candidates.changes;
+      scene.candidates.renewed.push_back(slave);
     }
     return radius == full;
   });

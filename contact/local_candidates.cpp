@@ -95,8 +95,10 @@ void LocalCandidates::place_newcomers(Candidates& candidates, const Surface& sur
   for (const auto* slaves : {&change.dead_slave, &change.new_slave})
     for (int slave : *slaves) {
       candidates.faces_of.clear(slave);
+      candidates.renewed.push_back(slave);
       candidates.point[static_cast<std::size_t>(slave)] = nowhere;
     }
+  for (int slave : change.changed_slave) candidates.renewed.push_back(slave);
   for (int slave : change.new_slave) {
     const auto s = static_cast<std::size_t>(slave);
     const Eigen::Vector3d x =
@@ -114,7 +116,6 @@ void LocalCandidates::place_newcomers(Candidates& candidates, const Surface& sur
 }
 
 void LocalCandidates::add_pair(Candidates& candidates, int slave, int face, ThreadTeam& team) {
-  ++candidates.changes;
   follow_search(candidates, team);
   candidates.faces_of.loosen();
   include(candidates, slave, face);
@@ -122,6 +123,7 @@ void LocalCandidates::add_pair(Candidates& candidates, int slave, int face, Thre
 
 void LocalCandidates::include(Candidates& candidates, int slave, int face) {
   if (!candidates.faces_of.insert(slave, face)) return;
+  candidates.renewed.push_back(slave);
   char& known = is_candidate_[static_cast<std::size_t>(face)];
   if (known == 0) candidates.face.push_back(face);
   known = 1;
@@ -131,7 +133,6 @@ void LocalCandidates::add(Candidates& candidates, const Surface& surface, const 
                           const ContactOptions& options, const Nodes& nodes, const SurfaceChange& change,
                           ThreadTeam& team) {
   if (candidates.growth[0] < 0) return;
-  ++candidates.changes;
   follow_search(candidates, team);
   place_newcomers(candidates, surface, options, nodes, change);
   const auto add_unless_excluded = [&](int slave, int face) {

@@ -14,6 +14,7 @@ namespace {
 
 /// Faces to a task.
 constexpr std::size_t faces_per_task = 128;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Sweep {
   Vector3d start, end;
@@ -51,7 +52,7 @@ SweptFace swept_face(const Nodes& nodes, const Face& face, const Vector3d& frame
   const Vector3d area = (sweeps[2].start - sweeps[0].start).cross(sweeps[3].start - sweeps[1].start);
   const double length = area.norm();
   swept.normal = length > 0 ? Vector3d(area / length) : Vector3d::UnitX();
-  swept.lower = std::numeric_limits<double>::infinity();
+  swept.lower = infinity;
   swept.upper = -swept.lower;
   for (const Sweep& sweep : sweeps)
     for (const Vector3d& x : {sweep.start, sweep.end}) {
@@ -67,7 +68,7 @@ SweptFace swept_face(const Nodes& nodes, const Face& face, const Vector3d& frame
 
 // Largest distance between two boxes along an axis; negative where they overlap.
 double gap_between(const CaptureBox& a, const CaptureBox& b) {
-  double gap = -std::numeric_limits<double>::infinity();
+  double gap = -infinity;
   for (int axis = 0; axis < 3; ++axis)
     gap = std::max(gap, std::max(a.lower[axis] - b.upper[axis], b.lower[axis] - a.upper[axis]));
   return gap;
@@ -89,17 +90,39 @@ double approach(const Nodes& nodes, const Face& face, const Vector3d& own_veloci
 
 }  // namespace
 
+void SweptFaces::wake(const Candidates& candidates, int slave) {
+  const auto s = static_cast<std::size_t>(slave);
+  const std::size_t pairs = candidates.faces_of.of(slave).size();
+  std::fill_n(wake_.begin() + candidates.faces_of.first[s], pairs, -infinity);
+  wake_of_slave_[s] = pairs == 0 ? infinity : -infinity;
+}
+
 void SweptFaces::wake_all(const Surface& surface, const Candidates& candidates) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  changes_ = candidates.changes;
-  wake_.assign(candidates.faces_of.item.size(), -infinity);
+  search_ = candidates.counts.searches;
+  wake_.resize(candidates.faces_of.item.size());
   wake_of_slave_.resize(surface.slaves());
-  for (std::size_t s = 0; s < surface.slaves(); ++s)
-    wake_of_slave_[s] = candidates.faces_of.of(static_cast<int>(s)).empty() ? infinity : -infinity;
+  for (std::size_t s = 0; s < surface.slaves(); ++s) wake(candidates, static_cast<int>(s));
+  woken = surface.slaves();
   solids_.clear();
-  for (int f : candidates.face)
-    if (surface.face[static_cast<std::size_t>(f)].alive() && !surface.face[static_cast<std::size_t>(f)].shell)
-      solids_.push_back(f);
+  faces_known_ = 0;
+}
+
+void SweptFaces::wake_renewed(const Surface& surface, const Candidates& candidates) {
+  wake_.resize(candidates.faces_of.item.size());
+  wake_of_slave_.resize(surface.slaves());
+  woken = 0;
+  for (int slave : candidates.renewed) {
+    if (wake_of_slave_[static_cast<std::size_t>(slave)] != -infinity) ++woken;
+    wake(candidates, slave);
+  }
+}
+
+void SweptFaces::add_solids(const Surface& surface, const Candidates& candidates) {
+  for (; faces_known_ < candidates.face.size(); ++faces_known_) {
+    const int f = candidates.face[faces_known_];
+    const Face& face = surface.face[static_cast<std::size_t>(f)];
+    if (face.alive() && !face.shell) solids_.push_back(f);
+  }
 }
 
 void SweptFaces::begin_step(const Surface& surface, const Candidates& candidates,
@@ -108,10 +131,15 @@ void SweptFaces::begin_step(const Surface& surface, const Candidates& candidates
   dt = travel.dt();
   for (int axis = 0; axis < 3; ++axis) frame[axis] = travel.velocities().middle(axis);
   solid_.resize(surface.face.size());
-  if (changes_ != candidates.changes || !may_sleep) wake_all(surface, candidates);
+  if (search_ != candidates.counts.searches || !may_sleep)
+    wake_all(surface, candidates);
+  else
+    wake_renewed(surface, candidates);
+  add_solids(surface, candidates);
   team.for_ranges(solids_.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto f = static_cast<std::size_t>(solids_[i]);
+      if (!surface.face[f].alive()) continue;
       solid_[f] = swept_face(nodes, surface.face[f], frame, approach_share * dt,
                              influence(surface, options, candidates, solids_[i]),
                              influence_outside(surface, options, candidates, solids_[i]));
@@ -133,7 +161,7 @@ void SweptFaces::find(const Surface& surface, const Candidates& candidates, cons
   const Vector3d own_velocity = velocity(nodes, node);
   const double so_far = travel.so_far(slave);
   const double ahead = travel.ahead(slave);
-  double first_wake = std::numeric_limits<double>::infinity();
+  double first_wake = infinity;
   // Notes the length by which a pair is too far apart. \returns whether the pair sleeps.
   const auto falls_asleep = [&](double& wake, double clearance) {
     wake = so_far + clearance - travel.rounding();
@@ -171,7 +199,7 @@ void SweptFaces::find(const Surface& surface, const Candidates& candidates, cons
   for (int f : candidates.faces_of.of(slave)) {
     if (!(so_far + ahead < *wake)) {
       if (!surface.face[static_cast<std::size_t>(f)].alive())
-        *wake = std::numeric_limits<double>::infinity();
+        *wake = infinity;
       else if (surface.face[static_cast<std::size_t>(f)].shell)
         look_at_shell(f, *wake);
       else

@@ -4,8 +4,9 @@
 ///
 /// A pair that is not near sleeps: its clearance, the length by which it is too far apart, is stored, and the
 /// pair is not looked at until node and face may have travelled that length towards each other (travel.hpp),
-/// the look-ahead of the present step included. A node whose pairs all sleep costs one comparison. What is
-/// found to be near never depends on who sleeps.
+/// the look-ahead of the present step included. A node whose pairs all sleep costs one comparison. A search
+/// wakes all; a deletion those nodes that it gave new faces or another radius. What is found to be near never
+/// depends on who sleeps.
 
 #include <cstdint>
 #include <span>
@@ -43,6 +44,7 @@ struct SweptFaces {
   double dt = 0;
   Eigen::Vector3d frame;  ///< velocity of the frame in which capture boxes move least
   bool may_sleep = true;  ///< off only to show that sleep changes nothing
+  std::size_t woken = 0;  ///< slave nodes whose pairs were all woken at the beginning of the step
 
   /// Once a step, when candidates are up to date.
   void begin_step(const Surface& surface, const Candidates& candidates, const ContactOptions& options,
@@ -53,6 +55,12 @@ struct SweptFaces {
     return travel.so_far(slave) + travel.ahead(slave) < wake_of_slave_[static_cast<std::size_t>(slave)];
   }
 
+  /// By how much at least a slave node is too far from candidate k of its list to be near.
+  double clearance(const Travel& travel, const Candidates& candidates, int slave, std::size_t k) const {
+    return wake_[static_cast<std::size_t>(candidates.faces_of.first[static_cast<std::size_t>(slave)]) + k] -
+           travel.so_far(slave);
+  }
+
   /// Replace `near` by the faces near a slave node, the closest first. Faces of closed bodies that the node
   /// is well outside of are left out, but where everything is asked for. Changes what belongs to this slave
   /// only.
@@ -61,13 +69,17 @@ struct SweptFaces {
             std::vector<NearFace>& near);
 
  private:
+  void wake(const Candidates& candidates, int slave);
   void wake_all(const Surface& surface, const Candidates& candidates);
+  void wake_renewed(const Surface& surface, const Candidates& candidates);
+  void add_solids(const Surface& surface, const Candidates& candidates);
 
   std::vector<SweptFace> solid_;  ///< by face; of those that are candidates and sides of hexahedra
   std::vector<int> solids_;       ///< these faces
   std::vector<double> wake_;      ///< of each candidate pair: travel at which it may be near
   std::vector<double> wake_of_slave_;
-  std::uint64_t changes_ = 0;  ///< of the candidates, as far as pairs know of them
+  std::size_t faces_known_ = 0;  ///< of Candidates::face, looked through for solids_
+  std::uint64_t search_ = 0;     ///< number of the search that the pairs are from
 };
 
 }  // namespace brio

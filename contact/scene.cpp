@@ -138,6 +138,7 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std
   scene.last.swap(scene.contacts);
   detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, scene.travel, scene.last,
          team, scene.contacts);
+  scene.candidates.renewed.clear();
   warm_start(scene.last, scene.last_dt > 0 ? dt / scene.last_dt : 1.0, scene.contacts);
   load_motion(scene, nodes);
   const double edge = scene.candidates.smallest_edge;

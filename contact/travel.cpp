@@ -108,6 +108,21 @@ void Travel::follow(const Surface& surface, const Nodes& nodes, std::span<const 
   ahead_of_faces_ = approach_share * dt * (range_.fastest + 2 * std::sqrt(turn)) + rounding_;
 }
 
+// As if they had moved with the frame so far.
+void Travel::join(const Surface& surface, const Nodes& nodes, std::span<const int> slaves) {
+  if (path_.empty()) return;
+  position_.resize(surface.slaves());
+  path_.resize(surface.slaves());
+  ahead_.resize(surface.slaves());
+  piece_.resize((surface.slaves() + slaves_per_task - 1) / slaves_per_task);
+  for (int slave : slaves) {
+    const auto s = static_cast<std::size_t>(slave);
+    const double* x = nodes.record[static_cast<std::size_t>(surface.node[s])].position;
+    position_[s] = {x[0] - dt_ * frame_[0], x[1] - dt_ * frame_[1], x[2] - dt_ * frame_[2]};
+    path_[s] = 0;
+  }
+}
+
 void Travel::restart() {
   std::fill(path_.begin(), path_.end(), 0.0);
   path_of_faces_ = 0;

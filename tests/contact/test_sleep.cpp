@@ -4,6 +4,7 @@
 #include <random>
 
 #include "contact/closest_point.hpp"
+#include "contact/face_geometry.hpp"
 #include "contact/travel.hpp"
 #include "tests/contact/spring_model.hpp"
 
@@ -20,7 +21,8 @@ Map turned(std::mt19937& random, const Vector3d& to) {
 }
 
 // Blocks and sheets thrown at each other.
-void throw_things(SpringModel& model, unsigned seed, double speed, const Vector3d& common_velocity) {
+void throw_things(SpringModel& model, unsigned seed, double speed, const Vector3d& common_velocity,
+                  bool erodible = false) {
   std::mt19937 random(seed);
   int things = 0;
   for (const double x : {0.0, 2.5})
@@ -35,7 +37,10 @@ void throw_things(SpringModel& model, unsigned seed, double speed, const Vector3
   model.stiffness = 200;
   ContactOptions options;
   options.friction = 0.2;
-  model.start(options);
+  if (erodible)
+    model.start_erodible(options);
+  else
+    model.start(options);
 }
 
 // A heap: boxes that fall on a held floor and on each other.
@@ -55,6 +60,22 @@ void pile(SpringModel& model) {
   options.friction = 0.3;
   model.start(options);
   model.hold(0, floor);
+}
+
+// A block that slides over another and a sheet that falls on it, with boxes so wide that a search serves for
+// many deletions.
+void grind(SpringModel& model, double debris_radius) {
+  model.debris_radius = debris_radius;
+  model.stiffness = 20;
+  model.gravity = {0, 0, -5};
+  const int floor = model.add_box({6, 4, 2}, {1.2, 0.8, 0.4}, 1, shifted({0, 0, 0}));
+  const int above = model.add_box({4, 4, 2}, {0.8, 0.8, 0.4}, 1, shifted({0.03, 0.02, 0.41}));
+  model.throw_from(above, {1, 0.1, -0.3});
+  model.throw_from(model.add_sheet({4, 4}, {0.8, 0.8}, 0.05, 5, shifted({0.01, 0.03, 1})), {0.5, 0, -1});
+  ContactOptions options;
+  options.reach_buffer = 1;
+  model.start_erodible(options);
+  model.hold(floor, above);
 }
 
 // A small fast sheet that crosses a cloud of slow blocks.
@@ -87,6 +108,30 @@ void fold(SpringModel& model) {
   }
 }
 
+// Of the elements of blocks and sheets, some go while things move; what is left without elements flies on.
+struct Deletions {
+  std::vector<SurfaceElement> living;
+  std::mt19937 random{17};
+  std::size_t at_once = 2;
+
+  explicit Deletions(const SpringModel& model) {
+    int part = 0;
+    for (const SurfacePart& of : model.parts()) {
+      const int count = static_cast<int>(of.connectivity.size()) / of.nodes_per_element;
+      for (int e = 0; e < count; ++e) living.push_back({part, e});
+      ++part;
+    }
+    std::shuffle(living.begin(), living.end(), random);
+  }
+  std::vector<SurfaceElement> next() {
+    const std::size_t left = living.size() - std::min(at_once, living.size());
+    const std::vector<SurfaceElement> chosen(living.begin() + static_cast<std::ptrdiff_t>(left),
+                                             living.end());
+    living.resize(left);
+    return chosen;
+  }
+};
+
 int awake(const SpringModel& model) {
   int count = 0;
   for (int s = 0; s < static_cast<int>(model.scene.surface.slaves()); ++s)
@@ -94,16 +139,51 @@ int awake(const SpringModel& model) {
   return count;
 }
 
+// Every pair is as far apart as its clearance says.
+void expect_true_clearances(const SpringModel& model) {
+  const ContactScene& scene = model.scene;
+  const Surface& surface = scene.surface;
+  for (int s = 0; s < static_cast<int>(surface.slaves()); ++s) {
+    const auto faces = scene.candidates.faces_of.of(s);
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const Face& face = surface.face[static_cast<std::size_t>(faces[k])];
+      if (!face.alive()) continue;
+      const double reach = influence(surface, scene.options, scene.candidates, faces[k]) +
+                           surface.radius[static_cast<std::size_t>(s)];
+      const ClosestPoint closest = closest_point_on_quad(model.x(surface.node[static_cast<std::size_t>(s)]),
+                                                         vertices(model.nodes, face));
+      ASSERT_LE(scene.detection.swept.clearance(scene.travel, scene.candidates, s, k),
+                std::sqrt(closest.squared_distance) - reach + scene.travel.rounding())
+          << "slave " << s << " face " << faces[k];
+    }
+  }
+}
+
 // Steps of both; \returns the share of nodes that slept.
-double compare(const Build& build, double dt, int steps) {
+double compare(const Build& build, double dt, int steps, int delete_every = 0, double most_woken = 1) {
   SpringModel sleeping, sleepless;
   build(sleeping);
   build(sleepless);
   sleepless.scene.detection.swept.may_sleep = false;
   double asleep = 0;
   std::uint64_t active = 0;
+  Deletions deletions(sleeping);
+  double woken = 0;  // share of the nodes, by deletions alone
+  int deletions_alone = 0;
   for (int step = 0; step < steps; ++step) {
-    sleeping.step(dt);
+    const bool deletes = delete_every > 0 && step % delete_every == 0;
+    if (deletes) {
+      const std::vector<SurfaceElement> chosen = deletions.next();
+      sleeping.erode(chosen);
+      sleepless.erode(chosen);
+    }
+    sleeping.accelerate(dt);
+    resolve(sleeping.scene, sleeping.nodes, dt, sleeping.alone());
+    if (deletes) {
+      expect_true_clearances(sleeping);
+      if (testing::Test::HasFatalFailure()) return 0;
+    }
+    sleeping.move(dt);
     sleepless.step(dt);
     for (int n = 0; n < sleeping.count(); ++n)
       for (int axis = 0; axis < 3; ++axis)
@@ -115,10 +195,18 @@ double compare(const Build& build, double dt, int steps) {
       ADD_FAILURE() << "contacts in step " << step;
       return 0;
     }
+    if (deletes && !sleeping.scene.step.searched) {
+      ++deletions_alone;
+      woken += static_cast<double>(sleeping.scene.detection.swept.woken) /
+               static_cast<double>(sleeping.scene.surface.slaves());
+    }
     active += static_cast<std::uint64_t>(sleeping.scene.step.active);
     asleep += 1 - static_cast<double>(awake(sleeping)) / static_cast<double>(sleeping.scene.surface.slaves());
   }
   EXPECT_GT(active, 20U) << "things met";
+  if (delete_every > 0) {
+    EXPECT_LT(woken, most_woken * deletions_alone);
+  }
   return asleep / steps;
 }
 
@@ -132,6 +220,19 @@ TEST(Sleep, LeavesNoTraceInRandomScenes) {
 TEST(Sleep, LeavesNoTraceWhereEverythingTravelsTogether) {
   const auto build = [](SpringModel& model) { throw_things(model, 9, 2, {300, -200, 100}); };
   EXPECT_GT(compare(build, 1e-3, 1000), 0.3);
+}
+
+TEST(Sleep, LeavesNoTraceWhileElementsAreDeleted) {
+  for (const double debris_radius : {0.0, 0.05})
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      const auto build = [&](SpringModel& model) {
+        model.debris_radius = debris_radius;
+        throw_things(model, seed, 2, {0.3, 0, 0}, true);
+      };
+      EXPECT_GT(compare(build, 1e-3, 1000, 25, 0.25), 0.3);
+    }
+  for (const double debris_radius : {0.0, 0.08})
+    compare([&](SpringModel& model) { grind(model, debris_radius); }, 1e-3, 400, 10);
 }
 
 // Nothing sleeps while a step carries nodes farther than the buffer.

@@ -76,21 +76,6 @@ void sweep_elements(Model& model, ThreadTeam& team) {
                     std::to_string(model.times.time));
 }
 
-// After the sweep, whose order of elements it changes, and before contact, whose surfaces it opens.
-void erode_elements(Model& model, ThreadTeam& team) {
-  if (!model.erosion) return;
-  const StageTimer timer(model.stages, Stage::erosion);
-  Erosion& erosion = *model.erosion;
-  erode(erosion, model.schedule, model.sweep_results, model.blocks, model.parts, model.energy);
-  if (erosion.deleted.empty()) return;
-  for (ActiveLoad& load : model.loads) drop_sides(load, erosion.deleted);
-  for (ContactScene& scene : model.contacts)
-    erode(scene, *model.surface_numbers, erosion.deleted, model.nodes, team);
-  if (!is_sparse(model.schedule, model.blocks)) return;
-  model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
-  model.sweep_results.resize(model.schedule.tasks.size());
-}
-
 // A step that follows the stable step through every vibration is in time with that vibration and feeds it
 // (Skeel 1993, Variable step size destabilizes the Stoermer/leapfrog/Verlet method): it comes down at once,
 // but goes up only by what the least bound of a whole window leaves, and only where that is worth it.
@@ -224,6 +209,21 @@ void check_books(Model& model, double energy_error_limit) {
 }
 
 }  // namespace
+
+// After the sweep, whose order of elements it changes, and before contact, whose surfaces it opens.
+void erode_elements(Model& model, ThreadTeam& team) {
+  if (!model.erosion) return;
+  const StageTimer timer(model.stages, Stage::erosion);
+  Erosion& erosion = *model.erosion;
+  erode(erosion, model.schedule, model.sweep_results, model.blocks, model.parts, model.energy);
+  if (erosion.deleted.empty()) return;
+  for (ActiveLoad& load : model.loads) drop_sides(load, erosion.deleted);
+  for (ContactScene& scene : model.contacts)
+    erode(scene, *model.surface_numbers, erosion.deleted, model.nodes, team);
+  if (!is_sparse(model.schedule, model.blocks)) return;
+  model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
+  model.sweep_results.resize(model.schedule.tasks.size());
+}
 
 void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team) {
   EnergyBook& energy = model.energy;

@@ -12,6 +12,10 @@ namespace brio {
 /// energy error beyond `energy_error_limit`.
 void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team);
 
+/// Deletes what `model.sweep_results` gave up, with all that follows from it: loads, contact surfaces,
+/// chunks. Part of `update_velocities`.
+void erode_elements(Model& model, ThreadTeam& team);
+
 /// Counts missed contacts at the present positions if a contact scene asks for its audit: what detection let
 /// through is found by other means. Costs like many steps; called where fields are written.
 void audit_contacts(Model& model, ThreadTeam& team);

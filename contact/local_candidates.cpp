@@ -10,9 +10,8 @@ namespace brio {
 
 namespace {
 
-/// Boxes added that are compared one by one: so many, and this share of those sorted in.
-constexpr std::size_t fewest_sorted_in = 256;
-constexpr std::size_t share_sorted_in = 8;
+/// Boxes added that are compared one by one.
+constexpr std::size_t most_unsorted = 64;
 
 CaptureBox at_point(const Vector3<double>& p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
 
@@ -50,13 +49,18 @@ void GrowingTree::build(const SearchNodes& boxes, ThreadTeam& team) {
   all_.build(boxes, team);
   number_.clear();
   box_.clear();
-  sorted_in_ = 0;
+  later_.clear();
 }
 
 void GrowingTree::sort_in(ThreadTeam& team) {
-  if (box_.size() - sorted_in_ <= fewest_sorted_in + sorted_in_ / share_sorted_in) return;
-  later_.build(box_, team);
-  sorted_in_ = box_.size();
+  std::size_t begin = sorted_in();
+  if (box_.size() - begin <= most_unsorted) return;
+  while (!later_.empty() && later_.back().size() <= 2 * (box_.size() - begin)) {
+    begin = later_.back().begin;
+    later_.pop_back();
+  }
+  Later& added = later_.emplace_back(Later{.tree = {}, .begin = begin, .end = box_.size()});
+  added.tree.build(std::span<const CaptureBox>(box_).subspan(begin), team);
 }
 
 template <class Visit>
@@ -64,12 +68,12 @@ void GrowingTree::for_overlapping(const CaptureBox& box, std::uint64_t& comparis
   constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
   std::size_t count = all_.collect(box, all, found_, places_, comparisons);
   for (std::size_t i = 0; i < count; ++i) visit(found_[i]);
-  if (sorted_in_ > 0) {
-    count = later_.collect(box, all, found_, places_, comparisons);
-    for (std::size_t i = 0; i < count; ++i) visit(number_[static_cast<std::size_t>(found_[i])]);
+  for (const Later& later : later_) {
+    count = later.tree.collect(box, all, found_, places_, comparisons);
+    for (std::size_t i = 0; i < count; ++i) visit(number_[later.begin + static_cast<std::size_t>(found_[i])]);
   }
-  comparisons += 6 * (box_.size() - sorted_in_);
-  for (std::size_t i = sorted_in_; i < box_.size(); ++i)
+  comparisons += 6 * (box_.size() - sorted_in());
+  for (std::size_t i = sorted_in(); i < box_.size(); ++i)
     if (box_[i].overlaps(box)) visit(number_[i]);
 }
 

@@ -17,7 +17,8 @@
 
 namespace brio {
 
-/// A tree over boxes to which boxes may be added.
+/// A tree over boxes to which boxes may be added. What is added is sorted into further trees, each at least
+/// twice as large as the next: a box is sorted and a question asked as often as a logarithm of their number.
 class GrowingTree {
  public:
   void build(const SearchNodes& boxes, ThreadTeam& team);
@@ -32,11 +33,17 @@ class GrowingTree {
   void for_overlapping(const CaptureBox& box, std::uint64_t& comparisons, const Visit& visit);
 
  private:
+  struct Later {
+    NodeTree tree;
+    std::size_t begin, end;  ///< of the boxes added
+    std::size_t size() const { return end - begin; }
+  };
+  std::size_t sorted_in() const { return later_.empty() ? 0 : later_.back().end; }
+
   NodeTree all_;
-  NodeTree later_;               ///< over the first of the boxes added
+  std::vector<Later> later_;     ///< over the boxes added, one after the other
   std::vector<int> number_;      ///< of the boxes added
   std::vector<CaptureBox> box_;  ///< the boxes added
-  std::size_t sorted_in_ = 0;    ///< how many of them are in later_
   std::vector<int> found_, places_;
 };
 

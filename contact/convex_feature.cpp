@@ -136,6 +136,26 @@ Planes convex_planes(const NodeAtFeature& query, const Vector3d& point) {
   return planes;
 }
 
+// Whether the closest point lies in a crease, where another face stands up from that of the query: neither
+// face alone leads out of it, even where the crease itself is bent convexly.
+bool lies_in_crease(const NodeAtFeature& query) {
+  if (query.closest.feature == Feature::interior) return false;
+  const Face& own = face_of(query, query.face);
+  const auto k = static_cast<std::size_t>(query.closest.index);
+  const Vector3d middle = centroid(vertices(query.nodes, own));
+  const auto stands_up = [&](int f) {
+    if (f < 0 || f == query.face || face_of(query, f).shell) return false;
+    const FaceVertices v = vertices(query.nodes, face_of(query, f));
+    const Vector3d area = (v[2] - v[0]).cross(v[3] - v[1]);
+    return (centroid(v) - middle).dot(query.closest.normal) > 0 &&
+           area.dot(query.closest.normal) < smooth * area.norm();
+  };
+  if (query.closest.feature == Feature::edge)
+    return stands_up(query.surface.neighbor[static_cast<std::size_t>(query.face)][k]);
+  const auto around = query.surface.faces_of.of(query.surface.slave(own.node[k]));
+  return std::any_of(around.begin(), around.end(), stands_up);
+}
+
 // The weights of the point below the node along the normal, a little beside the face, so that an impulse
 // along the normal has no moment: the smallest change of weights that moves the point there.
 std::array<double, 4> weights_below(const NodeAtFeature& query, const Plane& plane) {
@@ -171,6 +191,7 @@ double best_opposed(std::span<const Plane> planes, double not_below) {
 }  // namespace
 
 std::optional<Separation> separate_at_feature(const NodeAtFeature& query, const Vector3d& direct) {
+  if (lies_in_crease(query)) return std::nullopt;
   Planes planes = convex_planes(query, query.closest.point);
   if (planes.count == 0) return std::nullopt;
   if (!direct.isZero()) {

@@ -58,6 +58,31 @@ TEST(Recovery, IsSlowerWhereTheContactIsLoaded) {
   EXPECT_NEAR(opening_velocity(2000 * fastest), fastest / 1000, 1e-12);
 }
 
+// The crease of a groove along y that is bent convexly, so that faces meet convexly along y and stand up
+// across the crease: none of them alone leads a node out that has sunk in a little.
+TEST(Crease, OfABentGrooveIsLeftUpwards) {
+  SpringModel model;
+  model.add_box({4, 4, 1}, {0.4, 0.8, 0.2}, 1, [](const Vector3d& x) -> Vector3d {
+    const double across = x.x() - 0.2, along = x.y() - 0.4;
+    return {across, along, x.z() < 0.1 ? -1 : 1.2 * std::abs(across) - 0.8 * along * along};
+  });
+  const int blade = model.count();
+  const double sunk = 1e-4;
+  const double onto_a_corner = std::acos(1 / std::sqrt(3.0));
+  model.add_box({1, 1, 1}, {0.1, 0.1, 0.1}, 1,
+                turned_and_shifted(onto_a_corner, {1, -1, 0}, {0, 0.004, -0.8 * 0.2 * 0.004 - sunk}));
+  model.start({});
+  resolve(model.scene, model.nodes, 1e-6, model.alone());
+  int found = 0;
+  for (const Contact& contact : model.scene.contacts) {
+    if (model.scene.surface.node[static_cast<std::size_t>(contact.slave)] != blade) continue;
+    ++found;
+    EXPECT_LT(std::abs(contact.normal.x()), 1e-3);
+    EXPECT_NEAR(contact.gap, -sunk, 2e-5);
+  }
+  EXPECT_EQ(found, 1);
+}
+
 TEST(Momentum, IsKeptToRoundingInRandomScenes) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     SpringModel model;

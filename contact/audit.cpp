@@ -130,7 +130,8 @@ class Auditor {
     const double gap =
         signed_gap(nearest_point, pseudo_normal(surface_, nodes_, nearest_face, nearest_point));
     const bool deep = gap < -deep_share * edge_[static_cast<std::size_t>(nearest_face)];
-    return deep && note(-gap, found);
+    // Flakes turned inside out have pseudo-normals that tell nothing; what is inside is seen all around.
+    return deep && winding(body, x) > 0.5 && note(-gap, found);
   }
 
   // A node of a body that does not cut itself sees its own surface from the surface: less than once around.

@@ -54,13 +54,21 @@ class NodeCheck {
   bool judge_all(bool everything) {
     scene_.swept.find(scene_.surface, scene_.candidates, scene_.options, scene_.nodes, scene_.travel, slave_,
                       everything, piece_.near);
-    if (piece_.near.empty()) return true;
+    if (piece_.near.face.empty()) return true;
     find_history();
-    for (std::size_t i = 0; i < piece_.near.size(); ++i) {
+    for (std::size_t i = 0; i < piece_.near.face.size(); ++i) {
       judge(i);
-      if (piece_.near[i].inside && !everything) return false;
+      if (piece_.near.face[i].inside && !everything && !barely_inside(piece_.near.face[i])) return false;
     }
     return true;
+  }
+
+  // What was left out is farther away than the node is deep, now and in the last step: nothing in it proves
+  // otherwise.
+  bool barely_inside(const NearFace& near) const {
+    const double least = band_share * scene_.candidates.smallest_edge;
+    return near.distance < least && std::all_of(history_.begin(), history_.end(),
+                                                [&](const Contact& old) { return old.gap > -least; });
   }
 
   void find_history() {
@@ -91,18 +99,18 @@ class NodeCheck {
   // The closest point lies on an edge or vertex that a face already judged has too, at a place at least as
   // close.
   bool repeated(std::size_t i) const {
-    const NearFace& near = piece_.near[i];
+    const NearFace& near = piece_.near.face[i];
     if (near.closest.feature == Feature::interior) return false;
     for (std::size_t j = 0; j < i; ++j)
-      if (shares_feature(near, face(piece_.near[j].face))) return true;
+      if (shares_feature(near, face(piece_.near.face[j].face))) return true;
     return false;
   }
 
   // First (closest) entry of the same body.
   std::size_t closest_of_body(std::size_t i) const {
-    const int body = face(piece_.near[i].face).body;
+    const int body = face(piece_.near.face[i].face).body;
     for (std::size_t j = 0; j < i; ++j)
-      if (face(piece_.near[j].face).body == body && !face(piece_.near[j].face).shell) return j;
+      if (face(piece_.near.face[j].face).body == body && !face(piece_.near.face[j].face).shell) return j;
     return i;
   }
 
@@ -153,7 +161,7 @@ class NodeCheck {
   // ---- judgement
 
   void judge(std::size_t i) {
-    if (face(piece_.near[i].face).shell)
+    if (face(piece_.near.face[i].face).shell)
       judge_shell(i);
     else
       judge_solid(i);
@@ -196,7 +204,7 @@ class NodeCheck {
 
   void judge_solid(std::size_t i) {
     const std::size_t first = closest_of_body(i);
-    NearFace& near = piece_.near[i];
+    NearFace& near = piece_.near.face[i];
     const bool self = face(near.face).body == scene_.surface.body[static_cast<std::size_t>(slave_)];
     const bool overlap_matters = !history_.empty() || (!self && first == i);
     if (!within_band(near) && !overlap_matters) return;
@@ -207,7 +215,7 @@ class NodeCheck {
     const Vector3d push = way_out(near, outside);
     const double gap = (outside ? near.distance : -near.distance) - touching(near.face);
     if (!outside) {
-      if (!piece_.near[first].inside || near.distance > scene_.candidates.depth_share * edge(near.face))
+      if (!piece_.near.face[first].inside || near.distance > scene_.candidates.depth_share * edge(near.face))
         return;
       if ((self || first != i) && !was_tracked(near.face, push, gap)) return;
     }
@@ -229,7 +237,7 @@ class NodeCheck {
   }
 
   void judge_shell(std::size_t i) {
-    const NearFace& near = piece_.near[i];
+    const NearFace& near = piece_.near.face[i];
     if (!within_band(near) || repeated(i)) return;
     const double reach = touching(near.face);
     const Vector3d side = side_of(near);
@@ -289,7 +297,7 @@ class NodeCheck {
     const std::size_t judged = piece_.contact.size();
     const NearFace* earliest = nullptr;
     VelocityContact first{};
-    for (const NearFace& near : piece_.near) {
+    for (const NearFace& near : piece_.near.face) {
       if (in_contact(near.face, judged)) continue;
       const double reach = touching(near.face);
       if (near.distance <= reach || farthest_travel(near.face) < near.distance - reach) continue;

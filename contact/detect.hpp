@@ -33,7 +33,7 @@ struct Scenery {
 /// Contacts of consecutive slave nodes, found by one task.
 struct DetectionPiece {
   std::vector<Contact> contact;
-  std::vector<NearFace> near;
+  NearFaces near;
 };
 
 struct Detection {

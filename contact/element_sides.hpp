@@ -32,9 +32,14 @@ inline bool side_nodes(const int* hexahedron, int side, std::array<int, 4>& node
       {hexahedron[corner[0]], hexahedron[corner[1]], hexahedron[corner[2]], hexahedron[corner[3]]}, nodes);
 }
 
-/// The same for any two elements that share a side.
+/// The same for any two elements that share a side, whichever node of a triangle each repeats.
 inline std::array<int, 4> side_key(std::array<int, 4> nodes) {
-  std::sort(nodes.begin(), nodes.end());
+  if (nodes[3] == nodes[2]) {
+    std::sort(nodes.begin(), nodes.end() - 1);
+    nodes[3] = nodes[2];
+  } else {
+    std::sort(nodes.begin(), nodes.end());
+  }
   return nodes;
 }
 

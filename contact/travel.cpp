@@ -33,6 +33,8 @@ void Travel::Range::include(const Range& other) {
   brio::include(velocity, other.velocity);
   brio::include(displacement, other.displacement);
   brio::include(ahead, other.ahead);
+  for (int axis = 0; axis < 3; ++axis) sum[axis] += other.sum[axis];
+  count += other.count;
   longest_move = std::max(longest_move, other.longest_move);
   fastest = std::max(fastest, other.fastest);
   magnitude = std::max(magnitude, other.magnitude);
@@ -42,7 +44,7 @@ void Travel::Range::include(const Range& other) {
 Travel::Range Travel::follow_range(const Surface& surface, const Nodes& nodes,
                                    std::span<const Vector3<double>> since, std::size_t begin,
                                    std::size_t end) {
-  Range range{nothing, nothing, nothing, 0, 0, 0};
+  Range range{nothing, nothing, nothing, {0, 0, 0}, 0, 0, 0, 0};
   const double ahead = approach_share * dt_;
   for (std::size_t s = begin; s < end; ++s) {
     if (surface.node[s] < 0) continue;
@@ -58,6 +60,7 @@ Travel::Range Travel::follow_range(const Surface& surface, const Nodes& nodes,
       move += moved * moved;
       speed += relative * relative;
       include(range.velocity, axis, v);
+      range.sum[axis] += v;
       range.magnitude = std::max(range.magnitude, std::abs(x) + ahead * std::abs(v));
     }
     if (!since.empty()) {
@@ -68,6 +71,7 @@ Travel::Range Travel::follow_range(const Surface& surface, const Nodes& nodes,
         include(range.ahead, axis, displacement + ahead * record.velocity[axis]);
       }
     }
+    ++range.count;
     move = std::sqrt(move);
     speed = std::sqrt(speed);
     position_[s] = {record.position[0], record.position[1], record.position[2]};
@@ -93,19 +97,21 @@ void Travel::follow(const Surface& surface, const Nodes& nodes, std::span<const 
   team.for_ranges(surface.slaves(), slaves_per_task, [&](std::size_t begin, std::size_t end) {
     piece_[begin / slaves_per_task] = follow_range(surface, nodes, since, begin, end);
   });
-  range_ = {nothing, nothing, nothing, 0, 0, 0};
+  range_ = {nothing, nothing, nothing, {0, 0, 0}, 0, 0, 0, 0};
   for (const Range& piece : piece_) range_.include(piece);
   if (!(range_.velocity.width(0) >= 0)) range_.velocity = {};  // all deleted
   rounding_ = rounding_of_distance * range_.magnitude;
+  margin_ += rounding_of_step * range_.magnitude;
   path_of_faces_ += range_.longest_move + rounding_of_step * range_.magnitude;
   double turn = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double next = range_.velocity.middle(axis);
+    const double next = range_.count > 0 ? range_.sum[axis] / range_.count : 0;
     turn += (next - frame_[axis]) * (next - frame_[axis]);
     frame_[axis] = next;
   }
   // Twice: in the frame of the present step both the node and the face may be that much faster.
-  ahead_of_faces_ = approach_share * dt * (range_.fastest + 2 * std::sqrt(turn)) + rounding_;
+  ahead_margin_ = approach_share * dt * 2 * std::sqrt(turn) + rounding_;
+  ahead_of_faces_ = approach_share * dt * range_.fastest + ahead_margin_;
 }
 
 // As if they had moved with the frame so far.
@@ -126,6 +132,7 @@ void Travel::join(const Surface& surface, const Nodes& nodes, std::span<const in
 void Travel::restart() {
   std::fill(path_.begin(), path_.end(), 0.0);
   path_of_faces_ = 0;
+  margin_ = 0;
 }
 
 }  // namespace brio

@@ -139,7 +139,7 @@ int awake(const SpringModel& model) {
   return count;
 }
 
-// Every pair is as far apart as its clearance says.
+// Every pair is as far apart as its clearance says, or the node is that far outside.
 void expect_true_clearances(const SpringModel& model) {
   const ContactScene& scene = model.scene;
   const Surface& surface = scene.surface;
@@ -148,10 +148,12 @@ void expect_true_clearances(const SpringModel& model) {
     for (std::size_t k = 0; k < faces.size(); ++k) {
       const Face& face = surface.face[static_cast<std::size_t>(faces[k])];
       if (!face.alive()) continue;
-      const double reach = influence(surface, scene.options, scene.candidates, faces[k]) +
-                           surface.radius[static_cast<std::size_t>(s)];
       const ClosestPoint closest = closest_point_on_quad(model.x(surface.node[static_cast<std::size_t>(s)]),
                                                          vertices(model.nodes, face));
+      const bool above = closest.separation.dot(closest.normal) > 0;
+      const double reach =
+          (above ? influence_outside : influence)(surface, scene.options, scene.candidates, faces[k]) +
+          surface.radius[static_cast<std::size_t>(s)];
       ASSERT_LE(scene.detection.swept.clearance(scene.travel, scene.candidates, s, k),
                 std::sqrt(closest.squared_distance) - reach + scene.travel.rounding())
           << "slave " << s << " face " << faces[k];
@@ -275,9 +277,15 @@ TEST(Travel, BoundsHowMuchNearerAnyNodeComesToAnyFace) {
     Travel travel;
     travel.follow(surface, nodes, {}, 0, team);
     travel.restart();
+    const auto longest = [&](int f, double (Travel::*of)(int) const) {
+      double most = 0;
+      for (int k = 0; k < 4; ++k) most = std::max(most, (travel.*of)(4 * f + k));
+      return most;
+    };
+    const auto pair_so_far = [&](int n, int f) { return travel.so_far(n, longest(f, &Travel::path)); };
     std::vector<double> start;
     for (int n = 0; n < 4 * faces; ++n)
-      for (int f = 0; f < faces; ++f) start.push_back(distance(n, f, 0) + travel.so_far(n));
+      for (int f = 0; f < faces; ++f) start.push_back(distance(n, f, 0) + pair_so_far(n, f));
     for (int step = 0; step < 30; ++step) {
       const double dt = 1e-2 * (1 + 0.5 * uniform(random));
       const Vector3d gust = common + 50 * speed * vector();
@@ -290,11 +298,15 @@ TEST(Travel, BoundsHowMuchNearerAnyNodeComesToAnyFace) {
       for (int n = 0; n < 4 * faces; ++n)
         for (int f = 0; f < faces; ++f) {
           if (n / 4 == f) continue;
-          const double at_least = start[static_cast<std::size_t>(n * faces + f)] - travel.so_far(n);
+          const double so_far = pair_so_far(n, f);
+          const double ahead = travel.ahead(n, longest(f, &Travel::own_ahead));
+          ASSERT_LE(so_far, travel.so_far(n)) << "no pair travels farther than the node and any face";
+          ASSERT_LE(ahead, travel.ahead(n));
+          const double at_least = start[static_cast<std::size_t>(n * faces + f)] - so_far;
           ASSERT_GE(distance(n, f, 0), at_least - travel.rounding());
           for (const double share : {0.5, 1.0})
-            ASSERT_GE(distance(n, f, share * approach_share * dt), at_least - travel.ahead(n));
-          tightest = std::min(tightest, (distance(n, f, 0) - at_least) / (travel.so_far(n) + speed * dt));
+            ASSERT_GE(distance(n, f, share * approach_share * dt), at_least - ahead);
+          tightest = std::min(tightest, (distance(n, f, 0) - at_least) / (so_far + speed * dt));
         }
       // Contact changes velocities after they were looked at: what counts is where nodes go.
       const Vector3d kick = trial % 2 == 0 ? gust : Vector3d(20 * speed * vector());

@@ -73,6 +73,16 @@ TEST(Surface, DegenerateSidesVanishOrBecomeTriangles) {
       EXPECT_GE(surface.neighbor[f][static_cast<std::size_t>(k)], 0);
 }
 
+TEST(Surface, TrianglesBetweenWedgesAreInside) {
+  for (const std::array<int, 8>& above :
+       {std::array{3, 4, 5, 5, 6, 7, 8, 8}, std::array{4, 5, 3, 3, 7, 8, 6, 6},
+        std::array{5, 3, 4, 4, 8, 6, 7, 7}, std::array{3, 3, 4, 5, 6, 6, 7, 8}}) {
+    std::vector<int> wedges{0, 1, 2, 2, 3, 4, 5, 5};
+    wedges.insert(wedges.end(), above.begin(), above.end());
+    EXPECT_EQ(solid_surface(wedges, 9).face.size(), 2U + 6U);
+  }
+}
+
 TEST(Surface, ShellsAreOneFaceEachWithFreeEdges) {
   SpringModel model;
   model.add_sheet({3, 2}, {3, 2}, 0.1, 1, shifted({0, 0, 0}));

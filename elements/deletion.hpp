@@ -23,6 +23,7 @@ constexpr std::array<NamedValue<FreeNodes>, 2> named_values(FreeNodes) {
 struct Deletion {
   std::optional<double> minimum_step{};
   bool inverted = false;
+  bool corner_inverted = false;
   std::optional<double> plastic_strain{};
   std::optional<double> volume_ratio{};
   FreeNodes free_nodes = FreeNodes::keep;
@@ -34,6 +35,10 @@ struct Deletion {
                  "an element whose stable step falls below it is deleted, time"),
         optional("inverted", &Deletion::inverted, any_number,
                  "whether an element that inverts is deleted; otherwise it stops the run"),
+        optional(
+            "corner_inverted", &Deletion::corner_inverted, any_number,
+            "whether an element whose edges at one of its corners turn inside out is deleted, though its "
+            "volume is not; hexahedra only"),
         optional("plastic_strain", &Deletion::plastic_strain, positive,
                  "an element whose equivalent plastic strain, mean of its points, exceeds it is deleted, -"),
         optional("volume_ratio", &Deletion::volume_ratio,
@@ -48,7 +53,7 @@ struct Deletion {
   }
 
   constexpr bool names_a_criterion() const {
-    return minimum_step || inverted || plastic_strain || volume_ratio;
+    return minimum_step || inverted || corner_inverted || plastic_strain || volume_ratio;
   }
 };
 

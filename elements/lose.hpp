@@ -24,6 +24,25 @@ BRIO_INLINE T mean_over_points(int points, const Point* point, const Value& valu
   return sum * (1.0 / points);
 }
 
+/// Smallest over the corners of a hexahedron of the triple product of the edges that leave it; zero, not
+/// less, at an edge that has no length because its nodes are one.
+template <class T>
+BRIO_INLINE T smallest_corner(const T (&position)[3][8]) {
+  constexpr int along[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                               {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+  T smallest(HUGE_VAL);
+  for (int corner = 0; corner < 8; ++corner) {
+    T e[3][3];
+    for (int edge = 0; edge < 3; ++edge)
+      for (int i = 0; i < 3; ++i) e[edge][i] = position[i][along[corner][edge]] - position[i][corner];
+    const T product = e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+                      e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+                      e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
+    smallest = where(product < smallest, product, smallest);
+  }
+  return smallest;
+}
+
 template <class Kind, class Law, Floating Real, class Header, class Point>
 BRIO_INLINE LaneMask<Real> is_lost(const Kind& kind, const Law& law, const Deletion& deletion,
                                    const Header& header, const Point* point,
@@ -46,6 +65,7 @@ BRIO_INLINE LaneMask<Real> is_lost(const Kind& kind, const Law& law, const Delet
     }
   }
   if constexpr (Kind::nodes == 8) {
+    if (deletion.corner_inverted) lost = lost | (smallest_corner(motion.position) < zero);
     if (deletion.volume_ratio) {
       const T volume = mean_gradient(modes(motion.position)).volume;
       const auto shrunk = volume * T(law.density) < T(*deletion.volume_ratio) * header.mass;

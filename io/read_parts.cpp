@@ -40,9 +40,11 @@ void check_deletion(const YamlEntry& entry, const Part& part, const Material& ma
     throw DeckError(entry.place, "deletion by plastic_strain, but the material model '" +
                                      std::string(name_of(material)) +
                                      "' has none; a plastic one is accepted");
-  if (part.deletion->volume_ratio && nodes_per_element(part.element) != 8)
-    throw DeckError(entry.place, "deletion by volume_ratio of elements '" +
-                                     std::string(name_of(part.element)) + "'; hexahedra are accepted");
+  for (const auto& [named, criterion] : {std::pair{part.deletion->volume_ratio.has_value(), "volume_ratio"},
+                                         std::pair{part.deletion->corner_inverted, "corner_inverted"}})
+    if (named && nodes_per_element(part.element) != 8)
+      throw DeckError(entry.place, "deletion by " + std::string(criterion) + " of elements '" +
+                                       std::string(name_of(part.element)) + "'; hexahedra are accepted");
   if (part.deletion->debris_radius && part.deletion->free_nodes == FreeNodes::drop)
     throw DeckError(entry.place,
                     "debris_radius of nodes that leave the run; it is accepted with free_nodes: keep");

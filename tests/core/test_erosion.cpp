@@ -512,6 +512,34 @@ TEST(Erosion, VolumeRatioDeletesWhatIsCrushed) {
   EXPECT_NEAR(time_of_death, 0.15, 2 * model.control.largest);
 }
 
+// One node of a cube is driven along an edge: when it passes the node at the other end, after 1, the edges of
+// neither span a positive volume any more, though the cube has kept most of its own.
+TEST(Erosion, CornerInvertedDeletesWhatIsInsideOutAtACorner) {
+  for (const bool named : {false, true}) {
+    Deck deck = pulled_bar(1, elastic(0.0));
+    PrescribedMotion driven = pull("", 0, -1);
+    driven.where.region = BoxRegion{{0.75, 0.25, 0.25}, {9, 9, 9}};
+    deck.boundary_conditions = {fix("bar.all", {1, 2}), fix("bar.xmin", {0}), driven};
+    for (const auto& [low, high] : {std::pair{-9.0, 0.25}, std::pair{0.25, 9.0}}) {
+      PrescribedMotion held = pull("", 0, 0);
+      held.where.region = BoxRegion{{0.75, low, -9}, {9, high, low < 0 ? 9 : 0.25}};
+      deck.boundary_conditions.push_back(held);
+    }
+    deck.parts[0].deletion.emplace();
+    deck.parts[0].deletion->inverted = true;
+    deck.parts[0].deletion->corner_inverted = named;
+    deck.time.end = 1.2;
+    Model model = build_model(deck);
+    ThreadTeam team(1);
+    double time_of_death = 0;
+    run(model, deck, team, [&](Model& m) {
+      if (!m.erosion->deleted.empty()) time_of_death = m.times.time;
+    });
+    EXPECT_EQ(model.erosion->total_deleted(), named ? 1 : 0);
+    EXPECT_NEAR(time_of_death, named ? 1 : 0, 2 * model.control.largest);
+  }
+}
+
 // Nodes of one side of a soft cube are driven through the other.
 Deck crushed_cube() {
   Deck deck = stretched_bar(2, elastic(0.0), 0);

@@ -28,6 +28,17 @@ TEST(Audit, FindsAPlantedPenetrationOfSolids) {
   EXPECT_GE(found.deepest_node, upper);
 }
 
+// The normals of a flake turned inside out point inwards, so that whatever is beside it seems to be inside.
+TEST(Audit, CountsNothingBesideAFlakeTurnedInsideOut) {
+  ThreadTeam team(1);
+  SpringModel model;
+  model.add_box({1, 1, 1}, {1, 1, 1}, 1, shifted({0, 0, 0}));
+  const int beside = model.add_box({1, 1, 1}, {1, 1, 1}, 1, shifted({0, 0, 1.3}));
+  model.start({});
+  for (int n = 0; n < beside; ++n) move_nodes(model, n, n + 1, {0, 0, 1 - 2 * model.x(n)[2]});
+  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+}
+
 TEST(Audit, FindsShellsTooCloseAndPierced) {
   ThreadTeam team(1);
   SpringModel model;

@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double deep_share = 0.1;
+/// A node of a flat surface is behind its other faces by rounding.
+constexpr double flat_share = 1e-3;
 constexpr std::size_t nodes_per_task = 64;
 
 struct Box {
@@ -145,7 +147,8 @@ class Auditor {
       if (box_[f].squared_distance(x) >= std::min(depth * depth, edge_[f] * edge_[f])) continue;
       const ClosestPoint point = closest_point_on_quad(x, corners_[f]);
       const double distance = std::sqrt(point.squared_distance);
-      if (distance >= depth || distance > edge_[f] || point.separation.dot(point.normal) >= 0) continue;
+      if (distance >= depth || distance > edge_[f]) continue;
+      if (point.separation.dot(point.normal) > -flat_share * edge_[f]) continue;
       depth = distance;
       suspect = distance > deep_share * edge_[f];
     }

@@ -89,7 +89,7 @@ double rub(Contact& contact, const ContactFrame& frame, double limit, const Moti
   double wanted[2];
   for (int t = 0; t < 2; ++t)
     wanted[t] = frame.tangent[t].dot(contact.friction) - frame.tangent_mass[t] * frame.tangent[t].dot(slip);
-  const double size = std::hypot(wanted[0], wanted[1]);
+  const double size = std::sqrt(wanted[0] * wanted[0] + wanted[1] * wanted[1]);
   const double scale = size > limit ? limit / size : 1;
   const Vector3d impulse = scale * (wanted[0] * frame.tangent[0] + wanted[1] * frame.tangent[1]);
   const Vector3d change = impulse - contact.friction;

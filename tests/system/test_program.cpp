@@ -220,5 +220,26 @@ TEST_F(Program, TerminationClosesResultsFirst) {
   EXPECT_EQ(brio("info cube.results").exit_code, 0);
 }
 
+// The paper's second example on a coarse mesh, to the time at which the edge is through the upper half.
+using ProgramSlow = Program;
+TEST_F(ProgramSlow, CutsAPipeAndMissesNoContact) {
+  const Ending ending =
+      brio("run '" BRIO_SOURCE_DIR
+           "/inputs/pipe_cutting.yaml' --output cut --set parts.pipe.mesh.tube.elements=[48,36,3] "
+           "--set contact.audit=true --set time.end=1.6e-3 --set output.fields.every=1e-4");
+  ASSERT_EQ(ending.exit_code, 0) << ending.faults;
+  const nlohmann::json found = nlohmann::json::parse(read("cut/pipe_cutting.summary.json"));
+  EXPECT_EQ(found["contact"]["missed"], 0);
+  EXPECT_GT(found["deleted"]["hex8"], 50);
+  EXPECT_LT(std::abs(found["energy"]["error_relative"].get<double>()), 1e-4);
+  EXPECT_GT(found["dt"]["min"].get<double>(), 0.1 * found["dt"]["max"].get<double>());
+  const nlohmann::json& mass = found["mass"];
+  const double now =
+      mass["intact"].get<double>() + mass["debris"].get<double>() + mass["deleted"].get<double>();
+  EXPECT_NEAR(now, mass["start"].get<double>(), 1e-12 * mass["start"].get<double>());
+  const double contact = found["energy"]["contact"].get<double>();
+  EXPECT_GT(contact, -1e-3 * found["energy"]["external"].get<double>()) << "contact adds no energy";
+}
+
 }  // namespace
 }  // namespace brio

@@ -3,28 +3,17 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
+#include "contact/advancement.hpp"
 #include "contact/apart.hpp"
 
 namespace brio {
 
 using Eigen::Vector3d;
 
+using namespace advancement;
+
 namespace {
-
-constexpr double unit_roundoff = 0x1p-53;
-
-double largest(const Vector3d& a) { return a.lpNorm<Eigen::Infinity>(); }
-
-// A point that moves linearly with the fraction of the step.
-struct Path {
-  Vector3d start;
-  Vector3d displacement;
-  Vector3d at(double time) const { return start + time * displacement; }
-};
-
-Path operator-(const Path& a, const Path& b) { return {a.start - b.start, a.displacement - b.displacement}; }
 
 // Node and face relative to the face's first vertex and its motion: every difference of given numbers is
 // formed once and is right to one rounding, so neither the origin nor a common velocity is ever seen.
@@ -61,57 +50,10 @@ struct Triangle {
   double reach;
 };
 
-// Six times the signed volume of node and triangle over the step, positive where the node is on the side of
-// the normal: a cubic, by its Bernstein coefficients. `error` bounds their rounding and that of `on`.
-struct Cubic {
-  std::array<double, 4> coefficients;
-  double error;
-
-  // Blossom: multiaffine form of the cubic.
-  double blossom(double a, double b, double c) const {
-    std::array<double, 4> p = coefficients;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = (1 - a) * p[k] + a * p[k + 1];
-    for (std::size_t k = 0; k < 2; ++k) p[k] = (1 - b) * p[k] + b * p[k + 1];
-    return (1 - c) * p[0] + c * p[1];
-  }
-  std::array<double, 4> on(double from, double to) const {
-    return {blossom(from, from, from), blossom(from, from, to), blossom(from, to, to), blossom(to, to, to)};
-  }
-};
-
-// Rounding: a component of an edge is wrong by at most 6 roundings of 2 size, one of node - vertex by 6 of
-// scale; their triple product sums 6 terms of at most scale (2 size)^2 each, with 8 roundings on the way,
-// hence (6 + 12 + 8) x 24 < 640; the blossom adds 9 x 24 for its values and as much for the rounding of a
-// time. 1100 covers them.
-constexpr double cubic_roundings = 1100;
-
 Cubic coplanarity(const Triangle& triangle) {
   const auto& [a, b, c] = triangle.vertices;
-  const Vector3d u0 = triangle.node.start - a.start;
-  const Vector3d u1 = u0 + (triangle.node.displacement - a.displacement);
-  const Vector3d e0 = b.start - a.start;
-  const Vector3d e1 = e0 + (b.displacement - a.displacement);
-  const Vector3d f0 = c.start - a.start;
-  const Vector3d f1 = f0 + (c.displacement - a.displacement);
-  const Vector3d n0 = e0.cross(f0);
-  const Vector3d n1 = 0.5 * (e0.cross(f1) + e1.cross(f0));
-  const Vector3d n2 = e1.cross(f1);
-  Cubic cubic;
-  cubic.coefficients = {u0.dot(n0), (u1.dot(n0) + 2 * u0.dot(n1)) / 3, (2 * u1.dot(n1) + u0.dot(n2)) / 3,
-                        u1.dot(n2)};
-  cubic.error = cubic_roundings * unit_roundoff * triangle.scale * triangle.size * triangle.size;
-  return cubic;
+  return volume(triangle.node - a, b - a, c - a, triangle.scale, triangle.size * triangle.size);
 }
-
-// Roundings of scale in the distance of a vertex along a unit direction: at most 7 for each component of node
-// - vertex at a time (differences, mean of four, product and sum), 4 more for the scalar product, times the
-// sum of the direction's components, at most sqrt(3), and 8 for solving and for the rounding of a time: 28.
-constexpr double direction_roundings = 32;
-// The same for the part that grows with the turn of the direction.
-constexpr double turning_roundings = 48;
-// A touch is accepted within so many; what is promised adds the rounding of the accepted distance itself.
-constexpr double touch_roundings = 96;
-constexpr double promised_roundings = 128;
 
 // What is seen from the node at a time: the vertices, and how they move until the end of the step.
 struct Sight {
@@ -119,15 +61,6 @@ struct Sight {
   std::array<Vector3d, 3> motions;
   TrianglePoint closest;
 };
-
-// A direction from the node that turns linearly: `towards` + elapsed `turning`; `towards` is a unit vector
-// and `turning` at right angles to it.
-struct Direction {
-  Vector3d towards;
-  Vector3d turning;
-};
-
-Direction without_turn(const Direction& direction) { return {direction.towards, Vector3d::Zero()}; }
 
 // Direction along which a feature separates the triangle best from the node, if it is the closest: it follows
 // the turn of the normal in the interior and of the edge on an edge. No direction (zero) if the feature has
@@ -138,48 +71,15 @@ Direction separating_direction(const Sight& sight, Feature feature, int index) {
   if (feature == Feature::vertex) return {sight.vertices[k].normalized(), Vector3d::Zero()};
   const Vector3d edge = sight.vertices[next] - sight.vertices[k];
   const Vector3d edge_motion = sight.motions[next] - sight.motions[k];
-  if (feature == Feature::edge) {
-    const double length_squared = edge.squaredNorm();
-    if (!(length_squared > 0)) return {Vector3d::Zero(), Vector3d::Zero()};
-    const Vector3d& offset = sight.closest.offset;
-    const Vector3d across = (offset - edge * (edge.dot(offset) / length_squared)).normalized();
-    return {across, edge * (-across.dot(edge_motion) / length_squared)};
-  }
-  const double length = sight.closest.area_vector.norm();
-  if (!(length > 0)) return {Vector3d::Zero(), Vector3d::Zero()};
+  if (feature == Feature::edge) return across(edge, edge_motion, sight.closest.offset);
   const Vector3d other = sight.vertices[2] - sight.vertices[0];
   const Vector3d other_motion = sight.motions[2] - sight.motions[0];
-  const double sign = sight.closest.area_vector.dot(sight.closest.offset) < 0 ? -1 : 1;
-  const Vector3d normal = sight.closest.area_vector * (sign / length);
-  const Vector3d change = (edge_motion.cross(other) + edge.cross(other_motion)) * (sign / length);
-  return {normal, change - normal * normal.dot(change)};
+  return along_normal(sight.closest.area_vector, edge_motion.cross(other) + edge.cross(other_motion),
+                      sight.closest.offset);
 }
 
-// For how long c + b x + a x^2 stays positive from x = 0 on.
-double positive_until(double a, double b, double c) {
-  if (!(c > 0)) return 0;
-  const double discriminant = b * b - 4 * a * c;
-  if (discriminant < 0) return std::numeric_limits<double>::infinity();  // then a > 0
-  const double root = std::sqrt(discriminant);
-  if (b >= 0) return a < 0 ? (b + root) / (-2 * a) : std::numeric_limits<double>::infinity();
-  return 2 * c / (root - b);
-}
-
-// For how long all vertices stay farther than reach along the direction.
 double separated_for(const Triangle& triangle, const Sight& sight, const Direction& direction) {
-  const double rounding = unit_roundoff * triangle.scale;
-  const double nearest = triangle.reach + direction_roundings * rounding;
-  const double turn = direction.turning.norm();
-  // Beyond half a right angle the direction is useless, and its length 1 + (turn elapsed)^2 / 2 too rough.
-  double elapsed = turn > 1 ? 1 / turn : std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double c = direction.towards.dot(sight.vertices[k]) - nearest;
-    const double b = direction.towards.dot(sight.motions[k]) + direction.turning.dot(sight.vertices[k]) -
-                     turning_roundings * rounding * turn;
-    const double a = direction.turning.dot(sight.motions[k]) - 0.5 * nearest * turn * turn;
-    elapsed = std::min(elapsed, positive_until(a, b, c));
-  }
-  return elapsed;
+  return separated_for(sight.vertices, sight.motions, direction, triangle.scale, triangle.reach);
 }
 
 // For how long some direction is known to separate the triangle from the node; 0 if none is.
@@ -203,10 +103,6 @@ struct Touch {
   TrianglePoint closest;
 };
 
-// So many certificates are tried within the promised tolerance; each as many more double it. Only motion that
-// keeps within rounding of a turning edge for long needs more.
-constexpr int patience = 1024;
-
 // First touch of a sub-triangle not later than `limit`: the time moves forward for as long as a direction
 // separates.
 std::optional<Touch> first_touch(const Triangle& triangle, double limit) {
@@ -224,21 +120,12 @@ std::optional<Touch> first_touch(const Triangle& triangle, double limit) {
     const double touching = triangle.reach + tolerance;
     if (sight.closest.squared_distance <= touching * touching) return Touch{time, sight.closest};
     const double elapsed = separated_for(triangle, sight);
-    const double until = time + elapsed * (1 - 8 * unit_roundoff);
+    const double until = time + elapsed * kept_time;
     if (until > limit) return std::nullopt;
     if (!(until > time)) return Touch{time, sight.closest};  // no certificate: in doubt, contact
     time = until;
     if (count % patience == 0) tolerance *= 2;
   }
-}
-
-// The side from which the cubic came to its value at `time`: the last of its coefficients on [0, time] that
-// is surely not zero.
-int side_before(const Cubic& cubic, double time) {
-  const std::array<double, 4> c = cubic.on(0, time);
-  for (std::size_t k = 4; k-- > 0;)
-    if (std::abs(c[k]) > cubic.error) return c[k] > 0 ? 1 : -1;
-  return 0;
 }
 
 Vector3<double> components(const Vector3d& a) { return {a[0], a[1], a[2]}; }
@@ -284,7 +171,7 @@ std::optional<VelocityContact> velocity_check(const MovingNode& node, const Movi
     contact->time = touch->time;
     contact->normal = unit_or(touch->closest.area_vector, face_area);
     contact->distance = std::sqrt(touch->closest.squared_distance);
-    contact->side = side_before(cubic, touch->time);
+    contact->side = sign_before(cubic, touch->time);
     contact->sub_triangle = k;
     if (single) {
       contact->weights = {w[0], w[1], w[2], 0};

@@ -3,86 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/contact/exact_geometry.hpp"
+
 namespace brio::exact {
 
 namespace {
 
-using Vector = std::array<Integer, 3>;
-using PolynomialVector = std::array<Polynomial, 3>;
-
-Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Integer dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-PolynomialVector operator-(const PolynomialVector& a, const PolynomialVector& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Polynomial dot(const PolynomialVector& a, const PolynomialVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-PolynomialVector cross(const PolynomialVector& a, const PolynomialVector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-// All coordinates as integers: multiples of 2^unit, and four of those for the centroid's sake.
-class Scaled {
- public:
-  Scaled(const MovingNode& node, const MovingFace& face) {
-    note(node.start);
-    note(node.displacement);
-    for (std::size_t k = 0; k < 4; ++k) {
-      note(face.start[k]);
-      note(face.displacement[k]);
-    }
-    unit_ = std::min(unit_, 0);
+Scaled scaled_for(const MovingNode& node, const MovingFace& face) {
+  Scaled scaled;
+  scaled.note(node.start);
+  scaled.note(node.displacement);
+  for (std::size_t k = 0; k < 4; ++k) {
+    scaled.note(face.start[k]);
+    scaled.note(face.displacement[k]);
   }
-  void note(double value) {
-    if (value == 0) return;
-    int exponent = 0;
-    std::frexp(value, &exponent);
-    unit_ = std::min(unit_, exponent - 53);
-  }
-  Integer operator()(double value) const {
-    int exponent = 0;
-    const double mantissa = std::frexp(value, &exponent);
-    Integer integer;
-    mpz_set_d(integer.get_mpz_t(), std::ldexp(mantissa, 53));
-    if (integer == 0) return integer;
-    mpz_mul_2exp(integer.get_mpz_t(), integer.get_mpz_t(), static_cast<unsigned>(exponent - 53 - unit_ + 2));
-    return integer;
-  }
-  Vector operator()(const Eigen::Vector3d& v) const { return {(*this)(v[0]), (*this)(v[1]), (*this)(v[2])}; }
-
- private:
-  void note(const Eigen::Vector3d& v) {
-    for (int k = 0; k < 3; ++k) note(v[k]);
-  }
-  int unit_ = 0;
-};
-
-struct Path {
-  Vector start;
-  Vector displacement;
-};
-
-Path operator-(const Path& a, const Path& b) { return {a.start - b.start, a.displacement - b.displacement}; }
-
-PolynomialVector polynomial(const Path& path) {
-  PolynomialVector result;
-  for (std::size_t k = 0; k < 3; ++k) result[k] = Polynomial(path.start[k], path.displacement[k]);
-  return result;
-}
-
-// Times 2^exponent of the time.
-Vector at(const Path& path, const Dyadic& time) {
-  Vector result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    mpz_mul_2exp(result[k].get_mpz_t(), path.start[k].get_mpz_t(), time.exponent);
-    result[k] += path.displacement[k] * time.numerator;
-  }
-  return result;
+  return scaled;
 }
 
 // The sub-triangles of the face as seen from the node.
@@ -167,21 +102,6 @@ class Predicates {
   PolynomialVector area_;
   Polynomial volume_;
 };
-
-bool earlier(Number a, Number b) {
-  constexpr unsigned enough = 120;  // bits; equal within them is equal here
-  while (!a.dyadic && a.exponent < enough) a.refine();
-  while (!b.dyadic && b.exponent < enough) b.refine();
-  const unsigned exponent = std::max(a.exponent, b.exponent);
-  Integer first, second;
-  mpz_mul_2exp(first.get_mpz_t(), a.high.get_mpz_t(), exponent - a.exponent);
-  mpz_mul_2exp(second.get_mpz_t(), b.high.get_mpz_t(), exponent - b.exponent);
-  return first < second;
-}
-
-void offer(std::optional<Number>& best, const Number& candidate) {
-  if (!best || earlier(candidate, *best)) best = candidate;
-}
 
 std::optional<Number> first_contact(const std::array<Path, 3>& triangle) {
   const Predicates predicates(triangle);
@@ -315,7 +235,8 @@ bool triangle_within(const std::array<Path, 3>& triangle, const Dyadic& time,
     const Vector edge = next - to[k];
     if (dot(to[k], edge) > 0 || dot(next, edge) < 0) continue;
     const Vector moment = cross(to[k], edge);
-    if (dot(moment, moment) <= distance_squared * dot(edge, edge)) return true;
+    const Integer length_squared = dot(edge, edge);
+    if (length_squared > 0 && dot(moment, moment) <= distance_squared * length_squared) return true;
   }
   const Vector area = cross(to[1] - to[0], to[2] - to[0]);
   for (std::size_t k = 0; k < 3; ++k)
@@ -325,29 +246,7 @@ bool triangle_within(const std::array<Path, 3>& triangle, const Dyadic& time,
   return area_squared > 0 && volume * volume <= distance_squared * area_squared;
 }
 
-Integer square_of_scaled_distance(const Scaled& scaled, double distance, const Dyadic& time) {
-  Integer length = scaled(distance);
-  mpz_mul_2exp(length.get_mpz_t(), length.get_mpz_t(), time.exponent);
-  return length * length;
-}
-
 }  // namespace
-
-Dyadic dyadic(double value) {
-  int exponent = 0;
-  const double mantissa = std::frexp(value, &exponent);
-  Dyadic result;
-  mpz_set_d(result.numerator.get_mpz_t(), std::ldexp(mantissa, 53));
-  result.exponent = 0;
-  if (result.numerator == 0) return result;
-  const auto zeros = static_cast<int>(mpz_scan1(result.numerator.get_mpz_t(), 0));
-  mpz_fdiv_q_2exp(result.numerator.get_mpz_t(), result.numerator.get_mpz_t(), static_cast<unsigned>(zeros));
-  const int power = exponent - 53 + zeros;
-  if (power > 0)
-    mpz_mul_2exp(result.numerator.get_mpz_t(), result.numerator.get_mpz_t(), static_cast<unsigned>(power));
-  if (power < 0) result.exponent = static_cast<unsigned>(-power);
-  return result;
-}
 
 std::optional<Number> first_contact(const MovingNode& node, const MovingFace& face) {
   const bool single = face.start[3] == face.start[2] && face.displacement[3] == face.displacement[2];
@@ -358,7 +257,7 @@ std::optional<Number> first_contact(const MovingNode& node, const MovingFace& fa
     if (filter.apart(single ? std::array<std::size_t, 3>{0, 1, 2}
                             : std::array<std::size_t, 3>{4, k, (k + 1) % 4}))
       continue;
-    if (parts.empty()) parts = triangles(node, face, Scaled(node, face));
+    if (parts.empty()) parts = triangles(node, face, scaled_for(node, face));
     const std::optional<Number> here = first_contact(parts[k]);
     if (here) offer(first, *here);
   }
@@ -366,7 +265,7 @@ std::optional<Number> first_contact(const MovingNode& node, const MovingFace& fa
 }
 
 bool within(const MovingNode& node, const MovingFace& face, double time, double distance) {
-  Scaled scaled(node, face);
+  Scaled scaled = scaled_for(node, face);
   scaled.note(distance);
   const Dyadic moment = dyadic(time);
   const Integer limit = square_of_scaled_distance(scaled, distance, moment);
@@ -377,7 +276,7 @@ bool within(const MovingNode& node, const MovingFace& face, double time, double 
 
 bool point_within(const MovingNode& node, const MovingFace& face, const std::array<double, 4>& weights,
                   double time, double distance) {
-  Scaled scaled(node, face);
+  Scaled scaled = scaled_for(node, face);
   scaled.note(distance);
   const Dyadic moment = dyadic(time);
   const Path origin{scaled(node.start), scaled(node.displacement)};
@@ -395,7 +294,7 @@ bool point_within(const MovingNode& node, const MovingFace& face, const std::arr
 }
 
 int side_at(const MovingNode& node, const MovingFace& face, int sub_triangle, double time) {
-  const auto parts = triangles(node, face, Scaled(node, face));
+  const auto parts = triangles(node, face, scaled_for(node, face));
   const Dyadic moment = dyadic(time);
   const std::array<Path, 3>& part = parts[static_cast<std::size_t>(sub_triangle)];
   const Vector to = at(part[0], moment);

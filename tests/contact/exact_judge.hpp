@@ -22,7 +22,4 @@ bool point_within(const MovingNode& node, const MovingFace& face, const std::arr
 /// Sign of the volume of node and sub-triangle at the time: the side the node is on.
 int side_at(const MovingNode& node, const MovingFace& face, int sub_triangle, double time);
 
-/// The double as a dyadic number.
-Dyadic dyadic(double value);
-
 }  // namespace brio::exact

@@ -164,14 +164,14 @@ int variations(const Chain& chain, const Integer& numerator, unsigned exponent) 
 
 using Coefficients = std::array<Integer, Polynomial::most + 1>;
 
-// Bernstein coefficients on [0, 1] times 12.
+// Bernstein coefficients on [0, 1] times 60.
 Coefficients bernstein(const Polynomial& p) {
-  static constexpr int binomial[5][5] = {
-      {1, 0, 0, 0, 0}, {1, 1, 0, 0, 0}, {1, 2, 1, 0, 0}, {1, 3, 3, 1, 0}, {1, 4, 6, 4, 1}};
+  static constexpr int binomial[7][7] = {
+      {1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}, {1, 5, 10, 10, 5, 1}, {1, 6, 15, 20, 15, 6, 1}};
   Coefficients b;
   for (int i = 0; i <= p.degree; ++i)
     for (int k = 0; k <= i; ++k)
-      b[static_cast<std::size_t>(i)] += p[k] * (binomial[i][k] * 12 / binomial[p.degree][k]);
+      b[static_cast<std::size_t>(i)] += p[k] * (binomial[i][k] * 60 / binomial[p.degree][k]);
   return b;
 }
 

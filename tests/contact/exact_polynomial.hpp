@@ -17,10 +17,10 @@ struct Dyadic {
   unsigned exponent;
 };
 
-/// Degree at most four. The zero polynomial has degree -1.
+/// Degree at most six. The zero polynomial has degree -1.
 class Polynomial {
  public:
-  static constexpr int most = 4;
+  static constexpr int most = 6;
   std::array<Integer, most + 1> coefficients;  // of t^k at k
   int degree = -1;
 

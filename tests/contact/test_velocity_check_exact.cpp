@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/contact/adversarial_queries.hpp"
+#include "tests/contact/exact_geometry.hpp"
 #include "tests/contact/exact_judge.hpp"
 
 namespace brio {

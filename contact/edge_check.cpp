@@ -1,0 +1,238 @@
+#include "contact/edge_check.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "contact/advancement.hpp"
+#include "contact/closest_point.hpp"
+#include "contact/edges_apart.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+using namespace advancement;
+
+namespace {
+
+// The edges relative to each other: every difference of given numbers is formed once and is right to one
+// rounding, so neither the origin nor a common velocity is ever seen.
+struct RelativeEdges {
+  std::array<Path, 4> between;  // at 2 i + j: end i of a minus end j of b
+  Path along_a;
+  Path along_b;
+  double reach;
+  double scale;  // bounds any component of `between` at any time of the step and of its two terms, and reach
+};
+
+double bound(const Path& path) { return largest(path.start) + largest(path.displacement); }
+
+RelativeEdges relative_edges(const MovingEdge& a, const MovingEdge& b) {
+  RelativeEdges edges;
+  edges.reach = a.radius + b.radius;
+  edges.scale = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    edges.between[k] =
+        Path{a.start[k / 2], a.displacement[k / 2]} - Path{b.start[k % 2], b.displacement[k % 2]};
+    edges.scale = std::max(edges.scale, bound(edges.between[k]));
+  }
+  edges.scale += edges.reach;
+  edges.along_a = Path{a.start[1], a.displacement[1]} - Path{a.start[0], a.displacement[0]};
+  edges.along_b = Path{b.start[1], b.displacement[1]} - Path{b.start[0], b.displacement[0]};
+  return edges;
+}
+
+// What is seen at a time: the corners of the parallelogram of differences, and how they move until the end of
+// the step.
+struct Sight {
+  std::array<Vector3d, 4> corners;
+  std::array<Vector3d, 4> motions;
+  Vector3d along_a;
+  Vector3d along_b;
+  ClosestSegments closest;
+};
+
+void look(const RelativeEdges& edges, double time, Sight& sight) {
+  for (std::size_t k = 0; k < 4; ++k) sight.corners[k] = edges.between[k].at(time);
+  sight.along_a = edges.along_a.at(time);
+  sight.along_b = edges.along_b.at(time);
+  const auto& c = sight.corners;
+  sight.closest = closest_points_of_segments(
+      SegmentPair{{Segment{c[0], c[1]}, Segment{c[2], c[3]}}, sight.along_a, sight.along_b});
+}
+
+// For how long some direction is known to separate the edges; 0 if none is.
+class Certificates {
+ public:
+  Certificates(const RelativeEdges& edges, const Sight& sight, double left)
+      : edges_(edges), sight_(sight), left_(left) {}
+
+  // By the feature that the closest points are on.
+  double by_feature() const {
+    const auto& [on_a, on_b] = sight_.closest.features;
+    const bool inside_a = on_a == SegmentFeature::inside;
+    const bool inside_b = on_b == SegmentFeature::inside;
+    double elapsed = 0;
+    if (inside_a && inside_b) elapsed = along(perpendicular());
+    // Parallel edges have no perpendicular of their own, and that of nearly parallel ones turns too fast.
+    if (inside_b && !(elapsed > left_)) elapsed = std::max(elapsed, along(across_b()));
+    if (inside_a && !(elapsed > left_)) elapsed = std::max(elapsed, along(across_a()));
+    if (!inside_a && !inside_b) elapsed = along(between_points());
+    return elapsed;
+  }
+
+  // Where two features meet, rounding may name the wrong one, and the next one takes over soon.
+  double by_any() const {
+    double elapsed = std::max(
+        {along(perpendicular()), along(across_a()), along(across_b()), along(between_points()), by_tilted()});
+    for (const Vector3d& corner : sight_.corners)
+      elapsed = std::max(elapsed, along({corner.normalized(), Vector3d::Zero()}));
+    return elapsed;
+  }
+
+ private:
+  // Where the origin is close above a corner or a side of the parallelogram that stays there while the rest
+  // turns about it, a direction tilted about that corner or side lasts longer.
+  double by_tilted() const {
+    const auto& [on_a, on_b] = sight_.closest.parameters;
+    const bool second_a = on_a > 0.5;
+    const bool second_b = on_b > 0.5;
+    const Vector3d& corner = sight_.corners[(second_a ? 2 : 0) + (second_b ? 1 : 0)];
+    const Vector3d along_a = unit_or(second_a ? -sight_.along_a : sight_.along_a, Vector3d::Zero());
+    const Vector3d along_b = unit_or(second_b ? sight_.along_b : -sight_.along_b, Vector3d::Zero());
+    const double cosine = along_a.dot(along_b);
+    return std::max({along({tilted(along_a + along_b, corner).normalized(), Vector3d::Zero()}),
+                     along(across(sight_.along_a, edges_.along_a.displacement,
+                                  tilted(along_b - cosine * along_a, corner))),
+                     along(across(sight_.along_b, edges_.along_b.displacement,
+                                  tilted(along_a - cosine * along_b, corner)))});
+  }
+
+  // The offset, turned inwards as far as leaves the corner half of its gap.
+  Vector3d tilted(const Vector3d& inward, const Vector3d& corner) const {
+    const Vector3d& offset = sight_.closest.offset;
+    const double distance = std::sqrt(sight_.closest.squared_distance);
+    const double gap = distance - edges_.reach;
+    double tilt = gap < 2 * edges_.reach ? 0.5 * std::sqrt(gap / (2 * edges_.reach)) : 0.5;
+    const double down = -inward.dot(corner);
+    if (down > 0) tilt = std::min(tilt, (0.5 * gap + (offset.dot(corner) / distance - distance)) / down);
+    return offset / distance + std::max(tilt, 0.0) * inward;
+  }
+
+  double along(const Direction& direction) const {
+    return std::max(over(direction), over(without_turn(direction)));
+  }
+  double over(const Direction& direction) const {
+    return separated_for(sight_.corners, sight_.motions, direction, edges_.scale, edges_.reach);
+  }
+
+  Direction perpendicular() const {
+    const Vector3d change =
+        edges_.along_a.displacement.cross(sight_.along_b) + sight_.along_a.cross(edges_.along_b.displacement);
+    return along_normal(sight_.closest.normal, change, sight_.closest.offset);
+  }
+  Direction across_a() const {
+    return across(sight_.along_a, edges_.along_a.displacement, sight_.closest.offset);
+  }
+  Direction across_b() const {
+    return across(sight_.along_b, edges_.along_b.displacement, sight_.closest.offset);
+  }
+  Direction between_points() const { return {sight_.closest.offset.normalized(), Vector3d::Zero()}; }
+
+  const RelativeEdges& edges_;
+  const Sight& sight_;
+  double left_;  // of the step: no certificate need last longer
+};
+
+// An offset that is longer than so many roundings has a direction (to 1e-9), a shorter one may be all
+// rounding.
+constexpr double offset_roundings = 0x1p30;
+
+struct Touch {
+  double time;
+  ClosestSegments closest;
+  Vector3d approach;  // from b to a when there last was a direction, or zero
+};
+
+// More certificates than usual: directions that cost more are tried as well.
+constexpr int usual = 16;
+
+// The time moves forward for as long as a direction separates.
+std::optional<Touch> first_touch(const RelativeEdges& edges) {
+  const double rounding = unit_roundoff * edges.scale;
+  const double directed = offset_roundings * rounding;
+  double tolerance = touch_roundings * rounding;
+  Vector3d approach = Vector3d::Zero();
+  Sight sight;
+  for (std::size_t k = 0; k < 4; ++k) sight.motions[k] = edges.between[k].displacement;
+  double time = 0;
+  for (int count = 1;; ++count) {
+    look(edges, time, sight);
+    const ClosestSegments& closest = sight.closest;
+    if (closest.squared_distance > directed * directed || approach.isZero(0)) approach = closest.offset;
+    const double touching = edges.reach + tolerance;
+    if (closest.squared_distance <= touching * touching) return Touch{time, closest, approach};
+    const Certificates certificates(edges, sight, 1 - time);
+    double until = time + certificates.by_feature() * kept_time;
+    if (!(until > time) || (count > usual && until <= 1))
+      until = std::max(until, time + certificates.by_any() * kept_time);
+    if (until > 1) return std::nullopt;
+    if (!(until > time)) return Touch{time, closest, approach};  // no certificate: in doubt, contact
+    time = until;
+    if (count % patience == 0) tolerance *= 2;
+  }
+}
+
+int side_before(const RelativeEdges& edges, const Touch& touch) {
+  if (touch.closest.normal.isZero(0)) return 0;
+  // Where an edge is long the scale bounds half of it.
+  const double area = 0.25 * bound(edges.along_a) * bound(edges.along_b);
+  return sign_before(volume(edges.between[0], edges.along_a, edges.along_b, edges.scale, area), touch.time);
+}
+
+Vector3d contact_normal(const RelativeEdges& edges, const Touch& touch, int side) {
+  const ClosestSegments& closest = touch.closest;
+  const double directed = offset_roundings * unit_roundoff * edges.scale;
+  if (closest.squared_distance > directed * directed) return unit_or(closest.offset, touch.approach);
+  const bool both_inside =
+      closest.features[0] == SegmentFeature::inside && closest.features[1] == SegmentFeature::inside;
+  if (side != 0 && (both_inside || touch.time == 0)) return unit_or(side * closest.normal, touch.approach);
+  return touch.time > 0 ? unit_or(touch.approach, closest.normal) : unit_or(closest.normal, touch.approach);
+}
+
+Vector3<double> components(const Vector3d& a) { return {a[0], a[1], a[2]}; }
+
+MovingEdgePair<double> edge_pair(const MovingEdge& a, const MovingEdge& b) {
+  MovingEdgePair<double> pair;
+  for (std::size_t k = 0; k < 2; ++k) {
+    pair.start_a[k] = components(a.start[k]);
+    pair.displacement_a[k] = components(a.displacement[k]);
+    pair.start_b[k] = components(b.start[k]);
+    pair.displacement_b[k] = components(b.displacement[k]);
+  }
+  return pair;
+}
+
+}  // namespace
+
+double touch_tolerance(const MovingEdge& a, const MovingEdge& b) {
+  return promised_roundings * unit_roundoff * relative_edges(a, b).scale;
+}
+
+std::optional<EdgeContact> edge_check(const MovingEdge& a, const MovingEdge& b) {
+  assert(a.radius >= 0 && b.radius >= 0);
+  if (surely_apart(edge_pair(a, b), a.radius + b.radius)) return std::nullopt;
+  const RelativeEdges edges = relative_edges(a, b);
+  const std::optional<Touch> touch = first_touch(edges);
+  if (!touch) return std::nullopt;
+  const ClosestSegments& closest = touch->closest;
+  const int side = side_before(edges, *touch);
+  return EdgeContact{touch->time,
+                     closest.parameters,
+                     closest.features,
+                     contact_normal(edges, *touch, side),
+                     std::sqrt(closest.squared_distance),
+                     side};
+}
+
+}  // namespace brio

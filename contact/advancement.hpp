@@ -96,11 +96,12 @@ inline constexpr double kept_time = 1 - 8 * unit_roundoff;
 // keeps within rounding of a turning edge for long needs more.
 inline constexpr int patience = 1024;
 
-/// A direction from the origin that turns linearly: `towards` + elapsed `turning`; `towards` is a unit vector
-/// and `turning` at right angles to it. Both zero: no direction.
+/// A direction from the origin that changes linearly: `towards` (1 + elapsed `growth`) + elapsed `turning`.
+/// `towards` is a unit vector and `turning` at right angles to it. Both zero: no direction.
 struct Direction {
   Eigen::Vector3d towards;
   Eigen::Vector3d turning;
+  double growth = 0;
 };
 
 inline Direction no_direction() { return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}; }
@@ -115,6 +116,14 @@ inline Direction across(const Eigen::Vector3d& edge, const Eigen::Vector3d& edge
   if (!(length_squared > 0)) return no_direction();
   const Eigen::Vector3d towards = (offset - edge * (edge.dot(offset) / length_squared)).normalized();
   return {towards, edge * (-towards.dot(edge_motion) / length_squared)};
+}
+
+/// The same, exactly at right angles to the segment however long and far it turns.
+inline Direction strictly_across(const Eigen::Vector3d& edge, const Eigen::Vector3d& edge_motion,
+                                 const Eigen::Vector3d& offset) {
+  Direction direction = across(edge, edge_motion, offset);
+  if (!direction.towards.isZero(0)) direction.growth = edge_motion.dot(edge) / edge.squaredNorm();
+  return direction;
 }
 
 /// Along a normal that changes, towards the side of the offset.
@@ -147,13 +156,18 @@ double separated_for(const std::array<Eigen::Vector3d, count>& points,
   const double rounding = unit_roundoff * scale;
   const double nearest = reach + direction_roundings * rounding;
   const double turn = direction.turning.norm();
-  // Beyond half a right angle the direction is useless, and its length 1 + (turn elapsed)^2 / 2 too rough.
+  const double growth = direction.growth;
+  // Beyond half a right angle the direction is useless, and its length, 1 + growth elapsed + (turn elapsed)^2
+  // / (2 (1 + growth elapsed)), too rough; that it shrinks by no more than half bounds the length.
   double elapsed = turn > 1 ? 1 / turn : std::numeric_limits<double>::infinity();
+  if (growth < 0) elapsed = std::min(elapsed, -0.5 / growth);
+  const double bend = growth < 0 ? 1 : 0.5;
   for (std::size_t k = 0; k < count; ++k) {
+    const double rise = direction.towards.dot(motions[k]);
     const double c = direction.towards.dot(points[k]) - nearest;
-    const double b = direction.towards.dot(motions[k]) + direction.turning.dot(points[k]) -
-                     turning_roundings * rounding * turn;
-    const double a = direction.turning.dot(motions[k]) - 0.5 * nearest * turn * turn;
+    const double b =
+        rise + direction.turning.dot(points[k]) - turning_roundings * rounding * turn + growth * c;
+    const double a = direction.turning.dot(motions[k]) - bend * nearest * turn * turn + growth * rise;
     elapsed = std::min(elapsed, positive_until(a, b, c));
   }
   return elapsed;

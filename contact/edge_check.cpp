@@ -102,10 +102,10 @@ class Certificates {
     const Vector3d along_b = unit_or(second_b ? sight_.along_b : -sight_.along_b, Vector3d::Zero());
     const double cosine = along_a.dot(along_b);
     return std::max({along({tilted(along_a + along_b, corner).normalized(), Vector3d::Zero()}),
-                     along(across(sight_.along_a, edges_.along_a.displacement,
-                                  tilted(along_b - cosine * along_a, corner))),
-                     along(across(sight_.along_b, edges_.along_b.displacement,
-                                  tilted(along_a - cosine * along_b, corner)))});
+                     along(strictly_across(sight_.along_a, edges_.along_a.displacement,
+                                           tilted(along_b - cosine * along_a, corner))),
+                     along(strictly_across(sight_.along_b, edges_.along_b.displacement,
+                                           tilted(along_a - cosine * along_b, corner)))});
   }
 
   // The offset, turned inwards as far as leaves the corner half of its gap.
@@ -132,10 +132,10 @@ class Certificates {
     return along_normal(sight_.closest.normal, change, sight_.closest.offset);
   }
   Direction across_a() const {
-    return across(sight_.along_a, edges_.along_a.displacement, sight_.closest.offset);
+    return strictly_across(sight_.along_a, edges_.along_a.displacement, sight_.closest.offset);
   }
   Direction across_b() const {
-    return across(sight_.along_b, edges_.along_b.displacement, sight_.closest.offset);
+    return strictly_across(sight_.along_b, edges_.along_b.displacement, sight_.closest.offset);
   }
   Direction between_points() const { return {sight_.closest.offset.normalized(), Vector3d::Zero()}; }
 

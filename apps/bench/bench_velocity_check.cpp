@@ -1,6 +1,6 @@
-// Measures the detailed contact check: the rejection over eight pairs at once, and the whole check on pairs
-// that are rejected, on near misses and on hits. Millions of pairs per second, best of several repetitions,
-// one thread.
+// Measures the detailed contact check, of nodes with faces and of edges with edges: the rejection over eight
+// pairs at once, and the whole check on pairs that are rejected, on near misses and on hits. Millions of
+// pairs per second, best of several repetitions, one thread.
 //
 //     bench_velocity_check [REPETITIONS]
 
@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "contact/apart.hpp"
+#include "contact/edge_check.hpp"
+#include "contact/edges_apart.hpp"
 #include "contact/velocity_check.hpp"
 
 namespace brio {
@@ -75,15 +77,87 @@ class Pairs {
   std::vector<Pair> pairs_;
 };
 
+struct Edges {
+  MovingEdge a;
+  MovingEdge b;
+};
+
+class EdgePairs {
+ public:
+  enum class Kind { random, near_miss, hit, parallel };
+
+  explicit EdgePairs(Kind kind) : kind_(kind) {
+    for (std::size_t k = 0; k < pair_count; ++k) pairs_.push_back(pair());
+  }
+  const std::vector<Edges>& all() const { return pairs_; }
+
+ private:
+  // Edges of about unit length that move by a tenth of it. Random ones have middles within two lengths; a
+  // near miss passes an end by a hundredth; a hit crosses inside; parallel ones come down side by side.
+  Edges pair() {
+    Edges result;
+    for (MovingEdge* edge : {&result.a, &result.b}) {
+      const Vector3d direction = kind_ == Kind::parallel ? Vector3d(1, 0, 0) : vector(1).normalized();
+      const Vector3d motion = vector(0.1);
+      for (std::size_t k = 0; k < 2; ++k) {
+        edge->start[k] = (k == 0 ? -0.5 : 0.5) * direction;
+        edge->displacement[k] = kind_ == Kind::parallel ? motion : Vector3d(motion + vector(0.05));
+      }
+    }
+    const double time = 0.5 + 0.4 * number();
+    const double on_a = kind_ == Kind::near_miss ? 1.01 : 0.5 + 0.4 * number();
+    const double on_b = 0.5 + 0.4 * number();
+    const Vector3d shift = kind_ == Kind::random
+                               ? vector(2)
+                               : Vector3d(point(result.b, on_b, time) - point(result.a, on_a, time));
+    for (Vector3d& end : result.a.start) end += shift;
+    return result;
+  }
+  static Vector3d point(const MovingEdge& edge, double share, double time) {
+    return (1 - share) * (edge.start[0] + time * edge.displacement[0]) +
+           share * (edge.start[1] + time * edge.displacement[1]);
+  }
+  double number() { return uniform_(engine_); }
+  Vector3d vector(double size) {
+    const double x = size * number();
+    const double y = size * number();
+    return {x, y, size * number()};
+  }
+
+  Kind kind_;
+  std::mt19937_64 engine_{8};
+  std::uniform_real_distribution<double> uniform_{-1, 1};
+  std::vector<Edges> pairs_;
+};
+
+template <Floating Real>
+void put(Vector3<Lanes<Real>>& to, int lane, const Vector3d& from) {
+  to.x.set(lane, static_cast<Real>(from[0]));
+  to.y.set(lane, static_cast<Real>(from[1]));
+  to.z.set(lane, static_cast<Real>(from[2]));
+}
+
+template <Floating Real>
+std::vector<MovingEdgePair<Lanes<Real>>> packed(const std::vector<Edges>& pairs) {
+  constexpr auto width = static_cast<std::size_t>(lane_count<Real>);
+  std::vector<MovingEdgePair<Lanes<Real>>> packs(pairs.size() / width);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    MovingEdgePair<Lanes<Real>>& pack = packs[k / width];
+    const auto lane = static_cast<int>(k % width);
+    for (std::size_t i = 0; i < 2; ++i) {
+      put(pack.start_a[i], lane, pairs[k].a.start[i]);
+      put(pack.displacement_a[i], lane, pairs[k].a.displacement[i]);
+      put(pack.start_b[i], lane, pairs[k].b.start[i]);
+      put(pack.displacement_b[i], lane, pairs[k].b.displacement[i]);
+    }
+  }
+  return packs;
+}
+
 template <Floating Real>
 std::vector<MovingPair<Lanes<Real>>> packed(const std::vector<Pair>& pairs) {
   constexpr auto width = static_cast<std::size_t>(lane_count<Real>);
   std::vector<MovingPair<Lanes<Real>>> packs(pairs.size() / width);
-  const auto put = [&](Vector3<Lanes<Real>>& to, int lane, const Vector3d& from) {
-    to.x.set(lane, static_cast<Real>(from[0]));
-    to.y.set(lane, static_cast<Real>(from[1]));
-    to.z.set(lane, static_cast<Real>(from[2]));
-  };
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     MovingPair<Lanes<Real>>& pack = packs[k / width];
     const auto lane = static_cast<int>(k % width);
@@ -114,8 +188,8 @@ void row(std::string_view what, double seconds, std::size_t found, std::string_v
              1e9 * seconds / pair_count, found, of);
 }
 
-template <Floating Real>
-void measure_rejection(int repetitions, std::string_view name, const std::vector<Pair>& pairs) {
+template <Floating Real, class AnyPair>
+void measure_rejection(int repetitions, std::string_view name, const std::vector<AnyPair>& pairs) {
   const auto packs = packed<Real>(pairs);
   std::size_t apart = 0;
   const double seconds = best_seconds(repetitions, [&] {
@@ -134,6 +208,31 @@ void measure_check(int repetitions, std::string_view name, const std::vector<Pai
     for (const Pair& pair : pairs) touching += velocity_check(pair.node, pair.face, reach).has_value();
   });
   row(name, seconds, touching, "touch");
+}
+
+void measure_edge_check(int repetitions, std::string_view name, std::vector<Edges> pairs, double radius) {
+  for (Edges& pair : pairs) pair.a.radius = radius;
+  std::size_t touching = 0;
+  const double seconds = best_seconds(repetitions, [&] {
+    touching = 0;
+    for (const Edges& pair : pairs) touching += edge_check(pair.a, pair.b).has_value();
+  });
+  row(name, seconds, touching, "touch");
+}
+
+void measure_edges(int repetitions) {
+  const EdgePairs random(EdgePairs::Kind::random);
+  const EdgePairs near_miss(EdgePairs::Kind::near_miss);
+  const EdgePairs hit(EdgePairs::Kind::hit);
+  const EdgePairs parallel(EdgePairs::Kind::parallel);
+  measure_rejection<double>(repetitions, "edges: rejection, 8 lanes, random", random.all());
+  measure_rejection<float>(repetitions, "edges: rejection, 16 lanes float", random.all());
+  measure_edge_check(repetitions, "edge check, random", random.all(), 0);
+  measure_edge_check(repetitions, "edge check, near misses", near_miss.all(), 0);
+  measure_edge_check(repetitions, "edge check, hits", hit.all(), 0);
+  measure_edge_check(repetitions, "edge check, hits, radius 0.01", hit.all(), 0.01);
+  measure_edge_check(repetitions, "edge check, parallel", parallel.all(), 0);
+  measure_edge_check(repetitions, "edge check, parallel, radius 0.01", parallel.all(), 0.01);
 }
 
 void measure(int repetitions) {
@@ -159,5 +258,6 @@ int main(int argc, char** argv) {
     return 2;
   }
   brio::measure(repetitions);
+  brio::measure_edges(repetitions);
   return 0;
 }

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "elements/beam2.hpp"
 #include "elements/deletion.hpp"
 #include "elements/hex8.hpp"
 #include "elements/hex8_full.hpp"
@@ -22,7 +23,7 @@
 namespace brio {
 
 /// The kinds that a deck can name.
-using Element = std::variant<Hex8, Hex8Full, Shell4, Rigid>;
+using Element = std::variant<Hex8, Hex8Full, Shell4, Beam2, Rigid>;
 
 inline int nodes_per_element(const Element& element) {
   return std::visit([](const auto& kind) { return kind.nodes; }, element);

@@ -52,8 +52,14 @@ BRIO_INLINE LaneMask<Real> is_lost(const Kind& kind, const Law& law, const Delet
   LaneMask<Real> lost = deletion.inverted ? stable_step <= zero : stable_step < T(-HUGE_VAL);
   if (deletion.minimum_step) lost = lost | ((stable_step < T(*deletion.minimum_step)) & (stable_step > zero));
   if constexpr (can_fail<Law>) {
-    const T failed = mean_over_points<T>(
-        kind.points(), point, [&](const auto& history) { return where(law.has_failed(history), 1.0, zero); });
+    int stations = 1;
+    if constexpr (requires { kind.stations(); }) stations = kind.stations();
+    const int points = kind.points() / stations;
+    T failed = zero;
+    for (int station = 0; station < stations; ++station)
+      failed = max(failed, mean_over_points<T>(points, point + station * points, [&](const auto& history) {
+                     return where(law.has_failed(history), 1.0, zero);
+                   }));
     constexpr double rounding = 1e-6;
     lost = lost | (failed >= T(law.failure->failed_points - rounding));
   }

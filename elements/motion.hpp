@@ -51,7 +51,8 @@ struct ElementSample {
   double equivalent_plastic_strain = 0;  ///< largest over the points
   double damage = 0;                     ///< largest over the points
   double internal_energy = 0;
-  double thickness = 0;  ///< shells; 0 for solids
+  double thickness = 0;  ///< shells; 0 for others
+  double radius = 0;     ///< beams; 0 for others
 };
 
 template <class Element, class T>

@@ -12,6 +12,7 @@
 
 #include <array>
 
+#include "elements/quaternion.hpp"
 #include "src/base/fields.hpp"
 #include "src/base/tensor.hpp"
 
@@ -60,16 +61,6 @@ BRIO_INLINE Tensor<T> with_more_spin(const Tensor<T>& n) {
   return sum;
 }
 
-/// Rotation by unit quaternion: scalar and vector part.
-template <class T>
-struct Quaternion {
-  T w, x, y, z;
-
-  friend BRIO_INLINE Quaternion operator*(const Quaternion& a, const Quaternion& b) {
-    return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-            a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z, a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x};
-  }
-};
 /// Rotation matrix of a quaternion of any length. \param twice_inverse_square 2 / |q|^2.
 template <class T>
 BRIO_INLINE Tensor<T> rotation_matrix(const Quaternion<T>& q, T twice_inverse_square) {

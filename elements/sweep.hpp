@@ -7,6 +7,10 @@
 /// - `static constexpr bool uses_differences = true` if absolute positions do as well as relative ones
 /// - `static constexpr bool fetches_points_ahead = true` if it asks for the points of the next pack itself
 /// - `int points() const`, material points of an element, and `static constexpr int most_points`
+/// - `int stations() const` if the points belong to that many cross sections, one after the other, of which
+///   each can fail by itself
+/// - `static constexpr std::string_view shape_rule` if what is wrong with an element without mass is not its
+///   volume
 /// - `template <class T, class Law> struct Header`, per element, of lanes T, and `struct Point`, per material
 ///   point
 /// - `NodalMass<T> initialize(const MotionOf<E, T>&, const Law&, Header<T, Law>&, Point<T, Law>*) const`
@@ -253,13 +257,15 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
 }
 
 /// Edge length of what a material point stands for: of its share of the volume in solids, of the area in
-/// shells.
+/// shells, of the length in beams.
 template <class Kind, Floating Real>
 Lanes<Real> point_size(const Kind& kind, Lanes<Real> nodal_mass, double density) {
   Lanes<Real> size;
   for (int lane = 0; lane < lane_count<Real>; ++lane) {
     const double volume = Kind::nodes * static_cast<double>(nodal_mass[lane]) / density;
-    if constexpr (requires { kind.thickness; }) {
+    if constexpr (requires { kind.point_length(volume); }) {
+      size.set(lane, static_cast<Real>(kind.point_length(volume)));
+    } else if constexpr (requires { kind.thickness; }) {
       size.set(lane, static_cast<Real>(std::sqrt(volume / kind.thickness)));
     } else {
       size.set(lane, static_cast<Real>(std::cbrt(volume / kind.points())));
@@ -287,10 +293,13 @@ void initialize_block(Block& block, Nodes& nodes) {
     }
     for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count;
          ++lane) {
-      if (!(share.mass[lane] > 0))
+      if (!(share.mass[lane] > 0)) {
+        std::string rule = "has no positive volume";
+        if constexpr (requires { Kind::shape_rule; }) rule = Kind::shape_rule;
         throw std::invalid_argument("element " +
                                     std::to_string(pack * width + static_cast<std::size_t>(lane)) +
-                                    " of part '" + block.part + "' has no positive volume");
+                                    " of part '" + block.part + "' " + rule);
+      }
       for (int corner = 0; corner < Kind::nodes; ++corner) {
         const auto node = static_cast<std::size_t>(connectivity[corner * width + lane]);
         nodes.mass[node] += static_cast<double>(share.mass[lane]);
@@ -410,6 +419,7 @@ void choose_kernel_of(Block& block) {
 void choose_kernel(const Hex8&, Block& block);
 void choose_kernel(const Shell4&, Block& block);
 void choose_kernel(const Hex8Full&, Block& block);
+void choose_kernel(const Beam2&, Block& block);
 inline void choose_kernel(const Rigid&, Block&) {}  // nothing is swept
 
 }  // namespace brio

@@ -131,6 +131,21 @@ Mesh mesh_of(const WedgeMesh& wedge) {
 Mesh mesh_of(const SphereMesh& ball) { return sphere_mesh(ball.radius, ball.elements, ball.keep_volume); }
 Mesh mesh_of(const HollowSphereMesh& sphere) { return hollow_sphere_mesh(sphere.radius, sphere.elements); }
 
+Mesh mesh_of(const LineMesh& line) {
+  Mesh mesh;
+  mesh.nodes_per_element = 2;
+  for (int k = 0; k <= line.elements; ++k) {
+    const double share = static_cast<double>(k) / line.elements;
+    std::array<double, 3>& point = mesh.position.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) point[i] = line.start[i] * (1 - share) + line.end[i] * share;
+    if (k < line.elements) mesh.connectivity.insert(mesh.connectivity.end(), {k, k + 1});
+  }
+  mesh.node_sets["start"] = {0};
+  mesh.node_sets["end"] = {line.elements};
+  mesh.node_sets["all"] = every_node(mesh);
+  return mesh;
+}
+
 /// Cosine and sine of an angle in degrees; exact for quarter turns.
 std::array<double, 2> cosine_and_sine(double degrees) {
   const double turn = std::remainder(degrees, 360);
@@ -168,6 +183,7 @@ Names node_names(const WedgeMesh& wedge) {
 }
 Names node_names(const SphereMesh&) { return {"all", "outside"}; }
 Names node_names(const HollowSphereMesh&) { return {"all"}; }
+Names node_names(const LineMesh&) { return {"all", "end", "start"}; }
 
 }  // namespace
 
@@ -184,6 +200,7 @@ Mesh generate_mesh(const MeshSource& source, const Placement& placement) {
 }
 
 int nodes_per_element(const MeshSource& source) {
+  if (std::holds_alternative<LineMesh>(source)) return 2;
   const bool shell = std::holds_alternative<PlateMesh>(source) ||
                      std::holds_alternative<CylinderMesh>(source) ||
                      std::holds_alternative<HollowSphereMesh>(source);
@@ -195,6 +212,7 @@ std::vector<std::string_view> node_set_names(const MeshSource& source) {
 }
 
 std::vector<std::string_view> side_set_names(const MeshSource& source) {
+  if (nodes_per_element(source) == 2) return {};  // lines have no sides
   if (nodes_per_element(source) == 4) return {"all"};
   return node_set_names(source);
 }

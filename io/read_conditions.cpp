@@ -15,6 +15,10 @@ void check_set(const YamlNode& node, const Slot& slot, SetNames names_of_sets) {
   if (dot == std::string::npos) return;
   const std::string_view set = std::string_view(node.text).substr(dot + 1);
   const std::vector<std::string_view> names = names_of_sets(part.mesh);
+  if (names.empty())
+    throw DeckError(node.place, "part '" + part.name +
+                                    "' has no sides: it is a line of beams; parts of solids or "
+                                    "shells are accepted");
   if (std::find(names.begin(), names.end(), set) == names.end())
     throw DeckError(node.place, "part '" + part.name + "' has no set '" + std::string(set) + "'; " +
                                     accepted_words(set, names));
@@ -175,6 +179,13 @@ void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact)
     throw DeckError(node.place, "'contact' has no 'surfaces'; accepted: all, or a list of parts");
   if (!surfaces->value->is_scalar() || surfaces->value->text != "all")
     read_part_names(*surfaces->value, Slot{"surfaces", any_number, slot.known}, contact.surfaces);
+  for (std::size_t i = 0; i < contact.surfaces.size(); ++i) {
+    const YamlNode& name = *surfaces->value->items[i];
+    if (std::holds_alternative<Beam2>(slot.known.part(name, contact.surfaces[i]).element))
+      throw DeckError(name.place,
+                      "part '" + contact.surfaces[i] +
+                          "' is of beams, which touch nothing; parts of solids or shells are accepted");
+  }
   if (const YamlEntry* exclude = node.find("exclude"))
     read_part_names(*exclude->value, Slot{"exclude", any_number, slot.known}, contact.exclude);
 }

@@ -54,6 +54,7 @@ void read_value(const YamlNode& node, const Slot& slot, std::string& value);
 void read_value(const YamlNode& node, const Slot& slot, Material& material);
 void read_value(const YamlNode& node, const Slot& slot, Element& element);
 void read_value(const YamlNode& node, const Slot& slot, MeshSource& mesh);
+void read_value(const YamlNode& node, const Slot& slot, BeamSection& section);
 void read_value(const YamlNode& node, const Slot& slot, Part& part);
 void read_value(const YamlNode& node, const Slot& slot, NodeSelection& selection);
 void read_value(const YamlNode& node, const Slot& slot, Curve& curve);

@@ -9,7 +9,7 @@ namespace {
 std::vector<std::string_view> elements_with_nodes(int count) {
   std::vector<std::string_view> names;
   const auto add = [&]<class... Kind>(const std::variant<Kind...>&) {
-    ((Kind::nodes == count || Kind::nodes == 0 ? names.push_back(Kind::name) : void()), ...);
+    ((Kind::nodes == count || (Kind::nodes == 0 && count > 2) ? names.push_back(Kind::name) : void()), ...);
   };
   add(Element{});
   return names;
@@ -23,6 +23,13 @@ std::vector<std::string_view> laws_accepted_by(const Element& element) {
   };
   add(Material{});
   return names;
+}
+
+[[noreturn]] void refuse_element(const Part& part, const Place& place) {
+  const std::string shape(std::visit([](const auto& source) { return source.name; }, part.mesh));
+  throw DeckError(place, "the mesh '" + shape + "' cannot be made of '" + std::string(name_of(part.element)) +
+                             "' elements; " +
+                             accepted_words("", elements_with_nodes(nodes_per_element(part.mesh))));
 }
 
 void check_thickness(const Rigid& rigid, const MeshSource& mesh, const Place& place) {
@@ -40,6 +47,10 @@ void check_deletion(const YamlEntry& entry, const Part& part, const Material& ma
     throw DeckError(entry.place, "deletion by plastic_strain, but the material model '" +
                                      std::string(name_of(material)) +
                                      "' has none; a plastic one is accepted");
+  if (part.deletion->debris_radius && std::holds_alternative<Beam2>(part.element))
+    throw DeckError(
+        entry.place,
+        "debris_radius of a part of beams, which touch nothing; parts of solids or shells are accepted");
   for (const auto& [named, criterion] : {std::pair{part.deletion->volume_ratio.has_value(), "volume_ratio"},
                                          std::pair{part.deletion->corner_inverted, "corner_inverted"}})
     if (named && nodes_per_element(part.element) != 8)
@@ -73,21 +84,22 @@ void read_value(const YamlNode& node, const Slot& slot, MeshSource& mesh) {
   read_single_key_choice(node, slot, mesh);
 }
 
+void read_value(const YamlNode& node, const Slot& slot, BeamSection& section) {
+  read_single_key_choice(node, slot, section);
+}
+
 void read_value(const YamlNode& node, const Slot& slot, Part& part) {
   read_fields(node, slot, part);
   const Material& material = slot.known.material(*node.find("material")->value);
   const Place& place = node.find("element")->value->place;
   const std::string kind(name_of(part.element));
   if (const auto* rigid = std::get_if<Rigid>(&part.element)) {
+    if (nodes_per_element(part.mesh) == 2) refuse_element(part, place);
     check_thickness(*rigid, part.mesh, place);
     if (part.deletion) check_deletion(*node.find("deletion"), part, material);
     return;
   }
-  if (nodes_per_element(part.element) != nodes_per_element(part.mesh)) {
-    const std::string shape(std::visit([](const auto& source) { return source.name; }, part.mesh));
-    throw DeckError(place, "the mesh '" + shape + "' cannot be made of '" + kind + "' elements; " +
-                               accepted_words("", elements_with_nodes(nodes_per_element(part.mesh))));
-  }
+  if (nodes_per_element(part.element) != nodes_per_element(part.mesh)) refuse_element(part, place);
   if (part.deletion) check_deletion(*node.find("deletion"), part, material);
   if (!accepts(part.element, material))
     throw DeckError(place, "the element '" + kind + "' cannot use the material model '" +

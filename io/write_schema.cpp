@@ -13,6 +13,11 @@ struct SchemaOf<Material> : WithoutDefault {
 };
 
 template <>
+struct SchemaOf<BeamSection> : WithoutDefault {
+  static Schema make(const Range&) { return single_key_choice<BeamSection>(); }
+};
+
+template <>
 struct SchemaOf<Element> : WithoutDefault {
   static Schema make(const Range&) {
     Schema words = Schema::array();
@@ -96,8 +101,8 @@ struct SchemaOf<MotionComponents> : WithoutDefault {
     Schema components{{"type", "object"}, {"properties", Schema::object()}};
     for (std::size_t axis = 0; axis < component_words.size(); ++axis) {
       Schema component = schema_of<Curve>(any_number);
-      component["description"] =
-          axis < 3 ? "translation along an axis" : "rotation about an axis; shells and rigid parts only";
+      component["description"] = axis < 3 ? "translation along an axis"
+                                          : "rotation about an axis; shells, beams and rigid parts only";
       components["properties"][std::string(component_words[axis])] = std::move(component);
     }
     components["minProperties"] = 1;
@@ -157,7 +162,8 @@ struct SchemaOf<ContactSection> : WithoutDefault {
     Schema properties;
     properties["surfaces"] = {
         {"oneOf", {{{"const", "all"}}, parts}},
-        {"description", "all, or a list of the parts that may touch each other and themselves"}};
+        {"description",
+         "all, or a list of the parts that may touch each other and themselves; beams touch nothing"}};
     properties["exclude"] = parts;
     properties["exclude"]["description"] = "parts that are left out";
     properties.update(object["properties"]);
@@ -202,6 +208,7 @@ Schema whole_schema() {
   define<Material>(definitions, "material", schema);
   define<MeshSource>(definitions, "mesh", schema);
   define<Element>(definitions, "element", schema);
+  define<BeamSection>(definitions, "section", schema);
   define<NodeSelection>(definitions, "node_selection", schema);
   define<MotionComponents>(definitions, "components", schema);
   define<Curve>(definitions, "curve", schema);

@@ -46,6 +46,12 @@ struct Elastic {
     stress = stress + stress_increment;
     thickness_strain_increment = elastic().thickness_strain(stress_increment);
   }
+
+  template <class T>
+  BRIO_INLINE void update_fibre(const FibreTensor<T>& strain_increment, FibreTensor<T>& stress,
+                                History<T>&) const {
+    stress = stress + elastic().fibre(strain_increment);
+  }
 };
 
 }  // namespace brio

@@ -41,6 +41,12 @@ struct ElasticConstants {
             transverse * strain.yz, transverse * strain.xz};
   }
 
+  /// Stress along a fibre and across it, free to contract.
+  template <class T>
+  BRIO_INLINE FibreTensor<T> fibre(const FibreTensor<T>& strain) const {
+    return {T(youngs_modulus) * strain.xx, T(2 * shear()) * strain.xy, T(2 * shear()) * strain.xz};
+  }
+
   /// Elastic strain through the thickness that goes with an increment of plane stress.
   template <class T>
   BRIO_INLINE T thickness_strain(const ShellTensor<T>& stress_increment) const {

@@ -71,6 +71,12 @@ struct ElasticPlastic {
     plastic_update_plane_stress(*this, strain_increment, shear_factor, stress, history,
                                 thickness_strain_increment);
   }
+
+  template <class T>
+  BRIO_INLINE void update_fibre(const FibreTensor<T>& strain_increment, FibreTensor<T>& stress,
+                                History<T>& history) const {
+    plastic_update_fibre(*this, strain_increment, stress, history);
+  }
 };
 
 struct IsotropicElasticPlastic : ElasticPlastic {
@@ -98,6 +104,12 @@ struct IsotropicElasticPlastic : ElasticPlastic {
                                        T& thickness_strain_increment) const {
     plastic_update_plane_stress(*this, strain_increment, shear_factor, stress, history,
                                 thickness_strain_increment);
+  }
+
+  template <class T>
+  BRIO_INLINE void update_fibre(const FibreTensor<T>& strain_increment, FibreTensor<T>& stress,
+                                History<T>& history) const {
+    plastic_update_fibre(*this, strain_increment, stress, history);
   }
 };
 

@@ -84,6 +84,23 @@ struct Failing : Law {
     stress = carried_share(history) * stress;
   }
 
+  template <class T>
+  BRIO_INLINE void update_fibre(const FibreTensor<T>& strain_increment, FibreTensor<T>& stress,
+                                History<T>& history) const {
+    const FibreTensor<T> before = undamaged_share(history) * stress;
+    stress = before;
+    const T plastic_strain = history.equivalent_plastic_strain;
+    Law::update_fibre(strain_increment, stress, history);
+    // Plastic strain keeps the volume.
+    const T elastic_strain = (stress.xx - before.xx) * T(1 / this->youngs_modulus);
+    const T across = T(-this->poissons_ratio) * elastic_strain - 0.5 * (strain_increment.xx - elastic_strain);
+    const SymmetricTensor<T> strain{strain_increment.xx, across, across,
+                                    strain_increment.xy, T(0.0), strain_increment.xz};
+    const SymmetricTensor<T> in_space{stress.xx, T(0.0), T(0.0), stress.xy, T(0.0), stress.xz};
+    grow_damage(strain, in_space, plastic_strain, history);
+    stress = carried_share(history) * stress;
+  }
+
  private:
   /// What a point that has failed holds is nothing, and stays so.
   template <class T>

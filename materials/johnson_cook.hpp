@@ -199,6 +199,15 @@ struct JohnsonCook {
   }
 
   template <class T>
+  BRIO_INLINE void update_fibre(const FibreTensor<T>& strain_increment, FibreTensor<T>& stress,
+                                History<T>& history) const {
+    const T before = history.equivalent_plastic_strain;
+    plastic_update_fibre(flow_from(history), strain_increment, stress, history);
+    if (!thermal) return;
+    heat(square(stress.xx) + 3.0 * (square(stress.xy) + square(stress.xz)), before, history);
+  }
+
+  template <class T>
   BRIO_INLINE JohnsonCookHardening<T> hardening_from(const History<T>& history) const {
     T softened(1.0);
     if (thermal) softened = 1.0 - pow(homologous_temperature(history), T(thermal->exponent));

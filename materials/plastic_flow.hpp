@@ -1,6 +1,6 @@
 #pragma once
 /// J2 plasticity with any hardening law (hardening.hpp) and a kinematic share, by backward Euler: in three
-/// dimensions the radial return (Krieg & Krieg 1977), in plane stress the return in the plane
+/// dimensions the radial return (Krieg & Krieg 1977), in plane stress and in fibres the return in the plane
 /// (plane_stress_flow.hpp). Both solve the consistency condition; the yield stress that remains is that of
 /// the plastic strain that is stored.
 ///
@@ -129,6 +129,54 @@ BRIO_INLINE void plastic_update_plane_stress(const Law& law, const ShellTensor<T
   const T plastic_thickness = T(-2.0 / 3.0 / unit) * end.multiplier * sum_shrunk;
   const T thickness = elastic.thickness_strain(stress - old_stress) + plastic_thickness;
   thickness_strain_increment = where(yields, thickness, thickness_strain_increment);
+}
+
+/// Return in a fibre, which is free to contract: the axial stress shrinks as 1 / (1 + 2/3 (1 + nu) r), the
+/// shears as 1 / (1 + r).
+template <class T, class Law, class History>
+BRIO_INLINE void plastic_update_fibre(const Law& law, const FibreTensor<T>& strain_increment,
+                                      FibreTensor<T>& stress, History& history) {
+  const ElasticConstants elastic = law.elastic();
+  const auto hardening = law.hardening();
+  const double unit = 2 * elastic.shear();
+  const T kinematic_rate(2.0 / 3.0 * law.kinematic_modulus() / unit);
+  PlaneStressFlow<T> flow;
+  flow.unit = unit;
+  flow.sum_rate = T(2.0 / 3.0 * (1 + elastic.poissons_ratio)) + kinematic_rate;
+  flow.shear_rate = flow.transverse_rate = 1.0 + kinematic_rate;
+
+  stress = stress + elastic.fibre(strain_increment);
+  FibreTensor<T> xi = stress;
+  if constexpr (has_back_stress<History>)
+    xi = xi - FibreTensor<T>{1.5 * history.back_stress.xx, history.back_stress.xy, history.back_stress.xz};
+  flow.sum_squared = square(xi.xx);
+  flow.shear_squared = 3.0 * square(xi.xy);
+  flow.transverse_squared = 3.0 * square(xi.xz);
+  const T squared = flow.sum_squared + flow.shear_squared + flow.transverse_squared;
+  if (!any(squared > T(square(hardening.initial_yield_stress())))) return;
+
+  const HardeningPoint<T> start = hardening.at(history.equivalent_plastic_strain);
+  const auto yields = squared > square(start.stress);
+  if (!any(yields)) return;
+  // Lanes that do not yield are given a state on the yield surface.
+  flow.sum_squared = where(yields, flow.sum_squared, square(start.stress));
+  flow.shear_squared = where(yields, flow.shear_squared, 0.0);
+  flow.transverse_squared = where(yields, flow.transverse_squared, 0.0);
+  const PlaneStressEnd<T> end = flow_in_plane_stress(flow, hardening, start, yields);
+  const FibreTensor<T> shrunk{end.factors.sum * xi.xx, end.factors.shear * xi.xy,
+                              end.factors.transverse * xi.xz};
+  history.equivalent_plastic_strain = where(yields, end.plastic_strain, start.plastic_strain);
+  FibreTensor<T> returned = end.scale * shrunk;
+  if constexpr (has_back_stress<History>) {
+    // 2/3 kinematic_modulus r dev(xi)
+    const T growth = kinematic_rate * end.multiplier;
+    const T along = (2.0 / 3.0) * shrunk.xx;
+    const SymmetricTensor<T> direction{along, -0.5 * along, -0.5 * along, shrunk.xy, T(0.0), shrunk.xz};
+    history.back_stress = where(yields, history.back_stress + growth * direction, history.back_stress);
+    const SymmetricTensor<T>& back = history.back_stress;
+    returned = returned + FibreTensor<T>{1.5 * back.xx, back.xy, back.xz};
+  }
+  stress = where(yields, returned, stress);
 }
 
 }  // namespace brio

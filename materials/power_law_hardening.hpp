@@ -69,6 +69,12 @@ struct PowerLawHardening {
     plastic_update_plane_stress(*this, strain_increment, shear_factor, stress, history,
                                 thickness_strain_increment);
   }
+
+  template <class T>
+  BRIO_INLINE void update_fibre(const FibreTensor<T>& strain_increment, FibreTensor<T>& stress,
+                                History<T>& history) const {
+    plastic_update_fibre(*this, strain_increment, stress, history);
+  }
 };
 
 }  // namespace brio

@@ -10,6 +10,8 @@
 ///     shear_factor,
 ///                                    ShellTensor<T>& stress, History<T>& history,
 ///                                    T& thickness_strain_increment) const;              // shells
+///     template <class T> void update_fibre(const FibreTensor<T>& strain_increment, FibreTensor<T>& stress,
+///                                    History<T>& history) const;                       // beams
 ///     template <class T> ElasticModuli<T> moduli(const History<T>& history) const;     // current tangent,
 ///     upper bound
 ///
@@ -48,6 +50,28 @@ template <class T, class Mask>
 BRIO_INLINE ShellTensor<T> where(Mask condition, const ShellTensor<T>& a, const ShellTensor<T>& b) {
   return {where(condition, a.xx, b.xx), where(condition, a.yy, b.yy), where(condition, a.xy, b.xy),
           where(condition, a.yz, b.yz), where(condition, a.xz, b.xz)};
+}
+
+/// What a fibre of a beam carries, on axes whose x runs along the beam: zz, yy and yz of the stress are 0.
+/// Shears are tensor components.
+template <class T>
+struct FibreTensor {
+  T xx, xy, xz;
+
+  friend BRIO_INLINE FibreTensor operator+(const FibreTensor& a, const FibreTensor& b) {
+    return {a.xx + b.xx, a.xy + b.xy, a.xz + b.xz};
+  }
+  friend BRIO_INLINE FibreTensor operator-(const FibreTensor& a, const FibreTensor& b) {
+    return {a.xx - b.xx, a.xy - b.xy, a.xz - b.xz};
+  }
+  friend BRIO_INLINE FibreTensor operator*(T s, const FibreTensor& a) {
+    return {s * a.xx, s * a.xy, s * a.xz};
+  }
+};
+
+template <class T, class Mask>
+BRIO_INLINE FibreTensor<T> where(Mask condition, const FibreTensor<T>& a, const FibreTensor<T>& b) {
+  return {where(condition, a.xx, b.xx), where(condition, a.xy, b.xy), where(condition, a.xz, b.xz)};
 }
 
 /// First Lame constant and shear modulus that bound wave speeds.

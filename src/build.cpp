@@ -221,6 +221,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Part& part = deck.parts[p];
     if (!takes_part(*deck.contact, part.name)) continue;
+    if (meshes[p].nodes_per_element == 2) continue;  // beams touch nothing
     const bool shell = meshes[p].nodes_per_element == 4;
     const std::size_t shells = shell ? meshes[p].element_count() : 0;
     if (model.surface_numbers) {

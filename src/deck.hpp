@@ -195,8 +195,26 @@ struct HollowSphereMesh {
   constexpr std::string_view fault() const { return fault_of_size(elements, elements, 6); }
 };
 
+/// Beams on a straight line. Sets: start end all.
+struct LineMesh {
+  static constexpr std::string_view name = "line";
+  static constexpr std::string_view meaning = "beams of equal length on a straight line";
+  Triple start{};
+  Triple end{};
+  int elements = 0;
+  static constexpr auto fields() {
+    return std::tuple{required("start", &LineMesh::start, any_number, "one end"),
+                      required("end", &LineMesh::end, any_number, "the other end"),
+                      required("elements", &LineMesh::elements, at_least_one, "elements along the line")};
+  }
+  constexpr std::string_view fault() const {
+    if (start == end) return "the line has no length; its end must differ from its start";
+    return fault_of_size(elements, 1, 1);
+  }
+};
+
 using MeshSource = std::variant<BoxMesh, PlateMesh, CylinderMesh, TubeMesh, RodMesh, WedgeMesh, SphereMesh,
-                                HollowSphereMesh>;
+                                HollowSphereMesh, LineMesh>;
 
 // ---- parts
 // ---------------------------------------------------------------------------------------------------

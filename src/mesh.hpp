@@ -15,7 +15,7 @@ struct ElementSide {
 };
 
 struct Mesh {
-  int nodes_per_element = 8;
+  int nodes_per_element = 8;  ///< 8: hexahedra, 4: shells, 2: beams
   std::vector<std::array<double, 3>> position;
   std::vector<int> connectivity;                      ///< nodes_per_element entries an element
   std::map<std::string, std::vector<int>> node_sets;  ///< ascending node indices

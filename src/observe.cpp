@@ -17,6 +17,22 @@ FieldArray field(std::string name, int components, std::size_t count,
 
 bool is_shell(const Element& element) { return has_rotations(element) && nodes_per_element(element) == 4; }
 
+bool has_beams(const Model& model) {
+  return std::any_of(model.blocks.begin(), model.blocks.end(),
+                     [](const Block& block) { return std::holds_alternative<Beam2>(block.element); });
+}
+
+CellType cell_of(int corners) {
+  if (corners == 8) return hexahedron_cell;
+  return corners == 4 ? quadrilateral_cell : line_cell;
+}
+
+std::int64_t& count_of(const Element& element, Summary::ElementCounts& counts) {
+  const int corners = nodes_per_element(element);
+  if (corners == 8) return counts.hex8;
+  return corners == 4 ? counts.shell4 : counts.beam2;
+}
+
 bool has_shells(const Model& model) {
   return std::any_of(model.blocks.begin(), model.blocks.end(),
                      [](const Block& block) { return is_shell(block.element); });
@@ -87,6 +103,7 @@ FieldObserver::FieldObserver(const Model& model) : point_of_node_(model.nodes.si
     return snapshot_.cell_fields.size() - 1;
   };
   if (has_shells(model)) thickness_ = add_cell_field("thickness");
+  if (has_beams(model)) radius_ = add_cell_field("radius");
   if (can_be_damaged(model)) damage_ = add_cell_field("damage");
   take_topology(model);
   fill_points(model);
@@ -104,7 +121,7 @@ void FieldObserver::take_topology(const Model& model) {
     const int corners = rigid != nullptr ? rigid->nodes_per_element : nodes_per_element(block.element);
     for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
       if (part.element_slot[e] < 0 && rigid == nullptr) continue;
-      topology.cell_type.push_back(corners == 8 ? hexahedron_cell : quadrilateral_cell);
+      topology.cell_type.push_back(cell_of(corners));
       topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
       for (int corner = 0; corner < corners; ++corner) {
         const std::size_t entry = e * static_cast<std::size_t>(corners) + static_cast<std::size_t>(corner);
@@ -158,6 +175,7 @@ void FieldObserver::fill_cells(const Model& model) {
       snapshot_.cell_fields[2].values[cell] = static_cast<double>(p);
       snapshot_.cell_fields[3].values[cell] = static_cast<double>(e);
       if (thickness_) snapshot_.cell_fields[*thickness_].values[cell] = sample.thickness;
+      if (radius_) snapshot_.cell_fields[*radius_].values[cell] = sample.radius;
       if (damage_) snapshot_.cell_fields[*damage_].values[cell] = sample.damage;
       ++cell;
     }
@@ -272,11 +290,9 @@ Summary observe_end(Model& model) {
       rigid_mass += part.mass;
       continue;
     }
-    const bool solid = nodes_per_element(model.blocks[part.block].element) == 8;
-    (solid ? summary.elements.hex8 : summary.elements.shell4) +=
-        static_cast<std::int64_t>(part.element_slot.size());
-    if (model.erosion)
-      (solid ? summary.deleted.hex8 : summary.deleted.shell4) += model.erosion->deleted_count[part.block];
+    const Element& element = model.blocks[part.block].element;
+    count_of(element, summary.elements) += static_cast<std::int64_t>(part.element_slot.size());
+    if (model.erosion) count_of(element, summary.deleted) += model.erosion->deleted_count[part.block];
   }
   summary.mass.intact = summary.mass.start;
   if (model.erosion) {

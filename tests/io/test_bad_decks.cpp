@@ -146,6 +146,28 @@ constexpr Edit edits[] = {
      "^{inner_radius: 1, outer_radius: 2, height: 3, elements: [2", "does not close"},
     {"{axis: [0, 1, 0]", "^{axis: [0, 0, 0]", "the axis has no direction"},
     {"rotate: {axis: [0, 1, 0], degrees: 90}", "rotate: ^90", "'rotate' is '90'; expected a map"},
+    // beams
+    {"{box: {size: [1, 1, 2], elements: [2, 2, 4]}}",
+     "{line: ^{start: [0, 0, 1], end: [0, 0, 1], elements: 4}}", "the line has no length"},
+    {"{box: {size: [1, 1, 2], elements: [2, 2, 4]}}\n    element: hex8",
+     "{line: {start: [0, 0, 0], end: [0, 0, 1], elements: 4}}\n    element: ^hex8",
+     "the mesh 'line' cannot be made of 'hex8' elements; accepted: beam2"},
+    {"{box: {size: [1, 1, 2], elements: [2, 2, 4]}}\n    element: hex8",
+     "{line: {start: [0, 0, 0], end: [0, 0, 1], elements: 4}}\n    element: ^rigid",
+     "the mesh 'line' cannot be made of 'rigid' elements; accepted: beam2"},
+    {"element: hex8", "element: ^{type: beam2}", "no 'section'; it is required"},
+    {"element: hex8", "element: {type: beam2, section: ^round}", "'section' is 'round'; expected a map"},
+    {"element: hex8", "element: {type: beam2, section: {^cirle: {radius: 1}}}", "did you mean 'circle'?"},
+    {"element: hex8", "element: {type: beam2, section: {circle: ^{radius: 1, fibres: [2, 5]}}}",
+     "an even number from 4 on"},
+    {"element: hex8", "element: {type: beam2, section: {tube: ^{inner_radius: 1, outer_radius: 1}}}",
+     "outer_radius must exceed inner_radius"},
+    {"element: hex8", "element: ^{type: beam2, section: {rectangle: {width: 1, height: 1}}}",
+     "needs an 'orientation'"},
+    {"element: hex8", "element: ^{type: beam2, section: {circle: {radius: 1}}, orientation: [0, 0, 0]}",
+     "the orientation has no direction"},
+    {"element: hex8", "element: ^{type: beam2, section: {circle: {radius: 1}}}",
+     "the mesh 'box' cannot be made of 'beam2' elements"},
     // conditions
     {"{part: left, velocity", "{^port: left, velocity", "did you mean 'part'?"},
     {"{part: left, velocity", "{part: ^lefd, velocity", "no part is called 'lefd'; did you mean 'left'?"},
@@ -209,6 +231,42 @@ constexpr Edit edits[] = {
      "'precision' is a list; expected one word of double, float"},
     {"title: Two boxes", "title: a\n^title: b", "duplicate key 'title'"},
 };
+
+/// The plain deck with a line of beams for its left part.
+std::string deck_with_beams(const std::string& from = {}, const std::string& to = {}) {
+  std::string text = plain_deck;
+  const auto replace = [&](const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    text.replace(at, what.size(), by);
+  };
+  replace("{box: {size: [1, 1, 2], elements: [2, 2, 4]}}\n    element: hex8",
+          "{line: {start: [0, 0, -1], end: [0, 0, 1], elements: 4}}\n"
+          "    element: {type: beam2, section: {circle: {radius: 0.1}}}");
+  replace("left.bottom", "left.start");
+  replace("left.top", "left.end");
+  if (!from.empty()) replace(from, to);
+  return text;
+}
+
+TEST(BadDeckOfBeams, BeamsTouchNothingAndHaveNoSides) {
+  const auto fault = [](const std::string& from, const std::string& to) {
+    return fault_of([&] { parse_deck(deck_with_beams(from, to), "a.yaml"); });
+  };
+  EXPECT_EQ(fault("", ""), "");
+  EXPECT_NE(
+      fault("surfaces: all, exclude: [left]", "surfaces: [left, right]").find("beams, which touch nothing"),
+      std::string::npos);
+  EXPECT_NE(fault("side_set: right.inside", "side_set: left.all").find("has no sides"), std::string::npos);
+  EXPECT_NE(fault("{type: beam2,", "{type: beam2, formulation: rope,").find("accepted: beam, truss, cable"),
+            std::string::npos);
+  EXPECT_NE(
+      fault("radius: 0.1}}}\n", "radius: 0.1}}}\n    deletion: {debris_radius: 1}\n").find("touch nothing"),
+      std::string::npos);
+  EXPECT_NE(
+      fault("radius: 0.1}}}\n", "radius: 0.1}}}\n    deletion: {volume_ratio: 0.1}\n").find("hexahedra"),
+      std::string::npos);
+}
 
 INSTANTIATE_TEST_SUITE_P(Edited, BadDeck, testing::ValuesIn(edits));
 

@@ -360,11 +360,25 @@ TEST(GenerateMesh, BladesThatCannotBeDrawnAreRefused) {
   EXPECT_EQ((WedgeMesh{1, 0.5, 3, 45, 0, {1, 1, 1}}.fault()), "") << "flanks up to the top";
 }
 
+TEST(GenerateMesh, LineRunsFromStartToEnd) {
+  const Mesh mesh = mesh_of(LineMesh{{1, 2, 3}, {2, 0, 3.5}, 3});
+  EXPECT_EQ(mesh.nodes_per_element, 2);
+  EXPECT_EQ(mesh.connectivity, (std::vector<int>{0, 1, 1, 2, 2, 3}));
+  EXPECT_EQ(mesh.position.front(), (Triple{1, 2, 3}));
+  EXPECT_EQ(mesh.position.back(), (Triple{2, 0, 3.5}));
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(3 * (mesh.position[2][i] - mesh.position[1][i]), mesh.position[3][i] - mesh.position[0][i],
+                1e-15);
+  EXPECT_EQ(mesh.node_sets.at("start"), (std::vector<int>{0}));
+  EXPECT_EQ(mesh.node_sets.at("end"), (std::vector<int>{3}));
+}
+
 TEST(GenerateMesh, NamesOfSetsAreThoseOfTheMesh) {
-  const std::array<MeshSource, 9> sources{
+  const std::array<MeshSource, 10> sources{
       BoxMesh{{1, 1, 1}, {2, 2, 2}},          PlateMesh{{1, 1}, {2, 2}}, CylinderMesh{1, 1, {4, 2}},
       TubeMesh{1, 2, 1, {4, 2, 2}},           RodMesh{1, 1, {4, 2}},     WedgeMesh{1, 3, 2, 15, 0, {2, 4, 2}},
-      WedgeMesh{1, 3, 2, 15, 0.1, {2, 4, 2}}, SphereMesh{1, 4},          HollowSphereMesh{1, 2}};
+      WedgeMesh{1, 3, 2, 15, 0.1, {2, 4, 2}}, SphereMesh{1, 4},          HollowSphereMesh{1, 2},
+      LineMesh{{0, 0, 0}, {1, 2, 3}, 4}};
   const auto names = [](const auto& sets) {
     std::vector<std::string_view> keys;
     for (const auto& [key, members] : sets) keys.push_back(key);

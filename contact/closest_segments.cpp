@@ -34,8 +34,7 @@ Foot foot_of_origin(const Vector3d& first, const Vector3d& second, const Vector3
   if (reach <= 0 || length_squared == 0) return {0, first};
   if (reach >= length_squared) return {1, second};
   const double share = reach / length_squared;
-  // From the nearer end: the foot then carries the rounding of its own small distance to it.
-  return {share, share <= 0.5 ? Vector3d(first + share * along) : Vector3d(second - (1 - share) * along)};
+  return {share, first + share * along};
 }
 
 SegmentFeature feature_at(double parameter) {
@@ -48,13 +47,8 @@ ClosestSegments points_at(double on_a, double on_b, const Vector3d& offset) {
   return {{on_a, on_b}, {feature_at(on_a), feature_at(on_b)}, offset, Vector3d::Zero(), offset.squaredNorm()};
 }
 
-// From the nearer ends.
 Vector3d offset_at(const SegmentPair& pair, double on_a, double on_b) {
-  const std::size_t i = on_a <= 0.5 ? 0 : 1;
-  const std::size_t j = on_b <= 0.5 ? 0 : 1;
-  const double from_i = i == 0 ? on_a : on_a - 1;
-  const double from_j = j == 0 ? on_b : on_b - 1;
-  return pair.between[i][j] + (from_i * pair.along_a - from_j * pair.along_b);
+  return pair.between[0][0] + (on_a * pair.along_a - on_b * pair.along_b);
 }
 
 // Every end against the other segment: one of these pairs is the closest unless both points are inside.

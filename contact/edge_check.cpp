@@ -73,50 +73,25 @@ class Certificates {
     const bool inside_a = on_a == SegmentFeature::inside;
     const bool inside_b = on_b == SegmentFeature::inside;
     double elapsed = 0;
-    if (inside_a && inside_b) elapsed = along(perpendicular());
+    if (inside_a && inside_b) elapsed = along_perpendicular();
     // Parallel edges have no perpendicular of their own, and that of nearly parallel ones turns too fast.
-    if (inside_b && !(elapsed > left_)) elapsed = std::max(elapsed, along(across_b()));
-    if (inside_a && !(elapsed > left_)) elapsed = std::max(elapsed, along(across_a()));
+    const bool by_edges = !(elapsed > left_) && !(inside_a && inside_b && surely_crossed());
+    if (inside_b && by_edges) elapsed = std::max(elapsed, along(across_b()));
+    if (inside_a && by_edges) elapsed = std::max(elapsed, along(across_a()));
     if (!inside_a && !inside_b) elapsed = along(between_points());
     return elapsed;
   }
 
   // Where two features meet, rounding may name the wrong one, and the next one takes over soon.
   double by_any() const {
-    double elapsed = std::max(
-        {along(perpendicular()), along(across_a()), along(across_b()), along(between_points()), by_tilted()});
-    for (const Vector3d& corner : sight_.corners)
-      elapsed = std::max(elapsed, along({corner.normalized(), Vector3d::Zero()}));
-    return elapsed;
+    return std::max({along_perpendicular(), along(across_a()), along(across_b()), along(between_points())});
   }
 
  private:
-  // Where the origin is close above a corner or a side of the parallelogram that stays there while the rest
-  // turns about it, a direction tilted about that corner or side lasts longer.
-  double by_tilted() const {
-    const auto& [on_a, on_b] = sight_.closest.parameters;
-    const bool second_a = on_a > 0.5;
-    const bool second_b = on_b > 0.5;
-    const Vector3d& corner = sight_.corners[(second_a ? 2 : 0) + (second_b ? 1 : 0)];
-    const Vector3d along_a = unit_or(second_a ? -sight_.along_a : sight_.along_a, Vector3d::Zero());
-    const Vector3d along_b = unit_or(second_b ? sight_.along_b : -sight_.along_b, Vector3d::Zero());
-    const double cosine = along_a.dot(along_b);
-    return std::max({along({tilted(along_a + along_b, corner).normalized(), Vector3d::Zero()}),
-                     along(strictly_across(sight_.along_a, edges_.along_a.displacement,
-                                           tilted(along_b - cosine * along_a, corner))),
-                     along(strictly_across(sight_.along_b, edges_.along_b.displacement,
-                                           tilted(along_a - cosine * along_b, corner)))});
-  }
-
-  // The offset, turned inwards as far as leaves the corner half of its gap.
-  Vector3d tilted(const Vector3d& inward, const Vector3d& corner) const {
-    const Vector3d& offset = sight_.closest.offset;
-    const double distance = std::sqrt(sight_.closest.squared_distance);
-    const double gap = distance - edges_.reach;
-    double tilt = gap < 2 * edges_.reach ? 0.5 * std::sqrt(gap / (2 * edges_.reach)) : 0.5;
-    const double down = -inward.dot(corner);
-    if (down > 0) tilt = std::min(tilt, (0.5 * gap + (offset.dot(corner) / distance - distance)) / down);
-    return offset / distance + std::max(tilt, 0.0) * inward;
+  bool surely_crossed() const {
+    constexpr double sine = 0.1;
+    return sight_.closest.normal.squaredNorm() >
+           sine * sine * (sight_.along_a.squaredNorm() * sight_.along_b.squaredNorm());
   }
 
   double along(const Direction& direction) const {
@@ -126,11 +101,61 @@ class Certificates {
     return separated_for(sight_.corners, sight_.motions, direction, edges_.scale, edges_.reach);
   }
 
-  Direction perpendicular() const {
-    const Vector3d change =
-        edges_.along_a.displacement.cross(sight_.along_b) + sight_.along_a.cross(edges_.along_b.displacement);
-    return along_normal(sight_.closest.normal, change, sight_.closest.offset);
+  // The common perpendicular, as it turns: along_a x along_b is quadratic in time. It is followed to the end
+  // of the time for which it is seen to separate, then, less roughly, only for that time and a little more.
+  double along_perpendicular() const {
+    const double length = sight_.closest.normal.norm();
+    if (!(length > 0)) return 0;
+    const double scale = (sight_.closest.normal.dot(sight_.closest.offset) < 0 ? -1 : 1) / length;
+    const Perpendicular perpendicular{scale * sight_.closest.normal,
+                                      scale * (edges_.along_a.displacement.cross(sight_.along_b) +
+                                               sight_.along_a.cross(edges_.along_b.displacement)),
+                                      scale * edges_.along_a.displacement.cross(edges_.along_b.displacement)};
+    double elapsed = 0;
+    double most = 1.01 * left_;
+    for (int pass = 0; pass < 4; ++pass) {
+      const double here = over(perpendicular, most);
+      elapsed = std::max(elapsed, here);
+      if (!(here > 0) || here >= 0.5 * most) break;
+      most = 2 * here;
+    }
+    return elapsed > left_ ? elapsed : std::max(elapsed, over({perpendicular.towards, Vector3d::Zero()}));
   }
+
+  // A direction that is `towards`, a unit vector, + elapsed `turning` + elapsed^2 `bending`.
+  struct Perpendicular {
+    Vector3d towards, turning, bending;
+  };
+
+  // For how long, but no longer than `most`, all corners stay farther than the reach along it. Its length is
+  // at most along + across^2 / (2 along), where along is its part along `towards`; this is kept above a half.
+  double over(const Perpendicular& direction, double most) const {
+    const double rounding = unit_roundoff * edges_.scale;
+    const double nearest = edges_.reach + direction_roundings * rounding;
+    const double growth = direction.towards.dot(direction.turning);
+    const double second_growth = direction.towards.dot(direction.bending);
+    if (growth < 0) most = std::min(most, -0.25 / growth);
+    if (second_growth < 0) most = std::min(most, 0.5 / std::sqrt(-second_growth));
+    const double shortest = 1 + std::min(growth, 0.0) * most + std::min(second_growth, 0.0) * most * most;
+    const double turn = (direction.turning - growth * direction.towards).norm() +
+                        most * (direction.bending - second_growth * direction.towards).norm();
+    const double turning_rounding =
+        turning_roundings * rounding * (direction.turning.norm() + most * direction.bending.norm());
+    double elapsed = most;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vector3d& point = sight_.corners[k];
+      const Vector3d& motion = sight_.motions[k];
+      const double c = direction.towards.dot(point) - nearest;
+      const double b =
+          direction.towards.dot(motion) + direction.turning.dot(point) - nearest * growth - turning_rounding;
+      const double a = direction.turning.dot(motion) + direction.bending.dot(point) +
+                       most * std::min(direction.bending.dot(motion), 0.0) -
+                       nearest * (second_growth + turn * turn / (2 * shortest));
+      elapsed = std::min(elapsed, positive_until(a, b, c));
+    }
+    return elapsed;
+  }
+
   Direction across_a() const {
     return strictly_across(sight_.along_a, edges_.along_a.displacement, sight_.closest.offset);
   }

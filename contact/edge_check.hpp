@@ -21,7 +21,8 @@
 /// - if they are in contact at the start and in one plane then,
 /// - where the edges are parallel but for rounding at the time of contact.
 ///
-/// Common edges take two to five certificates; the work is bounded as in `velocity_check`.
+/// Two to four certificates are usual, the most seen in a million adversarial queries is 90. The work is
+/// bounded as in `velocity_check`: should 1024 not do, the tolerance doubles, and again for each 1024 more.
 
 #include <Eigen/Dense>
 #include <array>
@@ -44,7 +45,8 @@ struct EdgeContact {
   std::array<SegmentFeature, 2> features;
   /// Unit vector from b to a at that time. Edges that touch without a distance have the common perpendicular,
   /// on the side that a comes from, or, where that side is zero or an end is met, the direction in which they
-  /// came together. Zero if they are in contact from the start without distance and without a perpendicular.
+  /// came together. In contact from the start without distance or side, it is the perpendicular to either
+  /// side, and zero if there is none.
   Eigen::Vector3d normal;
   double distance;  // then: within rounding of the reach, or less at time 0
   /// Of (a - b) . (along a x along b) just before the time: that of the start, unless the lines that the

@@ -94,7 +94,7 @@ class Auditor {
 
  private:
   bool excluded(int slave, std::size_t face) const {
-    return surface_.of_one_rigid_body(slave, surface_.face[face]) ||
+    return surface_.never_touch(slave, surface_.face[face]) ||
            is_excluded(scene_.excluded, slave, static_cast<int>(face));
   }
 
@@ -147,10 +147,11 @@ class Auditor {
       if (box_[f].squared_distance(x) >= std::min(depth * depth, edge_[f] * edge_[f])) continue;
       const ClosestPoint point = closest_point_on_quad(x, corners_[f]);
       const double distance = std::sqrt(point.squared_distance);
-      if (distance >= depth || distance > edge_[f]) continue;
-      if (point.separation.dot(point.normal) > -flat_share * edge_[f]) continue;
+      const double behind = -point.separation.dot(point.normal);
+      const bool far = distance > deep_share * edge_[f];
+      if (distance >= depth || distance > edge_[f] || behind <= (far ? flat_share * edge_[f] : 0)) continue;
       depth = distance;
-      suspect = distance > deep_share * edge_[f];
+      suspect = far;
     }
     return suspect && winding(body, x) > 1 && note(depth, found);
   }

@@ -62,8 +62,7 @@ void sort_by_slave(Candidates& candidates, const Surface& surface, const Lists& 
     const int end = pairs.first[f + 1];
     for (int i = begin; i < end; ++i) {
       const int slave = pairs.node[static_cast<std::size_t>(i)];
-      if (surface.of_one_rigid_body(slave, surface.face[f]) ||
-          is_excluded(excluded, slave, static_cast<int>(f)))
+      if (surface.never_touch(slave, surface.face[f]) || is_excluded(excluded, slave, static_cast<int>(f)))
         continue;
       pairs.node[kept++] = slave;
       ++lists.first[static_cast<std::size_t>(slave) + 1];

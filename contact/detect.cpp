@@ -288,6 +288,8 @@ class NodeCheck {
     }
     contact.normal = push;
     contact.gap = gap;
+    contact.friction_coefficient =
+        scene_.surface.pairs.friction(node_, face(f).part, scene_.options.friction);
     piece_.contact.push_back(contact);
   }
 

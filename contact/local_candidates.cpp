@@ -142,7 +142,9 @@ void LocalCandidates::add(Candidates& candidates, const Surface& surface, const 
   const auto add_unless_excluded = [&](int slave, int face) {
     if (surface.node[static_cast<std::size_t>(slave)] < 0) return;
     if (!surface.face[static_cast<std::size_t>(face)].alive()) return;
-    if (!is_excluded(excluded, slave, face)) include(candidates, slave, face);
+    if (!surface.never_touch(slave, surface.face[static_cast<std::size_t>(face)]) &&
+        !is_excluded(excluded, slave, face))
+      include(candidates, slave, face);
   };
   for (int face : change.new_face)
     slaves_.for_overlapping(candidates.box[static_cast<std::size_t>(face)], comparisons,

@@ -104,8 +104,8 @@ void move_apart(ContactScene& scene, Nodes& nodes) {
       scene.motion[s].velocity[axis] = 0;
       scene.motion[s].inverse_mass[axis] = held ? 0 : 1;
     }
+  for (Contact& contact : scene.contacts) contact.friction_coefficient = 0;
   ContactOptions whole = scene.options;
-  whole.friction = 0;
   whole.passes = sweeps_a_round;
   whole.overlap_recovery = 1;
   whole.overlap_recovery_cap = std::numeric_limits<double>::max();

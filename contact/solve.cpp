@@ -128,7 +128,9 @@ void solve_for(Solver& solver, const ContactOptions& options, double smallest_ed
   solver.frame.resize(contacts.size());
   solver.passes_done = 0;
   solver.residual = 0;
-  const bool with_friction = options.friction > 0;
+  const bool with_friction = std::any_of(contacts.begin(), contacts.end(), [](const Contact& contact) {
+    return contact.friction_coefficient > 0;
+  });
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Contact& contact = contacts[i];
     ContactFrame& frame = solver.frame[i];
@@ -153,8 +155,9 @@ void solve_for(Solver& solver, const ContactOptions& options, double smallest_ed
       if (frame.normal_mass == 0) continue;
       solver.residual = std::max(solver.residual, push(contacts[i], frame, motion));
       if (with_friction)
-        solver.residual = std::max(solver.residual,
-                                   rub(contacts[i], frame, options.friction * contacts[i].impulse, motion));
+        solver.residual =
+            std::max(solver.residual,
+                     rub(contacts[i], frame, contacts[i].friction_coefficient * contacts[i].impulse, motion));
     }
     if (solver.residual * dt <= converged_share * smallest_edge) break;
   }

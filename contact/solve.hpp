@@ -4,9 +4,9 @@
 /// step that
 ///     gap + dt normal . (v_node - sum w v_corner) >= 0,      impulse >= 0,
 /// and where it began with an overlap, that a little of that be removed. Friction keeps the tangential
-/// impulse within the disk of radius mu times the normal impulse (Coulomb), sticking where it can. Impulses
-/// on the node and on the corners are equal and opposite and act along the line through both at the beginning
-/// of the step, so linear and angular momentum are kept to rounding.
+/// impulse within the disk of radius friction coefficient times the normal impulse (Coulomb), sticking where
+/// it can. Impulses on the node and on the corners are equal and opposite and act along the line through both
+/// at the beginning of the step, so linear and angular momentum are kept to rounding.
 
 #include <span>
 #include <vector>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact/lists.hpp"
+#include "contact/pair_table.hpp"
 
 namespace brio {
 
@@ -57,16 +58,18 @@ struct Surface {
   Lists faces_of;                      ///< of each slave node: the faces it belongs to, ascending
   int body_count = 0;
   std::vector<int> rigid_of_node;  ///< of each global node: its rigid body, or -1; empty where there is none
+  PairTable pairs;                 ///< what is said of pairs of parts
 
   /// -1: none.
   int rigid_body(int global_node) const {
     return rigid_of_node.empty() || global_node < 0 ? -1
                                                     : rigid_of_node[static_cast<std::size_t>(global_node)];
   }
-  /// Nothing that is rigid can meet itself.
-  bool of_one_rigid_body(int slave, const Face& other) const {
-    const int own = rigid_body(node[static_cast<std::size_t>(slave)]);
-    return own >= 0 && own == rigid_body(other.node[0]);
+  /// Nothing that is rigid can meet itself, and parts may be kept from touching.
+  bool never_touch(int slave, const Face& other) const {
+    const int global_node = node[static_cast<std::size_t>(slave)];
+    const int own = rigid_body(global_node);
+    return (own >= 0 && own == rigid_body(other.node[0])) || pairs.apart(global_node, other.part);
   }
 
   std::size_t slaves() const { return node.size(); }

@@ -172,8 +172,19 @@ void read_value(const YamlNode& node, const Slot& slot, Load& load) {
   throw DeckError(node.place, "nothing is said about the load; " + accepted_words("", names_of(load)));
 }
 
+void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair) {
+  read_fields(node, slot, pair, {"parts"});
+  const YamlEntry* parts = node.find("parts");
+  if (parts == nullptr)
+    throw DeckError(node.place, "an entry of 'pairs' has no 'parts'; two parts are accepted");
+  read_part_names(*parts->value, Slot{"parts", any_number, slot.known}, pair.parts);
+  if (pair.parts.size() != 2)
+    throw DeckError(parts->value->place, "'parts' of a pair names " + std::to_string(pair.parts.size()) +
+                                             "; two are accepted, or one twice");
+}
+
 void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact) {
-  read_fields(node, slot, contact.options, {"surfaces", "exclude"});
+  read_fields(node, slot, contact.options, {"surfaces", "exclude", "pairs"});
   const YamlEntry* surfaces = node.find("surfaces");
   if (surfaces == nullptr)
     throw DeckError(node.place, "'contact' has no 'surfaces'; accepted: all, or a list of parts");
@@ -188,6 +199,8 @@ void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact)
   }
   if (const YamlEntry* exclude = node.find("exclude"))
     read_part_names(*exclude->value, Slot{"exclude", any_number, slot.known}, contact.exclude);
+  if (const YamlEntry* pairs = node.find("pairs"))
+    read_value(*pairs->value, Slot{"pairs", any_number, slot.known}, contact.pairs);
 }
 
 }  // namespace brio

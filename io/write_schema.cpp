@@ -166,6 +166,14 @@ struct SchemaOf<ContactSection> : WithoutDefault {
          "all, or a list of the parts that may touch each other and themselves; beams touch nothing"}};
     properties["exclude"] = parts;
     properties["exclude"]["description"] = "parts that are left out";
+    Schema pair = object_of<ContactPair>();
+    pair["properties"]["parts"] = parts;
+    pair["properties"]["parts"]["description"] = "the two parts, or one twice";
+    pair["required"].insert(pair["required"].begin(), "parts");
+    properties["pairs"] = {
+        {"type", "array"},
+        {"items", pair},
+        {"description", "of two `parts`, or of one named twice: their `friction`, or `touch: false`"}};
     properties.update(object["properties"]);
     object["properties"] = std::move(properties);
     object["required"].insert(object["required"].begin(), "surfaces");

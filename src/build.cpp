@@ -208,6 +208,23 @@ void check_debris_in_contact(const Deck& deck) {
                        "' has a debris_radius but is not in contact; accepted are parts that are");
 }
 
+std::vector<PairRule> pair_rules(const ContactSection& contact, std::span<const SurfacePart> parts) {
+  const auto number = [&](const std::string& name) {
+    const auto found =
+        std::find_if(parts.begin(), parts.end(), [&](const SurfacePart& part) { return part.name == name; });
+    if (found == parts.end())
+      throw BuildError("a pair of contact names part '" + name +
+                       "', which is not in contact; accepted are parts that are");
+    return static_cast<int>(found - parts.begin());
+  };
+  std::vector<PairRule> rules;
+  for (const ContactPair& pair : contact.pairs)
+    rules.push_back({.part = {number(pair.parts[0]), number(pair.parts[1])},
+                     .friction = pair.friction,
+                     .touch = pair.touch});
+  return rules;
+}
+
 // Before masses are lumped: small initial overlaps are removed by moving nodes.
 void make_contact(const Deck& deck, std::span<const Mesh> meshes,
                   const std::vector<std::vector<int>>& connectivity, Model& model) {
@@ -238,6 +255,8 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
   }
   try {
     model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));
+    const std::vector<PairRule> rules = pair_rules(*deck.contact, surfaces);
+    if (!rules.empty()) model.contacts.back().surface.pairs = {rules, surfaces, model.nodes.size()};
     if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
     ThreadTeam team(1);
     model.initial_overlaps = remove_initial_overlap(model.contacts.back(), model.nodes, team);

@@ -435,10 +435,27 @@ using Load = std::variant<Gravity, NodalForce, Pressure>;
 // ---- the rest
 // --------------------------------------------------------------------------------------------------
 
+/// What is said of two parts, or of a part and itself.
+struct ContactPair {
+  std::vector<std::string> parts;  ///< two
+  std::optional<double> friction{};
+  bool touch = true;
+  static constexpr auto fields() {
+    return std::tuple{optional("friction", &ContactPair::friction, non_negative,
+                               "Coulomb coefficient between the two in place of that of all, -"),
+                      optional("touch", &ContactPair::touch, any_number, "false: the two never touch")};
+  }
+  constexpr std::string_view fault() const {
+    if (touch && !friction) return "nothing is said of the pair; accepted: friction, touch: false";
+    return !touch && friction ? "friction of parts that never touch; leave out one of them" : "";
+  }
+};
+
 /// `surfaces: all` or a list of parts; `exclude` takes parts out. The options stand beside them in the deck.
 struct ContactSection {
   std::vector<std::string> surfaces;  ///< empty: all parts
   std::vector<std::string> exclude;
+  std::vector<ContactPair> pairs;
   ContactOptions options;
 };
 

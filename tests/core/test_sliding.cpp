@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "contact/audit.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -100,6 +101,55 @@ TEST(SlidingBlock, StopsOnAFloorAfterTheDistanceOfCoulomb) {
     const Slide result = slide(on_floor(sliding_block(velocity), 0.3), velocity, 0.3);
     expect_coulomb(result, 4, 0.3);
   }
+}
+
+// Two blocks on one floor, of which one has a coefficient of its own.
+TEST(SlidingBlock, HasTheFrictionOfItsPair) {
+  Deck deck = on_floor(sliding_block({4, 0, 0}), 0.3);
+  deck.parts[1] = box("floor", {3, 4, 0.25}, {11, 13, 1}, {0.5, 1, -0.125}, hex8());
+  deck.parts.push_back(box("smooth", {1, 1, 0.5}, {4, 4, 2}, {0, 2, 0.25}, hex8()));
+  deck.initial_conditions.push_back(moving("smooth", {2, 0, 0}));
+  deck.contact->pairs = {{.parts = {"floor", "smooth"}, .friction = 0.1}};
+  deck.time.end = 0.24;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  run(model, deck, team);
+  EXPECT_NEAR(centre_of(model, 0)[0], 16 / (2 * 0.3 * weight), 0.01 * 16 / (2 * 0.3 * weight));
+  EXPECT_NEAR(centre_of(model, 2)[0], 4 / (2 * 0.1 * weight), 0.01 * 4 / (2 * 0.1 * weight));
+}
+
+TEST(SlidingBlock, FallsThroughAFloorThatItMustNotTouch) {
+  Deck deck = on_floor(sliding_block({0, 0, 0}), 0.3);
+  deck.contact->pairs = {{.parts = {"block", "floor"}, .touch = false}};
+  deck.contact->options.audit = true;
+  deck.time.end = 0.1;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  run(model, deck, team);
+  EXPECT_NEAR(centre_of(model, 0)[2], 0.25 - 0.5 * weight * 0.01, 1e-3);
+  EXPECT_EQ(audit(model.contacts[0], model.nodes, team).missed(), 0);
+  EXPECT_EQ(model.contacts[0].totals.contacts, 0U);
+}
+
+TEST(SlidingBlock, PairThatSaysWhatAllDoChangesNoBit) {
+  std::array<Vector, 2> place{};
+  for (std::size_t named = 0; named < 2; ++named) {
+    Deck deck = on_floor(sliding_block({4, 1, 0}), 0.3);
+    if (named == 1) deck.contact->pairs = {{.parts = {"block", "floor"}, .friction = 0.3}};
+    deck.time.end = 0.05;
+    Model model = build_model(deck);
+    ThreadTeam team(1);
+    run(model, deck, team);
+    place[named] = centre_of(model, 0);
+  }
+  EXPECT_EQ(place[0], place[1]);
+}
+
+TEST(SlidingBlock, PairOfAPartOutsideOfContactIsRefused) {
+  Deck deck = on_floor(sliding_block({0, 0, 0}), 0.3);
+  deck.contact->exclude = {"floor"};
+  deck.contact->pairs = {{.parts = {"block", "floor"}, .friction = 0.1}};
+  EXPECT_THROW(build_model(deck), BuildError);
 }
 
 TEST(SlidingBlock, StopsOnARigidWallAfterTheDistanceOfCoulomb) {

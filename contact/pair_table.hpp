@@ -1,0 +1,50 @@
+#pragma once
+/// What a scene says about pairs of parts: another coefficient of friction, or that they never touch. Nothing
+/// is kept where nothing is said.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace brio {
+
+struct SurfacePart;
+
+/// A rule for two parts, by their numbers in the surface; for a part and itself where they are the same.
+struct PairRule {
+  int part[2] = {0, 0};
+  std::optional<double> friction{};  ///< Coulomb coefficient; none: that of all
+  bool touch = true;
+};
+
+class PairTable {
+ public:
+  PairTable() = default;
+  /// Later rules for the same pair take the place of earlier ones. A node of several parts counts as one of
+  /// the first.
+  PairTable(std::span<const PairRule> rules, std::span<const SurfacePart> parts, std::size_t node_count);
+
+  /// Whether a node must not touch faces of a part.
+  bool apart(int global_node, int face_part) const {
+    return !apart_.empty() && apart_[place(global_node, face_part)] != 0;
+  }
+  /// Coefficient for a node and faces of a part. \param all  where nothing else is said
+  double friction(int global_node, int face_part, double all) const {
+    return friction_.empty() ? all : friction_[place(global_node, face_part)].value_or(all);
+  }
+
+ private:
+  std::size_t place(int global_node, int face_part) const {
+    return static_cast<std::size_t>(part_of_node_[static_cast<std::size_t>(global_node)]) * parts_ +
+           static_cast<std::size_t>(face_part);
+  }
+
+  std::size_t parts_ = 0;
+  std::vector<int> part_of_node_;                ///< of each global node of the surface's parts
+  std::vector<std::uint8_t> apart_;              ///< of each pair; empty: all may touch
+  std::vector<std::optional<double>> friction_;  ///< of each pair; empty: the same for all
+};
+
+}  // namespace brio

@@ -5,7 +5,8 @@
 /// * Curvature is linear along the element, taken at two Gauss points; shear and twist are constant. Of the
 ///   tilt of the chord, bending takes the share 1 / (1 + Phi), Phi = 12 E I / (k G A L^2), and shear the
 ///   rest, as in the exact solution of a straight elastic beam under end loads: its stiffness is
-///   Timoshenko's.
+///   Timoshenko's. Where fibres flow, the shear force and the slope of the moment would part: what they
+///   differ by moves tilt from one to the other in the next step, so that a hinge does not load the shear.
 /// * Axial strain is logarithmic and the section keeps the volume: the axial force is stress times A L0 / L.
 /// * A node has one moment of inertia about all axes: half of the element's polar moment. Twisting is exact;
 ///   turning across a beam, which has less, matters only where waves are as short as the beam is thick. The
@@ -41,8 +42,10 @@ struct Beam2Kernel : Beam2 {
     T internal_energy;
     Quaternion<T> triad[2];
     BeamStrain<T> strain;
-    T bending_share[2];  ///< of the tilt along y, along z
-    T slack;             ///< strain by which a cable is too long to be straight, not positive
+    T bending_share[2];    ///< of the tilt along y, along z, while elastic
+    T shear_stiffness[2];  ///< elastic, per tilt: k G A L
+    T imbalance[2];        ///< tilt that shear has to take over from bending for both to bear the same
+    T slack;               ///< strain by which a cable is too long to be straight, not positive
     T viscous_force;
   };
   template <class T, class Law>
@@ -66,11 +69,13 @@ struct Beam2Kernel : Beam2 {
     header.triad[0] = header.triad[1] = quaternion_of(e1, cross(e3, e1), e3);
 
     const auto moduli = plane_stress_moduli(law.template moduli<T>(point[0].history));
-    const T stiffness_ratio = 12.0 * moduli.youngs / (moduli.shear * squared);
-    header.bending_share[0] =
-        1.0 / (1.0 + T(s.second_moment_z / (s.shear_factor_y * s.area)) * stiffness_ratio);
-    header.bending_share[1] =
-        1.0 / (1.0 + T(s.second_moment_y / (s.shear_factor_z * s.area)) * stiffness_ratio);
+    const double second_moment[2] = {s.second_moment_z, s.second_moment_y};
+    const double shear_area[2] = {s.shear_factor_y * s.area, s.shear_factor_z * s.area};
+    for (int axis = 0; axis < 2; ++axis) {
+      header.shear_stiffness[axis] = T(shear_area[axis]) * moduli.shear * header.length;
+      const T bending = T(12 * second_moment[axis]) * moduli.youngs / header.length;
+      header.bending_share[axis] = header.shear_stiffness[axis] / (header.shear_stiffness[axis] + bending);
+    }
 
     auto valid = squared > T(2 * no_length<T>);
     if (bends()) valid = valid & (dot(across, across) > 1e-8 * dot(up, up));
@@ -177,10 +182,12 @@ struct Beam2Kernel : Beam2 {
     // Curvature at a Gauss point is the mean and this much of the part that changes its sign in the middle.
     constexpr double gauss_place = 0.57735026918962576;
     const Vector3<T> mean_curvature = per_length * change.bend;
-    const T alternating_y = (6 * gauss_place) * per_length * (share[1] * change.tilt_z);
-    const T alternating_z = (-6 * gauss_place) * per_length * (share[0] * change.tilt_y);
-    const T half_shear_y = 0.5 * (1.0 - share[0]) * change.tilt_y;
-    const T half_shear_z = 0.5 * (1.0 - share[1]) * change.tilt_z;
+    const T shear_change_y = (1.0 - share[0]) * change.tilt_y + header.imbalance[0];
+    const T shear_change_z = (1.0 - share[1]) * change.tilt_z + header.imbalance[1];
+    const T alternating_y = (6 * gauss_place) * per_length * (change.tilt_z - shear_change_z);
+    const T alternating_z = (-6 * gauss_place) * per_length * (change.tilt_y - shear_change_y);
+    const T half_shear_y = 0.5 * shear_change_y;
+    const T half_shear_z = 0.5 * shear_change_z;
     const T half_twist = 0.5 * mean_curvature.x;
     const std::size_t pack_bytes =
         sizeof(Header<T, Law>) + static_cast<std::size_t>(points()) * sizeof(Point<T, Law>);
@@ -217,16 +224,25 @@ struct Beam2Kernel : Beam2 {
     }
     const T area(s.area);
     const T volume = area * header.length;
-    increment.internal_energy = volume * work;
-    increment.hourglass_energy = T(0.0);
-    header.internal_energy += increment.internal_energy;
     BeamLoads<T> loads;
     loads.axial_force = volume * axial * g.inverse_length;
     loads.moment = {area * torque, area * (moment_y[0] + moment_y[1]), area * (moment_z[0] + moment_z[1])};
-    loads.tilt_y = volume * ((1.0 - share[0]) * shear_y) -
-                   (area * (6 * gauss_place)) * (share[0] * (moment_z[1] - moment_z[0]));
-    loads.tilt_z = volume * ((1.0 - share[1]) * shear_z) +
-                   (area * (6 * gauss_place)) * (share[1] * (moment_y[1] - moment_y[0]));
+    const T shear_load[2] = {volume * shear_y, volume * shear_z};
+    const T lever = area * (6 * gauss_place);
+    const T bending_load[2] = {lever * (moment_z[0] - moment_z[1]), lever * (moment_y[1] - moment_y[0])};
+    loads.tilt_y = (1.0 - share[0]) * shear_load[0] + share[0] * bending_load[0];
+    loads.tilt_z = (1.0 - share[1]) * shear_load[1] + share[1] * bending_load[1];
+
+    increment.internal_energy = volume * work;
+    for (int axis = 0; axis < 2; ++axis) {
+      const T before = header.imbalance[axis];
+      const T unit = header.shear_stiffness[axis] / share[axis];
+      header.imbalance[axis] = (bending_load[axis] - shear_load[axis]) / unit;
+      // What the ends feel beyond the work in the fibres.
+      increment.internal_energy += 0.5 * unit * before * (before + header.imbalance[axis]);
+    }
+    increment.hourglass_energy = T(0.0);
+    header.internal_energy += increment.internal_energy;
     return loads;
   }
 

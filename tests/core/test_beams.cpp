@@ -207,6 +207,22 @@ TEST(Beams, ContactOfAllLeavesThemOut) {
   for (int n = 0; n <= 8; ++n) EXPECT_EQ(node_of(model, n).velocity[0], 0) << n;
 }
 
+TEST(Beams, BooksBalanceWhereTheyFold) {
+  const ElasticPlastic law{
+      .density = 7850, .youngs_modulus = 200e9, .poissons_ratio = 0.3, .yield_stress = 300e6};
+  Deck deck = one_line(line("beam", {0, 0, 0}, {1, 0, 0}, 16, square_beam(0.05, 0.06)), 0.02, law);
+  deck.boundary_conditions = {fix("beam.start", {0, 1, 2, 3, 4, 5})};
+  deck.loads = {push("beam.end", {0, 1e4, 2e4})};
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  run(model, deck, team);
+  EXPECT_GT(node_of(model, 16).position[2], 0.3);
+  EXPECT_GT(sample_of(model, 0).equivalent_plastic_strain, 0.05);
+  EXPECT_LT(model.energy.error_max, 1e-4);
+  model.momentum.now = momentum(model.nodes).total;
+  EXPECT_LT(model.momentum.angular_imbalance(), 1e-10);
+}
+
 TEST(Beams, TornOneIsDeletedAndItsHalvesFlyOn) {
   ElasticPlastic law{.density = 1000,
                      .youngs_modulus = 1e9,

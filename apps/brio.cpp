@@ -10,6 +10,7 @@
 #include "io/closest_word.hpp"
 #include "io/deck_error.hpp"
 #include "io/file_error.hpp"
+#include "src/breakdown.hpp"
 
 namespace {
 
@@ -35,7 +36,7 @@ int end_of_parsing(const CLI::App& program, const CLI::ParseError& end, int argu
 
 int main(int argument_count, char** arguments) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a file error like any other, not the end
-  CLI::App program("Brio: explicit transient dynamics of solids and shells with contact", "brio");
+  CLI::App program("Brio: explicit transient dynamics of solids, shells and beams with contact", "brio");
   int exit_code = brio::exit_good;
   program.require_subcommand(1);
   brio::add_run_command(program, exit_code);
@@ -51,6 +52,8 @@ int main(int argument_count, char** arguments) {
     return end_of_parsing(program, end, argument_count, arguments);
   } catch (const brio::DeckError& fault) {
     return complain(fault.what(), brio::exit_bad_input);
+  } catch (const brio::Breakdown& failure) {
+    return complain(std::string("brio: ") + failure.what(), brio::exit_numerical_failure);
   } catch (const brio::FileError& fault) {
     return complain(std::string("brio: ") + fault.what(), brio::exit_file_failure);
   } catch (const std::bad_alloc&) {

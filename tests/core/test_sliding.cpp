@@ -121,7 +121,6 @@ TEST(SlidingBlock, HasTheFrictionOfItsPair) {
 TEST(SlidingBlock, FallsThroughAFloorThatItMustNotTouch) {
   Deck deck = on_floor(sliding_block({0, 0, 0}), 0.3);
   deck.contact->pairs = {{.parts = {"block", "floor"}, .touch = false}};
-  deck.contact->options.audit = true;
   deck.time.end = 0.1;
   Model model = build_model(deck);
   ThreadTeam team(1);

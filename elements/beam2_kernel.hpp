@@ -18,6 +18,7 @@
 #include "elements/beam2.hpp"
 #include "elements/beam_geometry.hpp"
 #include "elements/shell_step.hpp"
+#include "materials/failing.hpp"
 #include "src/base/fetch_ahead.hpp"
 
 namespace brio {
@@ -171,77 +172,107 @@ struct Beam2Kernel : Beam2 {
     return (fibres->second_moment_y + fibres->second_moment_z) / fibres->area;
   }
 
-  /// Update of stress in all fibres; what they sum up to, and their work.
+  /// Curvature at a Gauss point is the mean and this much of the part that changes its sign in the middle.
+  static constexpr double gauss_place = 0.57735026918962576;
+
+  /// What a step adds to the strains of the two cross sections.
+  template <class T>
+  struct SectionChange {
+    T stretch;
+    T curvature_y[2], curvature_z[2];
+    T half_shear_y, half_shear_z, half_twist;
+  };
   template <class T, class Law>
-  BRIO_INLINE BeamLoads<T> stress_loads(const BeamGeometry<T>& g, const BeamStrain<T>& change, const Law& law,
-                                        Header<T, Law>& header, Point<T, Law>* point,
-                                        Increment<T>& increment) const {
-    const FibreSection& s = *fibres;
+  BRIO_INLINE static SectionChange<T> section_change(const BeamStrain<T>& change,
+                                                     const Header<T, Law>& header) {
     const T per_length = 1.0 / header.length;
-    const T(&share)[2] = header.bending_share;
-    // Curvature at a Gauss point is the mean and this much of the part that changes its sign in the middle.
-    constexpr double gauss_place = 0.57735026918962576;
-    const Vector3<T> mean_curvature = per_length * change.bend;
-    const T shear_change_y = (1.0 - share[0]) * change.tilt_y + header.imbalance[0];
-    const T shear_change_z = (1.0 - share[1]) * change.tilt_z + header.imbalance[1];
-    const T alternating_y = (6 * gauss_place) * per_length * (change.tilt_z - shear_change_z);
-    const T alternating_z = (-6 * gauss_place) * per_length * (change.tilt_y - shear_change_y);
-    const T half_shear_y = 0.5 * shear_change_y;
-    const T half_shear_z = 0.5 * shear_change_z;
-    const T half_twist = 0.5 * mean_curvature.x;
+    const T shear_y = (1.0 - header.bending_share[0]) * change.tilt_y + header.imbalance[0];
+    const T shear_z = (1.0 - header.bending_share[1]) * change.tilt_z + header.imbalance[1];
+    const Vector3<T> mean = per_length * change.bend;
+    const T alternating_y = (6 * gauss_place) * per_length * (change.tilt_z - shear_z);
+    const T alternating_z = (-6 * gauss_place) * per_length * (change.tilt_y - shear_y);
+    return {change.stretch,
+            {mean.y - alternating_y, mean.y + alternating_y},
+            {mean.z - alternating_z, mean.z + alternating_z},
+            0.5 * shear_y,
+            0.5 * shear_z,
+            0.5 * mean.x};
+  }
+
+  /// Sums over the fibres of both cross sections, each of which stands for half of the volume, by volume.
+  template <class T>
+  struct FibreSums {
+    T axial, torque, shear_y, shear_z, work;
+    T moment_y[2], moment_z[2];
+  };
+  /// Update of stress in all fibres.
+  template <class T, class Law>
+  BRIO_INLINE FibreSums<T> sum_fibres(const SectionChange<T>& change, const Law& law,
+                                      Point<T, Law>* point) const {
+    const FibreSection& s = *fibres;
     const std::size_t pack_bytes =
         sizeof(Header<T, Law>) + static_cast<std::size_t>(points()) * sizeof(Point<T, Law>);
-
-    T axial(0.0), torque(0.0), shear_y(0.0), shear_z(0.0), work(0.0);
-    T moment_y[2], moment_z[2];
+    FibreSums<T> sum{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), {T(0.0), T(0.0)}, {T(0.0), T(0.0)}};
     for (int station = 0; station < 2; ++station) {
-      const double side = station == 0 ? -1 : 1;
-      const T curvature_y = mean_curvature.y + side * alternating_y;
-      const T curvature_z = mean_curvature.z + side * alternating_z;
       Point<T, Law>* const fibre_point = point + station * s.count;
-      moment_y[station] = moment_z[station] = T(0.0);
       for (int f = 0; f < s.count; ++f) {
         const BeamFibre& fibre = s.fibre[static_cast<std::size_t>(f)];
-        const FibreTensor<T> strain{change.stretch + T(fibre.z) * curvature_y - T(fibre.y) * curvature_z,
-                                    T(fibre.shear_y) * half_shear_y + T(fibre.twist_y) * half_twist,
-                                    T(fibre.shear_z) * half_shear_z + T(fibre.twist_z) * half_twist};
+        const FibreTensor<T> strain{
+            change.stretch + T(fibre.z) * change.curvature_y[station] -
+                T(fibre.y) * change.curvature_z[station],
+            T(fibre.shear_y) * change.half_shear_y + T(fibre.twist_y) * change.half_twist,
+            T(fibre.shear_z) * change.half_shear_z + T(fibre.twist_z) * change.half_twist};
         const FibreTensor<T> before = fibre_point[f].stress;
         FibreTensor<T> stress = before;
         law.update_fibre(strain, stress, fibre_point[f].history);
         fibre_point[f].stress = stress;
         fetch_ahead(reinterpret_cast<std::uintptr_t>(fibre_point + f) + pack_bytes, sizeof(Point<T, Law>));
         const T weight(0.5 * fibre.share);
-        work += weight * (0.5 * (before.xx + stress.xx) * strain.xx + (before.xy + stress.xy) * strain.xy +
-                          (before.xz + stress.xz) * strain.xz);
+        sum.work += weight * (0.5 * (before.xx + stress.xx) * strain.xx +
+                              (before.xy + stress.xy) * strain.xy + (before.xz + stress.xz) * strain.xz);
         const T xx = weight * stress.xx, xy = weight * stress.xy, xz = weight * stress.xz;
-        axial += xx;
-        moment_y[station] += T(fibre.z) * xx;
-        moment_z[station] -= T(fibre.y) * xx;
-        shear_y += T(fibre.shear_y) * xy;
-        shear_z += T(fibre.shear_z) * xz;
-        torque += T(fibre.twist_y) * xy + T(fibre.twist_z) * xz;
+        sum.axial += xx;
+        sum.moment_y[station] += T(fibre.z) * xx;
+        sum.moment_z[station] -= T(fibre.y) * xx;
+        sum.shear_y += T(fibre.shear_y) * xy;
+        sum.shear_z += T(fibre.shear_z) * xz;
+        sum.torque += T(fibre.twist_y) * xy + T(fibre.twist_z) * xz;
       }
     }
-    const T area(s.area);
+    return sum;
+  }
+
+  /// What the stress of this step bears, and its work.
+  template <class T, class Law>
+  BRIO_INLINE BeamLoads<T> stress_loads(const BeamGeometry<T>& g, const BeamStrain<T>& change, const Law& law,
+                                        Header<T, Law>& header, Point<T, Law>* point,
+                                        Increment<T>& increment) const {
+    const FibreSums<T> sum = sum_fibres(section_change(change, header), law, point);
+    const T area(fibres->area);
     const T volume = area * header.length;
     BeamLoads<T> loads;
-    loads.axial_force = volume * axial * g.inverse_length;
-    loads.moment = {area * torque, area * (moment_y[0] + moment_y[1]), area * (moment_z[0] + moment_z[1])};
-    const T shear_load[2] = {volume * shear_y, volume * shear_z};
-    const T lever = area * (6 * gauss_place);
-    const T bending_load[2] = {lever * (moment_z[0] - moment_z[1]), lever * (moment_y[1] - moment_y[0])};
-    loads.tilt_y = (1.0 - share[0]) * shear_load[0] + share[0] * bending_load[0];
-    loads.tilt_z = (1.0 - share[1]) * shear_load[1] + share[1] * bending_load[1];
+    loads.axial_force = volume * sum.axial * g.inverse_length;
+    loads.moment = {area * sum.torque, area * (sum.moment_y[0] + sum.moment_y[1]),
+                    area * (sum.moment_z[0] + sum.moment_z[1])};
+    increment.internal_energy = volume * sum.work;
+    increment.hourglass_energy = T(0.0);
 
-    increment.internal_energy = volume * work;
+    const T shear_load[2] = {volume * sum.shear_y, volume * sum.shear_z};
+    const T lever = area * (6 * gauss_place);
+    const T bending_load[2] = {lever * (sum.moment_z[0] - sum.moment_z[1]),
+                               lever * (sum.moment_y[1] - sum.moment_y[0])};
+    T tilt[2];
     for (int axis = 0; axis < 2; ++axis) {
+      const T share = header.bending_share[axis];
+      tilt[axis] = (1.0 - share) * shear_load[axis] + share * bending_load[axis];
       const T before = header.imbalance[axis];
-      const T unit = header.shear_stiffness[axis] / share[axis];
+      const T unit = header.shear_stiffness[axis] / share;
       header.imbalance[axis] = (bending_load[axis] - shear_load[axis]) / unit;
       // What the ends feel beyond the work in the fibres.
       increment.internal_energy += 0.5 * unit * before * (before + header.imbalance[axis]);
     }
-    increment.hourglass_energy = T(0.0);
+    loads.tilt_y = tilt[0];
+    loads.tilt_z = tilt[1];
     header.internal_energy += increment.internal_energy;
     return loads;
   }
@@ -298,7 +329,7 @@ struct Beam2Kernel : Beam2 {
     const auto moduli = plane_stress_moduli(law.template moduli<T>(point[0].history));
     const FibreTensor<T> before = point[0].stress;
     T strain = change;
-    if (formulation == BeamFormulation::cable) strain = tighten(change, moduli.youngs, header, point);
+    if (formulation == BeamFormulation::cable) strain = tighten(change, moduli.youngs, law, header, point);
     law.update_fibre(FibreTensor<T>{strain, T(0.0), T(0.0)}, point[0].stress, point[0].history);
 
     const T volume = T(fibres->area) * header.length;
@@ -326,9 +357,10 @@ struct Beam2Kernel : Beam2 {
 
   /// Of a change of strain what a cable feels: it unloads to no stress and goes slack from there on.
   template <class T, class Law>
-  BRIO_INLINE static T tighten(T change, T modulus, Header<T, Law>& header, const Point<T, Law>* point) {
+  BRIO_INLINE static T tighten(T change, T modulus, const Law& law, Header<T, Law>& header,
+                               const Point<T, Law>* point) {
     T carried(1.0);
-    if constexpr (requires { point->history.damage; }) carried = max(1.0 - point->history.damage, 1e-3);
+    if constexpr (can_fail<Law>) carried = max(law.carried_share(point->history), 1e-3);
     const T ahead = change + header.slack;
     const T felt = max(ahead, -(point->stress.xx / (carried * modulus)));
     header.slack = ahead - felt;

@@ -60,6 +60,12 @@ struct Failing : Law {
     return history.damage >= T(this->failure->end_of_damage());
   }
 
+  /// Of the stress of the law.
+  template <class T>
+  BRIO_INLINE T carried_share(const History<T>& history) const {
+    return where(has_failed(history), T(0.0), weakens() ? 1.0 - history.damage : T(1.0));
+  }
+
   template <class T>
   BRIO_INLINE void update(const SymmetricTensor<T>& strain_increment, SymmetricTensor<T>& stress,
                           History<T>& history) const {
@@ -108,10 +114,6 @@ struct Failing : Law {
     const auto failed = has_failed(history);
     if (!weakens()) return where(failed, T(0.0), T(1.0));
     return where(failed, T(0.0), 1.0 / where(failed, T(1.0), 1.0 - history.damage));
-  }
-  template <class T>
-  BRIO_INLINE T carried_share(const History<T>& history) const {
-    return where(has_failed(history), T(0.0), weakens() ? 1.0 - history.damage : T(1.0));
   }
   bool weakens() const { return this->failure->damage_growth != DamageGrowth::sudden; }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "materials/elastic_plastic.hpp"
+#include "materials/failing.hpp"
 #include "tests/elements/beam_model.hpp"
 
 namespace brio {
@@ -75,6 +76,27 @@ TEST(Cable, KeepsThePlasticStretch) {
   EXPECT_EQ(cable.force(1).norm(), 0);
   stretch_to(cable, std::exp(plastic + 0.5e-3));
   EXPECT_NEAR(cable.sample().stress.xx / square(direction.x()), 100e6, 1);
+}
+
+TEST(Cable, UnloadsToNothingHoweverItsMaterialFails) {
+  ElasticPlastic deck{.density = 7850, .youngs_modulus = 200e9, .poissons_ratio = 0.3, .yield_stress = 200e6};
+  deck.failure.emplace();
+  for (const DamageGrowth growth : {DamageGrowth::sudden, DamageGrowth::opening}) {
+    deck.failure->damage_growth = growth;
+    deck.failure->tearing_parameter = growth == DamageGrowth::sudden ? std::optional(0.02) : std::nullopt;
+    deck.failure->strain = growth == DamageGrowth::sudden ? std::nullopt : std::optional(0.005);
+    deck.failure->opening_strain = 0.01;
+    SingleBeam<Failing<IsotropicElasticPlastic>> cable(
+        bar(BeamFormulation::cable), Failing<IsotropicElasticPlastic>{deck}, {origin, direction});
+    cable.law.start(cable.points[0].history, 1.0);
+    for (int k = 1; k <= 50; ++k) stretch_to(cable, 1 + 2e-4 * k);  // damaged to the half
+    EXPECT_GT(cable.points[0].history.damage, 0.3);
+    EXPECT_LT(cable.points[0].history.damage, 0.7);
+    EXPECT_GT(cable.points[0].stress.xx, 80e6);
+    stretch_to(cable, 0.9);
+    EXPECT_NEAR(cable.points[0].stress.xx, 0, 1);
+    EXPECT_LT(cable.header.slack, -0.09);
+  }
 }
 
 TEST(Cable, WhipsWithoutEverPushing) {

@@ -2,9 +2,8 @@
 /// Cross sections of beams: what a deck says of them, and the fibres over which a beam sums its stress.
 ///
 /// Axes: x runs along the beam, z is the direction that `orientation` points to, y = z cross x. Fibres give
-/// area and second moments exactly, for halves are integrated by themselves also the fully plastic moments of
-/// rectangles and I sections about their axes; twist is that of Saint-Venant, scaled to the exact torsion
-/// constant.
+/// area and second moments exactly; those of rectangles and I sections stand in halves, which gives the fully
+/// plastic moments as well. Twist is that of Saint-Venant, scaled to the exact torsion constant.
 
 #include <array>
 #include <cstddef>
@@ -21,6 +20,7 @@ constexpr std::string_view fault_of_fibres(int first, int second) {
   return first * second <= most_fibres ? "" : "there are too many fibres; at most 128 are accepted in all";
 }
 inline constexpr Range ring_range{.lower = 2, .upper = 9};
+inline constexpr Range round_fibre_range{.lower = 2, .upper = 64};
 inline constexpr Range fibre_range{.lower = 2, .upper = 18};
 
 struct CircleSection {
@@ -29,9 +29,9 @@ struct CircleSection {
   double radius = 0;
   std::array<int, 2> fibres{2, 12};
   static constexpr auto fields() {
-    return std::tuple{
-        required("radius", &CircleSection::radius, positive, "radius"),
-        optional("fibres", &CircleSection::fibres, fibre_range, "rings (2 to 9), fibres around each (even)")};
+    return std::tuple{required("radius", &CircleSection::radius, positive, "radius"),
+                      optional("fibres", &CircleSection::fibres, round_fibre_range,
+                               "rings (2 to 9), fibres around each (even)")};
   }
   constexpr std::string_view fault() const {
     if (!ring_range.contains(fibres[0])) return "fibres have 2 to 9 rings";
@@ -47,10 +47,10 @@ struct TubeSection {
   double inner_radius = 0;
   std::array<int, 2> fibres{2, 12};
   static constexpr auto fields() {
-    return std::tuple{
-        required("outer_radius", &TubeSection::outer_radius, positive, "radius of the outside"),
-        required("inner_radius", &TubeSection::inner_radius, positive, "radius of the inside"),
-        optional("fibres", &TubeSection::fibres, fibre_range, "rings (2 to 9), fibres around each (even)")};
+    return std::tuple{required("outer_radius", &TubeSection::outer_radius, positive, "radius of the outside"),
+                      required("inner_radius", &TubeSection::inner_radius, positive, "radius of the inside"),
+                      optional("fibres", &TubeSection::fibres, round_fibre_range,
+                               "rings (2 to 9), fibres around each (even)")};
   }
   constexpr std::string_view fault() const {
     if (outer_radius <= inner_radius)

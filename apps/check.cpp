@@ -31,9 +31,9 @@ void print_parts(const Deck& deck, const Model& model) {
 
 std::size_t state_bytes(const Model& model) {
   std::size_t bytes = model.nodes.size() * (sizeof(NodeRecord) + sizeof(NodeVector) + sizeof(double));
-  bytes +=
-      (model.nodes.velocity_before.size() + model.nodes.moment.size() + model.nodes.angular_velocity.size()) *
-      sizeof(NodeVector);
+  bytes += (model.nodes.velocity_before.size() + model.nodes.angular_velocity_before.size() +
+            model.nodes.moment.size() + model.nodes.angular_velocity.size()) *
+           sizeof(NodeVector);
   for (const Block& block : model.blocks)
     bytes += block.state.size() + (block.connectivity.size() + block.lost.size()) * sizeof(int) +
              block.held.size() * sizeof(double);

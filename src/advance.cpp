@@ -252,7 +252,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   book_load_impulses(model);
   if (!model.nodes.velocity_before.empty()) {
     const StageTimer timer(model.stages, Stage::nodes);
-    kinetic = kinetic_energy(model.nodes, model.times.mean(), model.kinetic_sums, team);
+    kinetic = kinetic_energy(model.nodes, model.kinetic_sums, team);
   }
   const KineticEnergy rigid = kinetic_energy(model.rigid);
   energy.kinetic = kinetic.now + rigid.now;

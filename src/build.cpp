@@ -279,7 +279,7 @@ void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
 
 void open_books(Model& model) {
   if (!model.prescribed.empty() || !model.walls.empty() || !model.contacts.empty())
-    model.nodes.velocity_before = AlignedBuffer<NodeVector>(model.nodes.size());
+    model.nodes.keep_velocities_before();
   Momentum start = momentum(model.nodes);
   add_momentum(model.rigid, start);
   model.momentum.start = model.momentum.now = start.total;

@@ -42,9 +42,8 @@ Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& 
     double& velocity =
         turns ? nodes.angular_velocity[node].component[axis] : nodes.record[node].velocity[axis];
     const double inertia = turns ? nodes.rotational_inertia[node] : nodes.mass[node];
-    const double before = turns ? velocity - times.mean() * nodes.moment[node].component[axis] *
-                                                 nodes.angular_velocity[node].component[3]
-                                : nodes.velocity_before[node].component[axis];
+    const double before =
+        (turns ? nodes.angular_velocity_before : nodes.velocity_before)[node].component[axis];
     const double after = given_velocity(given.kind, given.curve, times, before);
     Vector impulse{};
     impulse[axis] = inertia * (after - velocity);

@@ -35,18 +35,20 @@ KineticEnergy accelerate_range(Nodes& nodes, double mean_step, std::size_t begin
 
 KineticEnergy turn_range(Nodes& nodes, double mean_step, std::size_t begin, std::size_t end) {
   Row4 half{}, now{};
+  const bool keep = !nodes.angular_velocity_before.empty();
   for (std::size_t i = begin; i < end; ++i) {
     double* row = nodes.angular_velocity[i].component;
     const Row4 before = load_row(row);
     const Row4 after = before + load_row(nodes.moment[i].component) * (before[3] * mean_step);
     store_row(row, after);
+    if (keep) store_row(nodes.angular_velocity_before[i].component, before);
     half += after * after * nodes.rotational_inertia[i];
     now += before * after * nodes.rotational_inertia[i];
   }
   return {0.5 * sum3(half), 0.5 * sum3(now)};
 }
 
-KineticEnergy energy_of_range(const Nodes& nodes, double mean_step, std::size_t begin, std::size_t end) {
+KineticEnergy energy_of_range(const Nodes& nodes, std::size_t begin, std::size_t end) {
   Row4 half{}, now{};
   for (std::size_t i = begin; i < end; ++i) {
     const Row4 after = load_row(nodes.record[i].velocity);
@@ -56,10 +58,7 @@ KineticEnergy energy_of_range(const Nodes& nodes, double mean_step, std::size_t 
   if (nodes.has_rotations()) {
     for (std::size_t i = begin; i < end; ++i) {
       const Row4 after = load_row(nodes.angular_velocity[i].component);
-      Row4 before = after - load_row(nodes.moment[i].component) * (after[3] * mean_step);
-      if (!nodes.prescribed.empty())
-        for (int axis = 0; axis < 3; ++axis)
-          if ((nodes.prescribed[i] >> (axis + 3) & 1) != 0) before[axis] = after[axis];
+      const Row4 before = load_row(nodes.angular_velocity_before[i].component);
       half += after * after * nodes.rotational_inertia[i];
       now += before * after * nodes.rotational_inertia[i];
     }
@@ -82,10 +81,9 @@ KineticEnergy accelerate(Nodes& nodes, double mean_step, std::span<KineticEnergy
   return total(sums);
 }
 
-KineticEnergy kinetic_energy(const Nodes& nodes, double mean_step, std::span<KineticEnergy> sums,
-                             ThreadTeam& team) {
+KineticEnergy kinetic_energy(const Nodes& nodes, std::span<KineticEnergy> sums, ThreadTeam& team) {
   team.for_ranges(nodes.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
-    sums[begin / nodes_per_range] = energy_of_range(nodes, mean_step, begin, end);
+    sums[begin / nodes_per_range] = energy_of_range(nodes, begin, end);
   });
   return total(sums);
 }

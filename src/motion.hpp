@@ -22,13 +22,12 @@ struct KineticEnergy {
   double now = 0;   ///< m v-.v+/2, at the step
 };
 
-/// v += f/m times the mean of the steps before and after; keeps v- where nodes.velocity_before is allocated.
+/// v += f/m times the mean of the steps before and after; keeps v- where there is room for it.
 /// \param sums scratch, one a range
 KineticEnergy accelerate(Nodes& nodes, double mean_step, std::span<KineticEnergy> sums, ThreadTeam& team);
 
-/// Kinetic energy after supports, walls and contact have changed velocities.
-KineticEnergy kinetic_energy(const Nodes& nodes, double mean_step, std::span<KineticEnergy> sums,
-                             ThreadTeam& team);
+/// Kinetic energy after supports, walls and contact have changed velocities; needs those kept before.
+KineticEnergy kinetic_energy(const Nodes& nodes, std::span<KineticEnergy> sums, ThreadTeam& team);
 
 /// x += v times the step; forces are cleared for the next one.
 void move(Nodes& nodes, double step, ThreadTeam& team);

@@ -33,6 +33,7 @@ struct Nodes {
   /// Velocities at the half step before, for the work of impulses; empty where nothing but forces acts on
   /// nodes.
   AlignedBuffer<NodeVector> velocity_before;
+  AlignedBuffer<NodeVector> angular_velocity_before;  ///< likewise, where there are rotations
 
   Nodes() = default;
   Nodes(std::size_t count, bool with_rotations)
@@ -44,6 +45,11 @@ struct Nodes {
         rotational_inertia(with_rotations ? count : 0) {}
 
   std::size_t size() const { return record.size(); }
+  /// From now on velocities of the half step before are kept.
+  void keep_velocities_before() {
+    velocity_before = AlignedBuffer<NodeVector>(size());
+    if (has_rotations()) angular_velocity_before = AlignedBuffer<NodeVector>(size());
+  }
   /// Inverse mass as contact and walls see it along one axis: 0 where the motion is prescribed.
   double free_inverse_mass(std::size_t node, int axis) const {
     if (!prescribed.empty() && (prescribed[node] >> axis & 1) != 0) return 0;

@@ -594,7 +594,6 @@ Deck bent_strip(double failed_points) {
   turn.components.push_back({2, Curve{{{0, 0}}}});
   deck.boundary_conditions = {fix("strip.xmin", {0, 1, 2, 3, 4, 5}), turn};
   deck.time.end = 1;
-  deck.numerics.energy_error_limit = 1;
   return deck;
 }
 TEST(Erosion, ShellGoesWhenTheChosenShareOfItsPointsHasFailed) {

@@ -14,6 +14,8 @@
 #include "elements/hex8.hpp"
 #include "elements/hex8_full.hpp"
 #include "elements/motion.hpp"
+#include "elements/particle.hpp"
+#include "elements/particle_cloud.hpp"
 #include "elements/rigid.hpp"
 #include "elements/shell4.hpp"
 #include "materials/material.hpp"
@@ -23,7 +25,7 @@
 namespace brio {
 
 /// The kinds that a deck can name.
-using Element = std::variant<Hex8, Hex8Full, Shell4, Beam2, Rigid>;
+using Element = std::variant<Hex8, Hex8Full, Shell4, Beam2, Particle, Rigid>;
 
 inline int nodes_per_element(const Element& element) {
   return std::visit([](const auto& kind) { return kind.nodes; }, element);
@@ -65,6 +67,10 @@ struct BlockKernel {
   void (*initialize)(Block&, Nodes&);
   ElementSample (*sample)(const Block&, const Nodes&, std::size_t element);
   double (*mass)(const Block&, std::size_t element);
+  /// Second part of the sweep, when all first parts are done: forces between elements, added to nodes.force
+  /// of a chunk's own nodes. Null for elements that act on their own nodes alone.
+  /// \returns work since the last step that no first part has booked.
+  double (*exchange)(Block&, Chunk, Nodes&, double step);
 };
 
 struct Block {
@@ -78,8 +84,9 @@ struct Block {
   int lanes = 0;                  ///< elements to a pack
   std::size_t pack_count = 0;
   std::size_t pack_bytes = 0;
-  AlignedBuffer<int> connectivity;  ///< [pack][node][lane]; padding lanes repeat the last element
-  AlignedBuffer<std::byte> state;   ///< [pack][component][lane]
+  AlignedBuffer<int> connectivity;     ///< [pack][node][lane]; padding lanes repeat the last element
+  AlignedBuffer<std::byte> state;      ///< [pack][component][lane]
+  std::optional<ParticleCloud> cloud;  ///< of particles
 
   Deletion deletion;
   /// Whether an element can be deleted at all: by failure of the material or by what `deletion` names. The
@@ -103,6 +110,9 @@ bool accepts(const Element& element, const Material& material);
 /// \throws std::invalid_argument if the law does not fit the element.
 Block make_block(std::string part, const Element& element, const Material& material, Precision precision,
                  std::span<const int> connectivity, const std::optional<Deletion>& deletion = {});
+
+/// Half of the spacing that a particle's mass and density give it: the distance at which it touches.
+double contact_radius(const Block& block, const Nodes& nodes, std::size_t particle);
 
 /// Energy that an element has received. \pre block.loses_elements
 struct HeldEnergy {

@@ -52,7 +52,8 @@ struct ElementSample {
   double damage = 0;                     ///< largest over the points
   double internal_energy = 0;
   double thickness = 0;  ///< shells; 0 for others
-  double radius = 0;     ///< beams; 0 for others
+  double radius = 0;     ///< beams and particles; 0 for others
+  double density = 0;    ///< particles; 0 for others
 };
 
 template <class Element, class T>

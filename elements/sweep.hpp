@@ -197,6 +197,19 @@ BRIO_INLINE void fetch_next_state(const Block& block, const Kind& kind, std::siz
   }
 }
 
+/// Keeps the smallest of the first `count` lanes, and where it is.
+template <Floating Real>
+BRIO_INLINE void note_stable_step(Lanes<Real> stable_step, std::size_t pack, int count, SweepResult& result) {
+  // Not "any smaller": a step that is not a number must count as the smallest of all.
+  if (all(stable_step >= Lanes<Real>(result.stable_step))) return;
+  for (int lane = 0; lane < count; ++lane) {
+    const double candidate = static_cast<double>(stable_step[lane]);
+    if (candidate >= result.stable_step || result.stable_step <= 0) continue;
+    result.stable_step = std::isnan(candidate) ? -1.0 : candidate;
+    result.critical_element = pack * lane_count<Real> + static_cast<std::size_t>(lane);
+  }
+}
+
 template <class Kind, class Law, Floating Real>
 SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   using T = Lanes<Real>;
@@ -240,15 +253,7 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
     internal_energy.add(increment.internal_energy, count);
     hourglass_energy.add(increment.hourglass_energy, count);
     viscous_energy.add(increment.viscous_energy, count);
-    // Not "any smaller": a step that is not a number must count as the smallest of all.
-    if (!all(increment.stable_step >= T(result.stable_step))) {
-      for (int lane = 0; lane < count; ++lane) {
-        const double candidate = static_cast<double>(increment.stable_step[lane]);
-        if (candidate >= result.stable_step || result.stable_step <= 0) continue;
-        result.stable_step = std::isnan(candidate) ? -1.0 : candidate;
-        result.critical_element = pack * width + static_cast<std::size_t>(lane);
-      }
-    }
+    note_stable_step<Real>(increment.stable_step, pack, count, result);
   }
   result.internal_energy = internal_energy.sum();
   result.hourglass_energy = hourglass_energy.sum();
@@ -366,7 +371,7 @@ template <class Kind, class Law, Floating Real>
 void set_kernel(Block& block) {
   block.pack_bytes = PackLayout<Kind, Law, Real>::bytes(kernel_of<Kind>(block.element));
   block.kernel = {sweep_chunk<Kind, Law, Real>, initialize_block<Kind, Law, Real>,
-                  sample_element<Kind, Law, Real>, mass_of_element<Kind, Law, Real>};
+                  sample_element<Kind, Law, Real>, mass_of_element<Kind, Law, Real>, nullptr};
   block.loses_elements = can_fail<Law> || block.deletion.names_a_criterion();
 }
 
@@ -420,6 +425,7 @@ void choose_kernel(const Hex8&, Block& block);
 void choose_kernel(const Shell4&, Block& block);
 void choose_kernel(const Hex8Full&, Block& block);
 void choose_kernel(const Beam2&, Block& block);
+void choose_kernel(const Particle&, Block& block);
 inline void choose_kernel(const Rigid&, Block&) {}  // nothing is swept
 
 }  // namespace brio

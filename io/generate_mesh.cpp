@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "io/particle_mesh.hpp"
 #include "io/section_mesh.hpp"
 #include "io/sphere_mesh.hpp"
 
@@ -146,6 +147,8 @@ Mesh mesh_of(const LineMesh& line) {
   return mesh;
 }
 
+Mesh mesh_of(const ParticleMesh& fill) { return particle_mesh(fill); }
+
 /// Cosine and sine of an angle in degrees; exact for quarter turns.
 std::array<double, 2> cosine_and_sine(double degrees) {
   const double turn = std::remainder(degrees, 360);
@@ -184,6 +187,7 @@ Names node_names(const WedgeMesh& wedge) {
 Names node_names(const SphereMesh&) { return {"all", "outside"}; }
 Names node_names(const HollowSphereMesh&) { return {"all"}; }
 Names node_names(const LineMesh&) { return {"all", "end", "start"}; }
+Names node_names(const ParticleMesh& fill) { return particle_set_names(fill); }
 
 }  // namespace
 
@@ -201,6 +205,7 @@ Mesh generate_mesh(const MeshSource& source, const Placement& placement) {
 
 int nodes_per_element(const MeshSource& source) {
   if (std::holds_alternative<LineMesh>(source)) return 2;
+  if (std::holds_alternative<ParticleMesh>(source)) return 1;
   const bool shell = std::holds_alternative<PlateMesh>(source) ||
                      std::holds_alternative<CylinderMesh>(source) ||
                      std::holds_alternative<HollowSphereMesh>(source);
@@ -212,7 +217,7 @@ std::vector<std::string_view> node_set_names(const MeshSource& source) {
 }
 
 std::vector<std::string_view> side_set_names(const MeshSource& source) {
-  if (nodes_per_element(source) == 2) return {};  // lines have no sides
+  if (nodes_per_element(source) <= 2) return {};  // lines and particles have no sides
   if (nodes_per_element(source) == 4) return {"all"};
   return node_set_names(source);
 }

@@ -5,6 +5,18 @@
 
 namespace brio {
 
+namespace {
+
+void check_precision(const Deck& deck, const YamlNode& root) {
+  if (deck.numerics.precision == Precision::double_precision) return;
+  for (const Part& part : deck.parts)
+    if (std::holds_alternative<Particle>(part.element))
+      throw DeckError(root.find("numerics")->value->find("precision")->value->place,
+                      "part '" + part.name + "' is of particles, which are computed in double only");
+}
+
+}  // namespace
+
 Deck read_deck(const std::string& path, const std::vector<std::string>& overrides) {
   return parse_deck(read_text_file(path), path, overrides);
 }
@@ -20,6 +32,7 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
   deck.file = name;
   const KnownNames known(deck);
   read_fields(*root, Slot{"deck", any_number, known}, deck);
+  check_precision(deck, *root);
   deck.text = overrides.empty() ? text : write_yaml(*root);
   return deck;
 }

@@ -47,10 +47,10 @@ void check_deletion(const YamlEntry& entry, const Part& part, const Material& ma
     throw DeckError(entry.place, "deletion by plastic_strain, but the material model '" +
                                      std::string(name_of(material)) +
                                      "' has none; a plastic one is accepted");
-  if (part.deletion->debris_radius && std::holds_alternative<Beam2>(part.element))
-    throw DeckError(
-        entry.place,
-        "debris_radius of a part of beams, which touch nothing; parts of solids or shells are accepted");
+  if (part.deletion->debris_radius && nodes_per_element(part.element) <= 2)
+    throw DeckError(entry.place, "debris_radius of a part of elements '" +
+                                     std::string(name_of(part.element)) +
+                                     "', which touch nothing; parts of solids or shells are accepted");
   for (const auto& [named, criterion] : {std::pair{part.deletion->volume_ratio.has_value(), "volume_ratio"},
                                          std::pair{part.deletion->corner_inverted, "corner_inverted"}})
     if (named && nodes_per_element(part.element) != 8)
@@ -94,7 +94,7 @@ void read_value(const YamlNode& node, const Slot& slot, Part& part) {
   const Place& place = node.find("element")->value->place;
   const std::string kind(name_of(part.element));
   if (const auto* rigid = std::get_if<Rigid>(&part.element)) {
-    if (nodes_per_element(part.mesh) == 2) refuse_element(part, place);
+    if (nodes_per_element(part.mesh) <= 2) refuse_element(part, place);
     check_thickness(*rigid, part.mesh, place);
     if (part.deletion) check_deletion(*node.find("deletion"), part, material);
     return;

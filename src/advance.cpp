@@ -1,5 +1,6 @@
 #include "src/advance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "contact/audit.hpp"
@@ -43,6 +44,19 @@ void book_load_impulses(Model& model) {
   if (!model.rigid.empty()) add(weight(model.rigid));
 }
 
+// Forces of particles on each other, once all have told theirs.
+void exchange_between_elements(Model& model, ThreadTeam& team) {
+  const auto exchanges = [](const Block& block) { return block.kernel.exchange != nullptr; };
+  if (std::none_of(model.blocks.begin(), model.blocks.end(), exchanges)) return;
+  team.for_each(model.schedule.tasks.size(), [&](std::size_t t) {
+    const SweepTask& task = model.schedule.tasks[t];
+    Block& block = model.blocks[task.block];
+    if (exchanges(block))
+      model.sweep_results[t].hourglass_energy +=
+          block.kernel.exchange(block, task.chunk, model.nodes, model.times.previous);
+  });
+}
+
 // Internal forces by colours of chunks; sums and the stable step in the order of tasks.
 void sweep_elements(Model& model, ThreadTeam& team) {
   const StageTimer timer(model.stages, Stage::elements);
@@ -56,6 +70,7 @@ void sweep_elements(Model& model, ThreadTeam& team) {
           block.kernel.sweep(block, task.chunk, model.nodes, model.times.previous);
     });
   }
+  exchange_between_elements(model, team);
   model.control.stable = HUGE_VAL;
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
     const SweepResult& result = model.sweep_results[t];

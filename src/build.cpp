@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "src/build_rigid.hpp"
+#include "src/particles.hpp"
 
 namespace brio {
 
@@ -81,11 +82,20 @@ void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connecti
   }
 }
 
-void lump_masses(Model& model) {
+// By place in the block.
+std::vector<double> particle_volumes(const Mesh& mesh, const PartInModel& part) {
+  std::vector<double> volume;
+  for (const int e : part.element_order) volume.push_back(mesh.volume[static_cast<std::size_t>(e)]);
+  return volume;
+}
+
+void lump_masses(std::span<const Mesh> meshes, Model& model) {
   Nodes& nodes = model.nodes;
   for (std::size_t p = 0; p < model.blocks.size(); ++p) {
     if (model.parts[p].rigid >= 0) continue;
     try {
+      if (!meshes[p].volume.empty())
+        find_neighbours(model.blocks[p], particle_volumes(meshes[p], model.parts[p]), nodes);
       model.blocks[p].kernel.initialize(model.blocks[p], nodes);
     } catch (const std::invalid_argument& fault) {
       throw BuildError(fault.what());
@@ -238,7 +248,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Part& part = deck.parts[p];
     if (!takes_part(*deck.contact, part.name)) continue;
-    if (meshes[p].nodes_per_element == 2) continue;  // beams touch nothing
+    if (meshes[p].nodes_per_element <= 2) continue;  // beams and particles touch nothing
     const bool shell = meshes[p].nodes_per_element == 4;
     const std::size_t shells = shell ? meshes[p].element_count() : 0;
     if (model.surface_numbers) {
@@ -307,7 +317,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   make_rigid_bodies(deck, meshes, model);
   constrain(deck, meshes, model);
   make_contact(deck, meshes, connectivity, model);
-  lump_masses(model);
+  lump_masses(meshes, model);
   model.schedule = make_schedule(model.blocks, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());
   if (can_erode(model.blocks)) model.erosion = make_erosion(model.blocks, model.nodes.size());

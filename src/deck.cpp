@@ -34,6 +34,30 @@ std::string_view WedgeMesh::fault() const {
   return fault_of_size(elements[0], elements[1], elements[2]);
 }
 
+std::string_view ParticleMesh::fault() const {
+  if (box.has_value() + cylinder.has_value() + sphere.has_value() != 1)
+    return "the shape is not said once; accepted is one of box, cylinder and sphere";
+  Triple cells{};
+  double spacing = 0;
+  if (box) cells = box->size, spacing = box->spacing;
+  if (cylinder) {
+    cells = {2 * cylinder->radius, 2 * cylinder->radius, cylinder->height}, spacing = cylinder->spacing;
+    if (cylinder->radius - cylinder->inner_radius < spacing)
+      return "the wall is thinner than the spacing; a smaller spacing is accepted";
+  }
+  if (sphere) {
+    cells = {2 * sphere->radius, 2 * sphere->radius, 2 * sphere->radius}, spacing = sphere->spacing;
+    if (sphere->radius < spacing) return "the radius is below the spacing; a smaller spacing is accepted";
+  }
+  for (const double cell : cells)
+    if (cell < 1.5 * spacing)
+      return "there is but one particle along an axis; at least two are accepted, of a smaller spacing";
+  std::array<std::int64_t, 3> count{};
+  for (std::size_t i = 0; i < 3; ++i)
+    count[i] = static_cast<std::int64_t>(std::min(cells[i] / spacing + 2, 0x1p30));
+  return fault_of_size(count[0], count[1], count[2]);
+}
+
 double Curve::operator()(double time) const {
   const std::size_t next = next_point(points, time);
   if (next == 0) return points.front()[1];

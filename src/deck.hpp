@@ -213,8 +213,63 @@ struct LineMesh {
   }
 };
 
+/// Sets: xmin xmax ymin ymax zmin zmax (the outermost layers), bottom (= zmin), top, all.
+struct ParticleBox {
+  Triple size{};
+  double spacing = 0;
+  static constexpr auto fields() {
+    return std::tuple{required("size", &ParticleBox::size, positive, "edge lengths along x, y, z"),
+                      required("spacing", &ParticleBox::spacing, positive,
+                               "of the particles; rounded to what divides the edges")};
+  }
+};
+/// Sets: bottom top (the outermost layers), all.
+struct ParticleCylinder {
+  double radius = 0;
+  double height = 0;
+  double spacing = 0;
+  double inner_radius = 0;
+  static constexpr auto fields() {
+    return std::tuple{
+        required("radius", &ParticleCylinder::radius, positive, "radius"),
+        required("height", &ParticleCylinder::height, positive, "length along z"),
+        required("spacing", &ParticleCylinder::spacing, positive,
+                 "of the particles; along z rounded to what divides the height"),
+        optional("inner_radius", &ParticleCylinder::inner_radius, non_negative, "radius of a hole")};
+  }
+  constexpr std::string_view fault() const {
+    return radius <= inner_radius ? "the wall has no thickness; radius must exceed inner_radius" : "";
+  }
+};
+/// Set: all.
+struct ParticleSphere {
+  double radius = 0;
+  double spacing = 0;
+  static constexpr auto fields() {
+    return std::tuple{required("radius", &ParticleSphere::radius, positive, "radius"),
+                      required("spacing", &ParticleSphere::spacing, positive, "of the particles")};
+  }
+};
+
+/// Particles on a cubic lattice inside a shape; their volumes sum up to that of the shape.
+struct ParticleMesh {
+  static constexpr std::string_view name = "particles";
+  static constexpr std::string_view meaning =
+      "particles on a cubic lattice inside a shape, whose volume they share; one of the shapes";
+  std::optional<ParticleBox> box;
+  std::optional<ParticleCylinder> cylinder;
+  std::optional<ParticleSphere> sphere;
+  static constexpr auto fields() {
+    return std::tuple{optional("box", &ParticleMesh::box, any_number, "a box centred on the origin"),
+                      optional("cylinder", &ParticleMesh::cylinder, any_number,
+                               "a cylinder or a tube about the z axis, from z = 0 to the height"),
+                      optional("sphere", &ParticleMesh::sphere, any_number, "a sphere about the origin")};
+  }
+  std::string_view fault() const;
+};
+
 using MeshSource = std::variant<BoxMesh, PlateMesh, CylinderMesh, TubeMesh, RodMesh, WedgeMesh, SphereMesh,
-                                HollowSphereMesh, LineMesh>;
+                                HollowSphereMesh, LineMesh, ParticleMesh>;
 
 // ---- parts
 // ---------------------------------------------------------------------------------------------------

@@ -97,6 +97,7 @@ void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResul
       ++erosion.deleted_count[task.block];
       book(block, place, energy);
       leave_nodes(erosion, block, place);
+      if (block.cloud) cut_particle(*block.cloud, block.node(place, 0) - block.cloud->first_node);
       fill_place(block, task.chunk, place, part);
     }
     const std::size_t first = task.chunk.first_pack * static_cast<std::size_t>(block.lanes);

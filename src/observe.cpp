@@ -17,20 +17,23 @@ FieldArray field(std::string name, int components, std::size_t count,
 
 bool is_shell(const Element& element) { return has_rotations(element) && nodes_per_element(element) == 4; }
 
-bool has_beams(const Model& model) {
+template <class Kind>
+bool has(const Model& model) {
   return std::any_of(model.blocks.begin(), model.blocks.end(),
-                     [](const Block& block) { return std::holds_alternative<Beam2>(block.element); });
+                     [](const Block& block) { return std::holds_alternative<Kind>(block.element); });
 }
 
 CellType cell_of(int corners) {
   if (corners == 8) return hexahedron_cell;
-  return corners == 4 ? quadrilateral_cell : line_cell;
+  if (corners == 4) return quadrilateral_cell;
+  return corners == 2 ? line_cell : vertex_cell;
 }
 
 std::int64_t& count_of(const Element& element, Summary::ElementCounts& counts) {
   const int corners = nodes_per_element(element);
   if (corners == 8) return counts.hex8;
-  return corners == 4 ? counts.shell4 : counts.beam2;
+  if (corners == 4) return counts.shell4;
+  return corners == 2 ? counts.beam2 : counts.particle;
 }
 
 bool has_shells(const Model& model) {
@@ -103,7 +106,8 @@ FieldObserver::FieldObserver(const Model& model) : point_of_node_(model.nodes.si
     return snapshot_.cell_fields.size() - 1;
   };
   if (has_shells(model)) thickness_ = add_cell_field("thickness");
-  if (has_beams(model)) radius_ = add_cell_field("radius");
+  if (has<Beam2>(model) || has<Particle>(model)) radius_ = add_cell_field("radius");
+  if (has<Particle>(model)) density_ = add_cell_field("density");
   if (can_be_damaged(model)) damage_ = add_cell_field("damage");
   take_topology(model);
   fill_points(model);
@@ -176,6 +180,7 @@ void FieldObserver::fill_cells(const Model& model) {
       snapshot_.cell_fields[3].values[cell] = static_cast<double>(e);
       if (thickness_) snapshot_.cell_fields[*thickness_].values[cell] = sample.thickness;
       if (radius_) snapshot_.cell_fields[*radius_].values[cell] = sample.radius;
+      if (density_) snapshot_.cell_fields[*density_].values[cell] = sample.density;
       if (damage_) snapshot_.cell_fields[*damage_].values[cell] = sample.damage;
       ++cell;
     }

@@ -32,8 +32,9 @@ class FieldObserver {
   Snapshot snapshot_;
   std::vector<int> node_of_point_;
   std::vector<std::int64_t> point_of_node_;
-  std::int64_t deleted_ = 0;                                ///< elements, when the topology was taken
-  std::optional<std::size_t> thickness_, radius_, damage_;  ///< places of these among the cell fields
+  std::int64_t deleted_ = 0;  ///< elements, when the topology was taken
+  std::optional<std::size_t> thickness_, radius_, density_,
+      damage_;  ///< places of these among the cell fields
   std::vector<double> reference_;
 };
 

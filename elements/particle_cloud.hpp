@@ -1,0 +1,116 @@
+#pragma once
+/// What the particles of a block know of each other: pairs, weights, gradients over them, and pair forces.
+///
+/// With the pair vectors X_ij = X_j - X_i at the start, symmetric weights s_ij = V_i V_j (-W'(r) / r) of the
+/// cubic B-spline W, and K_i = (sum_j s_ij X_ij X_ij^T)^-1, the corrected kernel gradient (Randles &
+/// Libersky 1996, Bonet & Lok 1999) gives
+///
+///     F_i = (sum_j s_ij x_ij X_ij^T) K_i,
+///
+/// exact for linear fields whatever the neighbourhood. It is at the same time the weighted least-squares fit
+/// of the neighbourhood's motion, so that the residuals e_ij = x_ij - F_i X_ij, which F_i does not see, obey
+/// sum_j s_ij e_ij X_ij^T = 0. Forces are the gradient of
+///
+///     sum_i ( V_i w(F_i) + k_i/2 sum_j s_ij e_ij.e_ij ),
+///
+///     f_i = sum_j s_ij ( (A_i + A_j) X_ij + (k_i + k_j) x_ij ),     A_i = V_i P_i K_i - k_i F_i,
+///
+/// the second term holding motions without strain energy (as in Silling 2017, eq. 25, whose correspondence
+/// model this is). Pair forces are opposite, and the energy does not change in a rotation: both momenta are
+/// kept to rounding.
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "materials/stress_state.hpp"
+#include "src/base/aligned.hpp"
+#include "src/base/lanes.hpp"
+#include "src/base/nodes.hpp"
+
+namespace brio {
+
+/// s X and s of one neighbour.
+struct alignas(32) ParticlePair {
+  double weighted[4];
+};
+
+/// What a particle tells its neighbours: columns of A; in the fourth place of the first k, and of the second
+/// the viscosity of the eulerian form.
+struct alignas(32) ParticleForce {
+  double column[3][4];
+};
+
+/// Sums over the neighbours of the particles of a pack, one a lane.
+struct alignas(64) NeighbourSums {
+  double position[3][3][lane_count<double>];        ///< sum of s x X^T
+  double velocity[3][3][lane_count<double>];        ///< sum of s v X^T
+  double position_by_velocity[lane_count<double>];  ///< sum of s x.v
+  double velocity_squared[lane_count<double>];      ///< sum of s v.v
+  double correction[6][lane_count<double>];         ///< K: xx yy zz xy yz xz
+  double volume[lane_count<double>];                ///< at the start
+  double spacing[lane_count<double>];
+  double hourglass_weight[lane_count<double>];   ///< 3 / sum of s X.X, by which a modulus makes k
+  double frequency_squared[lane_count<double>];  ///< bound of the undeformed neighbourhood
+};
+
+/// Edge of a cube. Volumes in units of eight times each other have edges of the same bits, which is not so of
+/// std::cbrt.
+inline double edge_of_cube(double volume) {
+  const int exponent = volume > 0 ? std::ilogb(volume) : 0;
+  const int third = (exponent - (exponent % 3 + 3) % 3) / 3;
+  return std::ldexp(std::cbrt(std::ldexp(volume, -3 * third)), third);
+}
+
+struct ParticleCloud {
+  int first_node = 0;                ///< particle i is node first_node + i
+  AlignedBuffer<double> volume;      ///< at the start
+  AlignedBuffer<double> spacing;     ///< its cube root
+  AlignedBuffer<std::size_t> first;  ///< of a particle's neighbours
+  AlignedBuffer<int> count;
+  AlignedBuffer<int> neighbour;
+  AlignedBuffer<ParticlePair> pair;
+  AlignedBuffer<SymmetricTensor<double>> correction;  ///< K; 0 where a particle has lost its support
+  AlignedBuffer<double> hourglass_weight;
+  AlignedBuffer<double> gradient_size;  ///< sum of |s K X|, which bounds the stiffness of a particle
+  AlignedBuffer<ParticleForce> force;
+  double largest_gradient_size = 0;  ///< at the start
+  double frequency_squared = 0;      ///< the highest, at the start
+
+  // Of the eulerian form, whose pair vectors and weights are those of now: empty in the other.
+  double smoothing = 0;                         ///< length at the start over the spacing
+  double skin = 0;                              ///< by which neighbours are searched further
+  AlignedBuffer<double> smoothing_length;       ///< now
+  AlignedBuffer<double> next_smoothing_length;  ///< of the step that follows
+  AlignedBuffer<NodeVector> repulsion;          ///< on each particle, against clumps
+  AlignedBuffer<NodeVector> searched_at;        ///< positions of the last search
+  bool is_eulerian() const { return !smoothing_length.empty(); }
+
+  std::size_t size() const { return volume.size(); }
+};
+
+/// Pairs closer than twice the mean of their smoothing lengths, of lists that hold at least these.
+/// \param volume of each particle
+/// \param first, candidates of particle i are candidate[first[i]] to candidate[first[i + 1] - 1]
+/// \param smoothing smoothing length over the cube root of the volume
+/// \throws std::invalid_argument naming a particle without neighbours in three directions
+ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume, std::span<const int> first,
+                                  std::span<const int> candidate, double smoothing, const Nodes& nodes);
+
+/// Sums for `count` particles of a pack; the lanes behind repeat the last.
+void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
+                         NeighbourSums& sums);
+
+/// Adds the pair forces on `count` particles to nodes.force.
+void add_pair_forces(const ParticleCloud& cloud, Nodes& nodes, const int* node, int count);
+
+/// Takes a particle out of its neighbours' lists.
+void cut_particle(ParticleCloud& cloud, int particle);
+
+/// The highest frequency, squared, of the linear elastic cloud at the start, by Lanczos' method, with a
+/// margin for what that has not found.
+double highest_frequency_squared(ParticleCloud& cloud, const Nodes& nodes,
+                                 const ElasticModuli<double>& moduli, double hourglass_modulus);
+
+}  // namespace brio

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "contact/audit_lines.hpp"
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
+#include "contact/winding.hpp"
 
 namespace brio {
 
@@ -32,14 +33,6 @@ struct Box {
 Box box_of(const FaceVertices& v) {
   return {v[0].cwiseMin(v[1]).cwiseMin(v[2]).cwiseMin(v[3]),
           v[0].cwiseMax(v[1]).cwiseMax(v[2]).cwiseMax(v[3])};
-}
-
-// Signed solid angle of a triangle, as a share of the full sphere (Van Oosterom and Strackee 1983).
-double solid_angle_share(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const double la = a.norm(), lb = b.norm(), lc = c.norm();
-  const double volume = a.dot(b.cross(c));
-  const double sum = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
-  return std::atan2(volume, sum) / (2 * std::numbers::pi);
 }
 
 class Auditor {
@@ -73,6 +66,15 @@ class Auditor {
         break;
       }
     if (found.deepest > 0) found.deepest_node = surface_.node[s];
+    return found;
+  }
+
+  // Beams that cross shells.
+  Audit of_round(int index) const {
+    Audit found;
+    const RoundElement& element = surface_.round[static_cast<std::size_t>(index)];
+    if (element.alive() && !element.is_point() && pierces_shell(element.node[0], element.node[1]))
+      ++found.shells_pierced;
     return found;
   }
 
@@ -158,15 +160,7 @@ class Auditor {
 
   double winding(int body, const Vector3d& x) const {
     double sum = 0;
-    for (std::size_t f : solid_of_[static_cast<std::size_t>(body)]) {
-      const FaceVertices& v = corners_[f];
-      if (is_triangle(v)) {
-        sum += solid_angle_share(v[0] - x, v[1] - x, v[2] - x);
-        continue;
-      }
-      const Vector3d middle = 0.25 * ((v[0] - x) + (v[1] - x) + (v[2] - x) + (v[3] - x));
-      for (std::size_t k = 0; k < 4; ++k) sum += solid_angle_share(middle, v[k] - x, v[(k + 1) % 4] - x);
-    }
+    for (std::size_t f : solid_of_[static_cast<std::size_t>(body)]) sum += winding_share(corners_[f], x);
     return sum;
   }
 
@@ -214,6 +208,7 @@ void add_to(Audit& sum, const Audit& other) {
   sum.inside_solids += other.inside_solids;
   sum.shells_too_close += other.shells_too_close;
   sum.shells_pierced += other.shells_pierced;
+  sum.lines_crossed += other.lines_crossed;
   if (other.deepest > sum.deepest) {
     sum.deepest = other.deepest;
     sum.deepest_node = other.deepest_node;
@@ -226,14 +221,22 @@ Audit audit(const ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   const Auditor auditor(scene, nodes);
   const std::size_t slaves = scene.surface.slaves();
   const std::size_t faces = scene.surface.face.size();
-  std::vector<Audit> piece((slaves + faces + nodes_per_task - 1) / nodes_per_task);
-  team.for_ranges(slaves + faces, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  const std::size_t all = slaves + faces + scene.surface.round.size();
+  std::vector<Audit> piece((all + nodes_per_task - 1) / nodes_per_task);
+  team.for_ranges(all, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       add_to(piece[begin / nodes_per_task], i < slaves ? auditor.of_node(static_cast<int>(i))
-                                                       : auditor.of_edges(static_cast<int>(i - slaves)));
+                                            : i < slaves + faces
+                                                ? auditor.of_edges(static_cast<int>(i - slaves))
+                                                : auditor.of_round(static_cast<int>(i - slaves - faces)));
   });
   Audit sum;
   for (const Audit& part : piece) add_to(sum, part);
+  if (scene.lines) {
+    const LineAudit lines = audit_lines(scene, nodes, team);
+    add_to(sum,
+           {.lines_crossed = lines.crossed, .deepest = lines.deepest, .deepest_node = lines.deepest_node});
+  }
   return sum;
 }
 

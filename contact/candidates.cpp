@@ -33,6 +33,12 @@ bool within_buffer(const Candidates& candidates, const Travel& travel) {
   return true;
 }
 
+// Length of a beam, diameter of a particle.
+double size_of(const RoundElement& element, const Nodes& nodes) {
+  if (element.is_point()) return 2 * element.radius;
+  return (position(nodes, element.node[1]) - position(nodes, element.node[0])).norm();
+}
+
 void measure_edges(Candidates& candidates, const Surface& surface, const Nodes& nodes) {
   candidates.edge.resize(surface.face.size());
   candidates.smallest_edge = infinity;
@@ -44,6 +50,13 @@ void measure_edges(Candidates& candidates, const Surface& surface, const Nodes& 
     candidates.edge[f] = shortest_edge(nodes, surface.face[f]);
     candidates.smallest_edge = std::min(candidates.smallest_edge, candidates.edge[f]);
     sum += candidates.edge[f];
+  }
+  for (const RoundElement& element : surface.round) {
+    if (!element.alive()) continue;
+    const double length = size_of(element, nodes);
+    ++living;
+    candidates.smallest_edge = std::min(candidates.smallest_edge, length);
+    sum += length;
   }
   candidates.mean_edge = living == 0 ? 0 : sum / static_cast<double>(living);
 }
@@ -89,8 +102,7 @@ CaptureBox capture_box(const Candidates& candidates, const Surface& surface, con
     const Vector3<double>& x = candidates.point[static_cast<std::size_t>(surface.slave(node))];
     include(hull, Eigen::Vector3d(x.x, x.y, x.z));
   }
-  const double reach = influence(surface, options, candidates, face) +
-                       options.shell_thickness_scale * candidates.largest_radius;
+  const double reach = influence(surface, options, candidates, face) + candidates.largest_reach;
   CaptureBox box{};
   for (int axis = 0; axis < 3; ++axis) {
     const double growth = candidates.growth[axis] + reach;
@@ -115,14 +127,14 @@ double influence(const Surface& surface, const ContactOptions& options, const Ca
 
 bool refresh(Candidates& candidates, const Surface& surface, const Lists& excluded,
              const ContactOptions& options, const Nodes& nodes, Travel& travel, ThreadTeam& team) {
-  if (surface.face.empty() || within_buffer(candidates, travel)) return false;
+  if (surface.node.empty() || within_buffer(candidates, travel)) return false;
   measure_edges(candidates, surface, nodes);
   for (int axis = 0; axis < 3; ++axis)
     candidates.growth[axis] = options.reach_buffer * candidates.mean_edge +
                               approach_share * travel.dt() * travel.velocities().width(axis);
-  candidates.largest_radius = candidates.radius_bound;
-  for (double radius : surface.radius)
-    candidates.largest_radius = std::max(candidates.largest_radius, radius);
+  candidates.largest_reach = options.shell_thickness_scale * candidates.radius_bound;
+  for (int s = 0; s < static_cast<int>(surface.slaves()); ++s)
+    candidates.largest_reach = std::max(candidates.largest_reach, reach_of_node(surface, options, s));
   candidates.point.resize(surface.slaves());
   for (std::size_t s = 0; s < surface.slaves(); ++s) {
     candidates.point[s] = nowhere;

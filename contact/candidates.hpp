@@ -3,6 +3,7 @@
 /// the search can be skipped until nodes have moved that far relative to each other; skipping never loses a
 /// pair.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -28,8 +29,8 @@ struct Candidates {
   double smallest_edge = 0;  ///< of all
   double depth_share = followed_depth_share;
   double mean_edge = 0;
-  double radius_bound = 0;    ///< radii of slave nodes may grow up to this between searches
-  double largest_radius = 0;  ///< of all, or the bound if that is larger
+  double radius_bound = 0;   ///< radii of slave nodes may grow up to this between searches
+  double largest_reach = 0;  ///< reach_of_node of all, or with the bound if that is larger
 
   std::vector<Vector3<double>> point;  ///< slave positions at the last search
   std::vector<CaptureBox> box;
@@ -42,10 +43,16 @@ struct Candidates {
   explicit Candidates(SearchStrategy strategy = SearchStrategy::automatic) : search(strategy) {}
 };
 
-/// Distance at which a face and a slave node touch: half the thickness of each where it is a shell.
+/// How far a slave node reaches: half the thickness of its shells, the radius of its beams and particles.
+inline double reach_of_node(const Surface& surface, const ContactOptions& options, int slave) {
+  return std::max(options.shell_thickness_scale * surface.radius[static_cast<std::size_t>(slave)],
+                  surface.radius_of_rounds(slave));
+}
+
+/// Distance at which a face and a slave node touch.
 inline double touching_distance(const Surface& surface, const ContactOptions& options, int face, int slave) {
-  return options.shell_thickness_scale * (0.5 * surface.thickness[static_cast<std::size_t>(face)] +
-                                          surface.radius[static_cast<std::size_t>(slave)]);
+  return options.shell_thickness_scale * 0.5 * surface.thickness[static_cast<std::size_t>(face)] +
+         reach_of_node(surface, options, slave);
 }
 
 /// How far from a face, beyond its nodes' motion, a node of no radius can matter to it.

@@ -37,7 +37,7 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const N
   delete_elements(surface, erosion.topology, deleted, erosion.change);
   if (erosion.change.split)
     for (Contact& contact : scene.contacts)
-      contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;
+      if (!contact.of_lines()) contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;
   erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
   scene.travel.join(surface, nodes, erosion.change.new_slave);
   scene.motion.resize(surface.slaves());

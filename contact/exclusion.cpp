@@ -77,7 +77,8 @@ void ShellWalk::spread(const Surface& surface, const Reference& reference, int s
 template <class Reference>
 void ShellWalk::add_fold(const Surface& surface, const Reference& reference, int slave,
                          std::vector<int>& found) {
-  const double radius = surface.radius[static_cast<std::size_t>(slave)];
+  const double radius =
+      std::max(surface.radius[static_cast<std::size_t>(slave)], surface.radius_of_rounds(slave));
   spread(surface, reference, slave, [&](std::size_t face) { return fold(surface.thickness[face], radius); });
   found.insert(found.end(), front_.begin(), front_.end());
 }
@@ -116,7 +117,9 @@ ErodingExclusion::ErodingExclusion(const Surface& surface, const Nodes& referenc
   double thickest = 0;
   for (double thickness : surface.thickness) thickest = std::max(thickest, thickness);
   if (thickest == 0) return;
-  longest_fold_ = fold(thickest, 0.5 * thickest);
+  double radius = 0.5 * thickest;
+  for (double round : surface.round_radius) radius = std::max(radius, round);
+  longest_fold_ = fold(thickest, radius);
   for (std::size_t n = 0; n < reference.size(); ++n)
     reference_.push_back(position(reference, static_cast<int>(n)));
 }

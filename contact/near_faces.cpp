@@ -198,7 +198,7 @@ class Lookout {
         travel_(travel),
         near_(near),
         slave_(slave),
-        radius_(options.shell_thickness_scale * surface.radius[static_cast<std::size_t>(slave)]),
+        radius_(reach_of_node(surface, options, slave)),
         path_(sweep_of(nodes, surface.node[static_cast<std::size_t>(slave)], swept.frame,
                        approach_share * swept.dt)),
         velocity_(velocity(nodes, surface.node[static_cast<std::size_t>(slave)])),

@@ -21,6 +21,9 @@ struct ContactOptions {
   /// Find first touches along the motion of the step as well; without it a fast node can pass through a thin
   /// body.
   bool velocity_check = true;
+  /// Let sharp edges of solids and free edges of shells meet each other; without it crossed edges sink in as
+  /// far as their nodes are apart.
+  bool edges = true;
   /// Share of an old overlap that a step may remove ...
   double overlap_recovery = 0.1;
   /// ... and the most it may remove, over the smallest edge: about 0.001 of the speed of sound, so that no
@@ -47,6 +50,8 @@ struct ContactOptions {
                  "growth of capture boxes that lets the search be skipped, in mean edges, -"),
         optional("velocity_check", &ContactOptions::velocity_check, any_number,
                  "find first touches along the motion of a step"),
+        optional("edges", &ContactOptions::edges, any_number,
+                 "let sharp edges of solids and free edges of shells meet each other"),
         optional("overlap_recovery", &ContactOptions::overlap_recovery, fraction,
                  "share of an old overlap removed in a step, -"),
         optional("overlap_recovery_cap", &ContactOptions::overlap_recovery_cap, non_negative,

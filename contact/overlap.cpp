@@ -23,6 +23,11 @@ constexpr int sweeps_a_round = 50;
 
 /// Length that an overlap is measured against.
 double scale_of(const ContactScene& scene, const Contact& contact) {
+  if (contact.of_lines()) {
+    const double touching = reach_of_node(scene.surface, scene.options, contact.node[0]) +
+                            reach_of_node(scene.surface, scene.options, contact.node[2]);
+    return touching > 0 ? touching : scene.candidates.smallest_edge;
+  }
   const auto f = static_cast<std::size_t>(contact.face);
   const double edge = scene.candidates.edge[f];
   const double touching = touching_distance(scene.surface, scene.options, contact.face, contact.slave);
@@ -30,23 +35,36 @@ double scale_of(const ContactScene& scene, const Contact& contact) {
 }
 
 int part_of(const Surface& surface, int slave) {
-  return surface.face[static_cast<std::size_t>(surface.faces_of.of(slave).front())].part;
+  const auto faces = surface.faces_of.of(slave);
+  if (!faces.empty()) return surface.face[static_cast<std::size_t>(faces.front())].part;
+  const int node = surface.node[static_cast<std::size_t>(slave)];
+  return std::find_if(
+             surface.round.begin(), surface.round.end(),
+             [&](const RoundElement& element) { return element.node[0] == node || element.node[1] == node; })
+      ->part;
 }
 
-void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
+const std::string& first_part(const Surface& surface, const Contact& contact) {
+  return surface.part_name[static_cast<std::size_t>(part_of(surface, contact.node[0]))];
+}
+const std::string& second_part(const Surface& surface, const Contact& contact) {
+  const int part = contact.of_lines() ? part_of(surface, contact.node[2])
+                                      : surface.face[static_cast<std::size_t>(contact.face)].part;
+  return surface.part_name[static_cast<std::size_t>(part)];
+}
+
+void find_anew(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   scene.candidates.growth[0] = -1;
   scene.travel.follow(scene.surface, nodes, {}, 0, team);
-  refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, scene.travel, team);
-  scene.last.swap(scene.contacts);
-  detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, scene.travel, scene.last,
-         team, scene.contacts);
+  find_contacts(scene, nodes, team);
 }
 
 // Pairs of one part that overlap from the start are how the part was drawn: corners, seams, flanges.
 bool exclude_within_parts(ContactScene& scene) {
   std::vector<std::pair<int, int>> found;
   for (const Contact& contact : scene.contacts)
-    if (contact.gap < 0 && contact.body == scene.surface.body[static_cast<std::size_t>(contact.slave)])
+    if (!contact.of_lines() && contact.gap < 0 &&
+        contact.body == scene.surface.body[static_cast<std::size_t>(contact.slave)])
       found.emplace_back(contact.slave, contact.face);
   if (found.empty()) return false;
   std::sort(found.begin(), found.end());
@@ -68,22 +86,19 @@ bool exclude_within_parts(ContactScene& scene) {
 [[noreturn]] void refuse(const ContactScene& scene, const Nodes& nodes, const Contact& contact,
                          const char* why) {
   const Surface& surface = scene.surface;
-  const int node = surface.node[static_cast<std::size_t>(contact.slave)];
+  const int node = surface.node[static_cast<std::size_t>(contact.node[0])];
   const Vector3d x = position(nodes, node);
   std::ostringstream text;
-  text << "contact: part '" << surface.part_name[static_cast<std::size_t>(part_of(surface, contact.slave))]
-       << "' overlaps part '"
-       << surface
-              .part_name[static_cast<std::size_t>(surface.face[static_cast<std::size_t>(contact.face)].part)]
-       << "' by " << -contact.gap << " at (" << x[0] << ", " << x[1] << ", " << x[2] << "), " << why;
+  text << "contact: part '" << first_part(surface, contact) << "' overlaps part '"
+       << second_part(surface, contact) << "' by " << -contact.gap << " at (" << x[0] << ", " << x[1] << ", "
+       << x[2] << "), " << why;
   throw std::invalid_argument(text.str());
 }
 
 void record(const ContactScene& scene, const Contact& contact, std::vector<InitialOverlap>& report) {
   const Surface& surface = scene.surface;
-  const std::string& node_part = surface.part_name[static_cast<std::size_t>(part_of(surface, contact.slave))];
-  const std::string& face_part =
-      surface.part_name[static_cast<std::size_t>(surface.face[static_cast<std::size_t>(contact.face)].part)];
+  const std::string& node_part = first_part(surface, contact);
+  const std::string& face_part = second_part(surface, contact);
   auto entry = std::find_if(report.begin(), report.end(), [&](const InitialOverlap& overlap) {
     return overlap.node_part == node_part && overlap.face_part == face_part;
   });
@@ -129,10 +144,10 @@ const Contact* deepest_unresolved(const ContactScene& scene) {
 
 std::vector<InitialOverlap> remove_initial_overlap(ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
   std::vector<InitialOverlap> report;
-  if (scene.surface.face.empty()) return report;
+  if (scene.surface.node.empty()) return report;
   scene.candidates.depth_share = searched_depth_share;
-  find_contacts(scene, nodes, team);
-  while (exclude_within_parts(scene)) find_contacts(scene, nodes, team);
+  find_anew(scene, nodes, team);
+  while (exclude_within_parts(scene)) find_anew(scene, nodes, team);
   for (const Contact& contact : scene.contacts) {
     if (contact.gap >= -resolved_share * scale_of(scene, contact)) continue;
     if (-contact.gap > scene.options.initial_overlap_limit * scale_of(scene, contact))
@@ -146,7 +161,7 @@ std::vector<InitialOverlap> remove_initial_overlap(ContactScene& scene, Nodes& n
       if (round == most_rounds)
         refuse(scene, nodes, *deepest_unresolved(scene), "which moving nodes does not remove");
       move_apart(scene, nodes);
-      find_contacts(scene, nodes, team);
+      find_anew(scene, nodes, team);
     }
     for (std::size_t s = 0; s < start.size(); ++s) {
       const double moved = (position(nodes, scene.surface.node[s]) - start[s]).norm();

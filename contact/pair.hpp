@@ -1,22 +1,29 @@
 #pragma once
-/// A slave node that touches, or may touch within the step, one place of the surface: one constraint.
+/// A slave node that touches, or may touch within the step, one place of the surface, or a line another line
+/// (lines.hpp): one constraint.
 
 #include <Eigen/Dense>
 #include <array>
 
 namespace brio {
 
+/// Of contacts of lines: Contact::slave is this plus the number of the first line.
+inline constexpr int first_line_slave = 1 << 30;
+
 struct Contact {
-  int slave = 0;  ///< index among the slave nodes
-  int face = 0;
-  int body = 0;                     ///< of the face
-  std::array<int, 5> node{};        ///< slave indices: the node, then the corners of the face
+  int slave = 0;              ///< index among the slave nodes
+  int face = 0;               ///< -1: of two lines
+  int body = 0;               ///< of the face, or of the second line
+  int own = 1;                ///< how many of the nodes are of the first side: the node, or both of a line
+  std::array<int, 5> node{};  ///< slave indices: the node, then the corners of the face
   std::array<double, 5> weight{};   ///< 1, then minus the weights of the corners; their sum is 0
-  Eigen::Vector3d normal;           ///< unit vector from the face to the node: the way the node is pushed
+  Eigen::Vector3d normal;           ///< unit vector from the second side to the first: the way that is pushed
   double gap = 0;                   ///< at the beginning of the step; negative: old overlap
   double friction_coefficient = 0;  ///< Coulomb's
-  double impulse = 0;               ///< along the normal, on the node; never negative
-  Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< tangential impulse on the node
+  double impulse = 0;               ///< along the normal, on the first side; never negative
+  Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< tangential impulse on the first side
+
+  bool of_lines() const { return face < 0; }
 };
 
 }  // namespace brio

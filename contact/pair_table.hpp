@@ -35,10 +35,20 @@ class PairTable {
     return friction_.empty() ? all : friction_[place(global_node, face_part)].value_or(all);
   }
 
+  /// The same for two parts.
+  bool parts_apart(int part, int other) const {
+    return !apart_.empty() && apart_[place_of(part, other)] != 0;
+  }
+  double friction_of_parts(int part, int other, double all) const {
+    return friction_.empty() ? all : friction_[place_of(part, other)].value_or(all);
+  }
+
  private:
+  std::size_t place_of(int part, int other) const {
+    return static_cast<std::size_t>(part) * parts_ + static_cast<std::size_t>(other);
+  }
   std::size_t place(int global_node, int face_part) const {
-    return static_cast<std::size_t>(part_of_node_[static_cast<std::size_t>(global_node)]) * parts_ +
-           static_cast<std::size_t>(face_part);
+    return place_of(part_of_node_[static_cast<std::size_t>(global_node)], face_part);
   }
 
   std::size_t parts_ = 0;

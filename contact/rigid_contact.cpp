@@ -38,35 +38,46 @@ double node_inverse_mass(const Contact& contact, std::size_t k, const Vector3d& 
 
 Vector3d relative_velocity(const Contact& contact, const MixedMotion& motion) {
   const RigidTouch& touch = motion.touch_of(contact);
-  Vector3d sum = touch.node_body >= 0 ? at(motion.body, touch.node_body).velocity_at(touch.node_arm)
-                                      : node_share(contact, 0, motion);
+  const auto own = static_cast<std::size_t>(contact.own);
+  Vector3d sum = Vector3d::Zero();
+  if (touch.node_body >= 0) {
+    sum = at(motion.body, touch.node_body).velocity_at(touch.node_arm);
+  } else {
+    for (std::size_t k = 0; k < own; ++k) sum += node_share(contact, k, motion);
+  }
   if (touch.face_body >= 0) return sum - at(motion.body, touch.face_body).velocity_at(touch.face_arm);
-  for (std::size_t k = 1; k < 5; ++k) sum += node_share(contact, k, motion);
+  for (std::size_t k = own; k < 5; ++k) sum += node_share(contact, k, motion);
   return sum;
 }
 
 void apply(const Contact& contact, const Vector3d& impulse, const MixedMotion& motion) {
   const RigidTouch& touch = motion.touch_of(contact);
-  if (touch.node_body >= 0)
+  const auto own = static_cast<std::size_t>(contact.own);
+  if (touch.node_body >= 0) {
     motion.body[static_cast<std::size_t>(touch.node_body)].push(impulse, touch.node_arm);
-  else
-    push_node(contact, 0, impulse, motion);
+  } else {
+    for (std::size_t k = 0; k < own; ++k) push_node(contact, k, impulse, motion);
+  }
   if (touch.face_body >= 0) {
     motion.body[static_cast<std::size_t>(touch.face_body)].push(-impulse, touch.face_arm);
     return;
   }
-  for (std::size_t k = 1; k < 5; ++k) push_node(contact, k, impulse, motion);
+  for (std::size_t k = own; k < 5; ++k) push_node(contact, k, impulse, motion);
 }
 
 double effective_mass(const Contact& contact, const Vector3d& direction, const MixedMotion& motion) {
   const RigidTouch& touch = motion.touch_of(contact);
-  double inverse = touch.node_body >= 0
-                       ? at(motion.body, touch.node_body).inverse_mass_along(direction, touch.node_arm)
-                       : node_inverse_mass(contact, 0, direction, motion);
+  const auto own = static_cast<std::size_t>(contact.own);
+  double inverse = 0;
+  if (touch.node_body >= 0) {
+    inverse = at(motion.body, touch.node_body).inverse_mass_along(direction, touch.node_arm);
+  } else {
+    for (std::size_t k = 0; k < own; ++k) inverse += node_inverse_mass(contact, k, direction, motion);
+  }
   if (touch.face_body >= 0) {
     inverse += at(motion.body, touch.face_body).inverse_mass_along(direction, touch.face_arm);
   } else {
-    for (std::size_t k = 1; k < 5; ++k) inverse += node_inverse_mass(contact, k, direction, motion);
+    for (std::size_t k = own; k < 5; ++k) inverse += node_inverse_mass(contact, k, direction, motion);
   }
   return inverse > 0 ? 1 / inverse : 0;
 }
@@ -76,16 +87,18 @@ void RigidContacts::find(const Surface& surface, const Nodes& nodes, std::span<c
   touch.resize(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
+    const auto own = static_cast<std::size_t>(contact.own);
+    const auto point_of = [&](std::size_t begin, std::size_t end) {
+      Vector3d sum = Vector3d::Zero();
+      for (std::size_t k = begin; k < end; ++k)
+        sum += contact.weight[k] * position(nodes, surface.node[static_cast<std::size_t>(contact.node[k])]);
+      return sum;
+    };
     RigidTouch& found = touch[i];
     found.node_body = surface.rigid_body(surface.node[static_cast<std::size_t>(contact.node[0])]);
-    found.face_body = surface.rigid_body(surface.node[static_cast<std::size_t>(contact.node[1])]);
+    found.face_body = surface.rigid_body(surface.node[static_cast<std::size_t>(contact.node[own])]);
     if (found.node_body < 0 && found.face_body < 0) continue;
-    Vector3d point = position(nodes, surface.node[static_cast<std::size_t>(contact.node[0])]);
-    if (found.face_body < 0) {
-      point.setZero();
-      for (std::size_t k = 1; k < 5; ++k)
-        point -= contact.weight[k] * position(nodes, surface.node[static_cast<std::size_t>(contact.node[k])]);
-    }
+    const Vector3d point = found.face_body < 0 ? Vector3d(-point_of(own, 5)) : point_of(0, own);
     if (found.node_body >= 0) found.node_arm = point - at(body, found.node_body).centre;
     if (found.face_body >= 0) found.face_arm = point - at(body, found.face_body).centre;
   }

@@ -14,6 +14,9 @@ using Eigen::Vector3d;
 namespace {
 
 using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 void load_motion(ContactScene& scene, const Nodes& nodes) {
   scene.in_contact.clear();
@@ -107,6 +110,13 @@ void book(ContactScene& scene, const Nodes& nodes, std::span<const RigidMotion> 
   totals.deepest_overlap = std::max(totals.deepest_overlap, step.deepest_overlap);
 }
 
+void search_lines_anew(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
+  const Clock::time_point start = Clock::now();
+  search_lines(scene.lines->candidates, scene.candidates, scene.surface, scene.options, nodes, team);
+  renumber(scene.lines->candidates, scene.contacts);
+  scene.step.line_seconds += seconds_since(start);
+}
+
 }  // namespace
 
 ContactScene make_contact_scene(const ContactOptions& options, std::span<const SurfacePart> parts,
@@ -116,6 +126,10 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   scene.surface = make_surface(parts, nodes.size());
   scene.excluded = excluded_faces(scene.surface, nodes);
   scene.candidates = Candidates(options.search);
+  if (options.edges || !scene.surface.round.empty()) {
+    scene.lines.emplace(options.search);
+    collect_lines(scene.surface, options, nodes, scene.lines->candidates.line);
+  }
   const std::size_t slaves = scene.surface.slaves();
   scene.motion.resize(slaves);
   scene.in_contact = scene.pushed = SlaveSet(slaves);
@@ -124,21 +138,31 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   return scene;
 }
 
-void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies) {
-  assert(nodes.velocity_before.size() == nodes.size());
-  scene.step = ContactStep{};
-  if (scene.surface.face.empty()) return;
-  if (scene.erosion && !scene.erosion->exclusion.torn.empty()) release_torn_pairs(scene, nodes, team);
-  scene.travel.follow(scene.surface, nodes, scene.candidates.point, dt, team);
+void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   const Clock::time_point start = Clock::now();
   scene.step.searched =
       refresh(scene.candidates, scene.surface, scene.excluded, scene.options, nodes, scene.travel, team);
-  scene.step.search_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  scene.step.search_seconds = seconds_since(start);
+  if (scene.step.searched && scene.lines) search_lines_anew(scene, nodes, team);
   if (scene.erosion && !scene.erosion->growing.empty()) grow_debris(scene, nodes);
   scene.last.swap(scene.contacts);
   detect(scene.detection, scene.surface, scene.candidates, scene.options, nodes, scene.travel, scene.last,
          team, scene.contacts);
   scene.candidates.renewed.clear();
+  if (!scene.lines || scene.lines->candidates.partners.item.empty()) return;
+  const Clock::time_point lines = Clock::now();
+  detect_lines(*scene.lines, scene.surface, scene.options, scene.candidates, nodes, scene.travel, scene.last,
+               team, scene.contacts);
+  scene.step.line_seconds += seconds_since(lines);
+}
+
+void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies) {
+  assert(nodes.velocity_before.size() == nodes.size());
+  scene.step = ContactStep{};
+  if (scene.surface.node.empty()) return;
+  if (scene.erosion && !scene.erosion->exclusion.torn.empty()) release_torn_pairs(scene, nodes, team);
+  scene.travel.follow(scene.surface, nodes, scene.candidates.point, dt, team);
+  find_contacts(scene, nodes, team);
   warm_start(scene.last, scene.last_dt > 0 ? dt / scene.last_dt : 1.0, scene.contacts);
   load_motion(scene, nodes);
   const double edge = scene.candidates.smallest_edge;

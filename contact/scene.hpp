@@ -15,6 +15,7 @@
 #include "contact/candidates.hpp"
 #include "contact/detect.hpp"
 #include "contact/erosion.hpp"
+#include "contact/line_detect.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
 #include "contact/rigid_contact.hpp"
@@ -41,6 +42,7 @@ struct ContactStep {
   double residual = 0;  ///< relative velocity changed in the last pass
   bool searched = false;
   double search_seconds = 0;  ///< wall time
+  double line_seconds = 0;    ///< wall time of all that concerns lines
   /// Reactions of the supports: what they do to keep prescribed components of motion as they are.
   double support_work_before = 0;
   double support_work_after = 0;
@@ -71,10 +73,11 @@ struct ContactScene {
   Candidates candidates;
   Detection detection;
   Solver solver;
-  std::vector<Contact> contacts;  ///< of the last step, by slave node
+  std::vector<Contact> contacts;  ///< of the last step, by Contact::slave
   std::vector<Contact> last;      ///< of the step before, while one is resolved
   double last_dt = 0;
   std::optional<ContactErosion> erosion;  ///< of scenes whose elements may be deleted
+  std::optional<LineContacts> lines;      ///< of scenes with edges that may meet, beams or particles
 
   SlaveSet in_contact;                          ///< nodes that any of the contacts joins
   SlaveSet pushed;                              ///< nodes with an impulse in the last step
@@ -90,6 +93,10 @@ struct ContactScene {
 /// \throws std::invalid_argument for elements without surface.
 ContactScene make_contact_scene(const ContactOptions& options, std::span<const SurfacePart> parts,
                                 const Nodes& nodes);
+
+/// Replace the contacts by those of this step, and Scene::last by those before. `travel` has followed the
+/// nodes.
+void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
 
 /// Correct the predicted velocities of all surface nodes so that nothing passes through anything in this
 /// step.

@@ -38,21 +38,23 @@ std::vector<Face> exterior(const std::vector<Face>& sides, std::size_t node_coun
 
 void check(const SurfacePart& part, std::size_t node_count) {
   const auto per_element = static_cast<std::size_t>(part.nodes_per_element);
-  if (per_element != (part.shell ? 4U : 8U) || part.connectivity.size() % per_element != 0)
+  const bool known = per_element == 8 || per_element == 4 || per_element == 2 || per_element == 1;
+  if (!known || part.connectivity.size() % per_element != 0)
     throw std::invalid_argument("contact: part '" + part.name + "' has elements of a shape without surface");
   for (int node : part.connectivity)
     if (node < 0 || static_cast<std::size_t>(node) >= node_count)
       throw std::invalid_argument("contact: part '" + part.name + "' names node " + std::to_string(node) +
                                   ", which does not exist");
-  if (part.shell && part.thickness.size() != part.connectivity.size() / per_element)
-    throw std::invalid_argument("contact: the shells of part '" + part.name + "' need one thickness each");
+  if (per_element != 8 && part.thickness.size() != part.connectivity.size() / per_element)
+    throw std::invalid_argument("contact: the elements of part '" + part.name + "' need one " +
+                                (part.shell() ? "thickness" : "diameter") + " each");
 }
 
 void collect_faces(std::span<const SurfacePart> parts, std::size_t node_count, Surface& surface) {
   std::vector<Face> sides;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const SurfacePart& part = parts[p];
-    if (part.shell) continue;
+    if (part.nodes_per_element != 8) continue;
     for (std::size_t e = 0; e < part.connectivity.size() / 8; ++e)
       for (int side = 0; side < sides_of_hexahedron; ++side) {
         Face face{.node = {},
@@ -66,7 +68,7 @@ void collect_faces(std::span<const SurfacePart> parts, std::size_t node_count, S
   surface.thickness.assign(surface.face.size(), 0.0);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const SurfacePart& part = parts[p];
-    if (!part.shell) continue;
+    if (!part.shell()) continue;
     for (std::size_t e = 0; e < part.connectivity.size() / 4; ++e) {
       Face face{
           .node = {}, .part = static_cast<int>(p), .element = static_cast<int>(e), .body = 0, .shell = true};
@@ -78,26 +80,46 @@ void collect_faces(std::span<const SurfacePart> parts, std::size_t node_count, S
   }
 }
 
+void collect_round_elements(std::span<const SurfacePart> parts, Surface& surface) {
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const SurfacePart& part = parts[p];
+    if (!part.round()) continue;
+    const auto per_element = static_cast<std::size_t>(part.nodes_per_element);
+    for (std::size_t e = 0; e < part.thickness.size(); ++e) {
+      const int* node = part.connectivity.data() + per_element * e;
+      surface.round.push_back({.node = {node[0], node[per_element - 1]},
+                               .part = static_cast<int>(p),
+                               .radius = 0.5 * part.thickness[e]});
+    }
+  }
+}
+
+// Elements that are connected through nodes are one body; so are the particles of a part.
 void number_bodies(std::span<const SurfacePart> parts, std::size_t node_count, Surface& surface) {
   DisjointSets bodies(node_count);
   for (const SurfacePart& part : parts) {
     const auto per_element = static_cast<std::size_t>(part.nodes_per_element);
     for (std::size_t i = 0; i < part.connectivity.size(); ++i)
-      bodies.join(part.connectivity[i / per_element * per_element], part.connectivity[i]);
+      bodies.join(part.connectivity[per_element == 1 ? 0 : i / per_element * per_element],
+                  part.connectivity[i]);
   }
   std::vector<int> number(node_count, -1);
   surface.body_count = 0;
-  for (Face& face : surface.face) {
-    int& body = number[static_cast<std::size_t>(bodies.root(face.node[0]))];
+  const auto number_of = [&](int node) {
+    int& body = number[static_cast<std::size_t>(bodies.root(node))];
     if (body < 0) body = surface.body_count++;
-    face.body = body;
-  }
+    return body;
+  };
+  for (Face& face : surface.face) face.body = number_of(face.node[0]);
+  for (RoundElement& element : surface.round) element.body = number_of(element.node[0]);
 }
 
 void collect_slaves(std::size_t node_count, Surface& surface) {
   surface.slave_of.assign(node_count, -1);
   for (const Face& face : surface.face)
     for (int node : face.node) surface.slave_of[static_cast<std::size_t>(node)] = 0;
+  for (const RoundElement& element : surface.round)
+    for (int node : element.node) surface.slave_of[static_cast<std::size_t>(node)] = 0;
   surface.node.clear();
   for (std::size_t n = 0; n < node_count; ++n) {
     if (surface.slave_of[n] < 0) continue;
@@ -123,6 +145,19 @@ void collect_slaves(std::size_t node_count, Surface& surface) {
       surface.body[slave] = face.body;
     }
   }
+}
+
+void settle_round_elements(Surface& surface) {
+  if (surface.round.empty()) return;
+  surface.round_radius.assign(surface.slaves(), 0);
+  surface.rounds.assign(surface.slaves(), 0);
+  for (const RoundElement& element : surface.round)
+    for (int k = 0; k < (element.is_point() ? 1 : 2); ++k) {
+      const auto slave = static_cast<std::size_t>(surface.slave(element.node[static_cast<std::size_t>(k)]));
+      surface.body[slave] = element.body;
+      surface.round_radius[slave] = std::max(surface.round_radius[slave], element.radius);
+      ++surface.rounds[slave];
+    }
 }
 
 // Only where a part is rigid.
@@ -207,8 +242,10 @@ Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count)
     surface.part_name.push_back(part.name);
   }
   collect_faces(parts, node_count, surface);
+  collect_round_elements(parts, surface);
   number_bodies(parts, node_count, surface);
   collect_slaves(node_count, surface);
+  settle_round_elements(surface);
   find_rigid(parts, node_count, surface);
   surface.neighbor.resize(surface.face.size());
   for (std::size_t f = 0; f < surface.face.size(); ++f) connect(surface, static_cast<int>(f));

@@ -1,7 +1,7 @@
 #pragma once
 /// The contact surface of a mesh, found without any side set: every hexahedron side that no other hexahedron
-/// shares, every shell (one face stands for both of its sides, by its thickness), and the nodes of both as
-/// slave nodes.
+/// shares, every shell (one face stands for both of its sides, by its thickness), every beam (a segment with
+/// a radius), every particle (a point with a radius), and the nodes of all as slave nodes.
 
 #include <array>
 #include <cstdint>
@@ -17,12 +17,26 @@ namespace brio {
 /// What the surface is made of: the elements of one part.
 struct SurfacePart {
   std::string name;
-  bool shell = false;
-  int nodes_per_element = 8;  ///< 8: hexahedra in VTK's order; 4: shells. Repeated nodes degenerate them
+  /// 8: hexahedra in VTK's order; 4: shells; repeated nodes degenerate them. 2: beams. 1: particles
+  int nodes_per_element = 8;
   std::span<const int> connectivity;  ///< global node numbers, nodes_per_element of each element
-  std::vector<double> thickness;      ///< of each shell; empty for hexahedra
+  std::vector<double> thickness;      ///< of each shell, diameter of each beam or particle; else empty
   int rigid = -1;                     ///< the rigid body that all of its nodes belong to
   double debris_radius = 0;  ///< of its nodes once they are left without elements; 0: they touch nothing
+
+  bool shell() const { return nodes_per_element == 4; }
+  bool round() const { return nodes_per_element <= 2; }
+};
+
+/// What touches of a beam or a particle: a segment, or a point, with a radius.
+struct RoundElement {
+  std::array<int, 2> node{};  ///< global; the same twice: a particle
+  int part = 0;               ///< -1: it is no more
+  int body = 0;
+  double radius = 0;
+
+  bool alive() const { return part >= 0; }
+  bool is_point() const { return node[0] == node[1]; }
 };
 
 struct Face {
@@ -55,7 +69,12 @@ struct Surface {
   std::vector<std::uint8_t> of_solid;  ///< of each slave node: 1 where it belongs to a side of a hexahedron
   std::vector<std::uint8_t> pinched;   ///< of each slave node: 1 where separate fans of sides meet in it
   std::vector<int> body;               ///< of each slave node
-  Lists faces_of;                      ///< of each slave node: the faces it belongs to, ascending
+  std::vector<RoundElement> round;     ///< by part, element
+  /// Of each slave node: the largest radius of its beams and particles, and how many of them live; empty
+  /// where there are none.
+  std::vector<double> round_radius;
+  std::vector<int> rounds;
+  Lists faces_of;  ///< of each slave node: the faces it belongs to, ascending
   int body_count = 0;
   std::vector<int> rigid_of_node;  ///< of each global node: its rigid body, or -1; empty where there is none
   PairTable pairs;                 ///< what is said of pairs of parts
@@ -70,6 +89,11 @@ struct Surface {
     const int global_node = node[static_cast<std::size_t>(slave)];
     const int own = rigid_body(global_node);
     return (own >= 0 && own == rigid_body(other.node[0])) || pairs.apart(global_node, other.part);
+  }
+
+  /// Largest radius of the beams and particles of a slave node; 0: it has none.
+  double radius_of_rounds(int slave) const {
+    return round_radius.empty() ? 0 : round_radius[static_cast<std::size_t>(slave)];
   }
 
   std::size_t slaves() const { return node.size(); }

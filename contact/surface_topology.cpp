@@ -24,15 +24,18 @@ bool nodes_of_side(const TopologyPart& part, int side, std::array<int, 4>& nodes
 void number_elements(std::span<const SurfacePart> parts, SurfaceTopology& topology) {
   std::int64_t elements = 0;
   std::int64_t sides = 0;
+  int rounds = 0;
   for (const SurfacePart& given : parts) {
     TopologyPart& part = topology.part.emplace_back();
-    part.shell = given.shell;
+    part.nodes_per_element = given.nodes_per_element;
+    part.first_round = rounds;
     part.connectivity.assign(given.connectivity.begin(), given.connectivity.end());
     part.first_element = static_cast<int>(elements);
     part.first_side = static_cast<int>(sides);
     const std::int64_t count = std::ssize(part.connectivity) / part.corners();
     elements += count;
     sides += count * part.sides();
+    if (part.round()) rounds += static_cast<int>(count);
     if (sides > std::numeric_limits<int>::max())
       throw std::length_error("contact: more element sides than an int can number");
   }
@@ -43,7 +46,7 @@ void number_elements(std::span<const SurfacePart> parts, SurfaceTopology& topolo
 template <class Visit>
 void for_sides_of_hexahedra(const SurfaceTopology& topology, const Visit& visit) {
   for (const TopologyPart& part : topology.part) {
-    if (part.shell) continue;
+    if (part.nodes_per_element != 8) continue;
     const int sides = static_cast<int>(part.connectivity.size()) / 8 * sides_of_hexahedron;
     std::array<int, 4> nodes{};
     for (int side = part.first_side; side < part.first_side + sides; ++side)
@@ -89,7 +92,7 @@ void give_faces(const Surface& surface, SurfaceTopology& topology) {
     const TopologyPart& part = topology.part[static_cast<std::size_t>(face.part)];
     int& state =
         topology.side[static_cast<std::size_t>(part.first_side + part.sides() * face.element + face.side)];
-    assert(part.shell || state == side_state::alone);
+    assert(part.shell() || state == side_state::alone);
     state = side_state::of_face(static_cast<int>(f));
   }
 }
@@ -101,6 +104,8 @@ void number_bodies(Surface& surface, SurfaceTopology& topology) {
     for (int node : nodes_of(topology, e)) sets.join(nodes_of(topology, e)[0], node);
   std::vector<int> number(surface.slave_of.size(), -1);
   for (const Face& face : surface.face) number[static_cast<std::size_t>(sets.root(face.node[0]))] = face.body;
+  for (const RoundElement& element : surface.round)
+    number[static_cast<std::size_t>(sets.root(element.node[0]))] = element.body;
   for (int e = 0; e < elements; ++e) {
     int& own = number[static_cast<std::size_t>(sets.root(nodes_of(topology, e)[0]))];
     if (own < 0) own = surface.body_count++;
@@ -111,10 +116,10 @@ void number_bodies(Surface& surface, SurfaceTopology& topology) {
 void find_hexahedra_under_shells(std::size_t node_count, SurfaceTopology& topology) {
   std::vector<char> of_shell(node_count, 0);
   for (const TopologyPart& part : topology.part)
-    if (part.shell)
+    if (part.shell())
       for (int node : part.connectivity) of_shell[static_cast<std::size_t>(node)] = 1;
   for (const TopologyPart& part : topology.part) {
-    if (part.shell) continue;
+    if (part.nodes_per_element != 8) continue;
     for (std::size_t i = 0; i < part.connectivity.size(); ++i)
       if (of_shell[static_cast<std::size_t>(part.connectivity[i])] != 0)
         topology.under_shells.emplace_back(part.connectivity[i],
@@ -214,6 +219,24 @@ class Deletion {
         leave_ring(side);
       state(side) = side_state::none;
     }
+    if (part.round()) remove_round(part.first_round + element - part.first_element);
+  }
+
+  void remove_round(int index) {
+    RoundElement& element = surface_.round[static_cast<std::size_t>(index)];
+    for (int k = 0; k < (element.is_point() ? 1 : 2); ++k) {
+      const int slave = surface_.slave(element.node[static_cast<std::size_t>(k)]);
+      int& left = surface_.rounds[static_cast<std::size_t>(slave)];
+      if (--left == 0) lose_radius(slave);
+      touched_.push_back(slave);
+    }
+    element.part = -1;
+  }
+
+  void lose_radius(int slave) {
+    const auto s = static_cast<std::size_t>(slave);
+    surface_.radius[s] = surface_.round_radius[s];  // that debris begins with
+    surface_.round_radius[s] = 0;
   }
 
   void leave_ring(int side) {
@@ -298,6 +321,10 @@ class Deletion {
     surface_.radius.push_back(0);
     surface_.of_solid.push_back(0);
     surface_.pinched.push_back(0);
+    if (!surface_.rounds.empty()) {
+      surface_.round_radius.push_back(0);
+      surface_.rounds.push_back(0);
+    }
     surface_.faces_of.add_list();
     return static_cast<int>(surface_.slaves()) - 1;
   }
@@ -311,7 +338,8 @@ class Deletion {
         ++topology_.visits;
       }
     for (int slave : touched_) {
-      if (surface_.faces_of.of(slave).empty()) {
+      const bool round = !surface_.rounds.empty() && surface_.rounds[static_cast<std::size_t>(slave)] > 0;
+      if (surface_.faces_of.of(slave).empty() && !round) {
         leave(slave);
         continue;
       }

@@ -25,15 +25,18 @@ struct SurfaceElement {
 };
 
 /// Elements of one part, numbered through all parts, and so are their sides: six of a hexahedron, one of a
-/// shell.
+/// shell, none of a beam or a particle.
 struct TopologyPart {
-  bool shell = false;
+  int nodes_per_element = 8;
   std::vector<int> connectivity;
   int first_element = 0;
   int first_side = 0;
+  int first_round = 0;  ///< its first in Surface::round
 
-  int sides() const { return shell ? 1 : 6; }
-  int corners() const { return shell ? 4 : 8; }
+  bool shell() const { return nodes_per_element == 4; }
+  bool round() const { return nodes_per_element <= 2; }
+  int sides() const { return round() ? 0 : shell() ? 1 : 6; }
+  int corners() const { return nodes_per_element; }
 };
 
 /// Numbers of the dead: first unusable, then reusable.
@@ -164,7 +167,7 @@ void for_elements_around(const Surface& surface, const SurfaceTopology& topology
       visit(of.first_element + (other - of.first_side) / of.sides());
     }
   for (int node : nodes_of(topology, element)) {
-    if (part.shell) for_hexahedra_under_shells(topology, node, visit);
+    if (part.shell()) for_hexahedra_under_shells(topology, node, visit);
     if (surface.slave(node) < 0) continue;
     for (int f : surface.faces_of.of(surface.slave(node)))
       visit(element_of(topology, surface.face[static_cast<std::size_t>(f)]));

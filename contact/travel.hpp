@@ -63,6 +63,9 @@ class Travel {
   double ahead(int slave, double ahead_of_face) const {
     return own_ahead(slave) + (ahead_of_face + ahead_margin_);
   }
+  /// The same of two lines, of each of which the longest path and ahead of a node are known.
+  double so_far_of(double path, double other_path) const { return path + (other_path + margin_); }
+  double ahead_of(double ahead, double other_ahead) const { return ahead + (other_ahead + ahead_margin_); }
   /// Allowance for the rounding of distances and paths.
   double rounding() const { return rounding_; }
 

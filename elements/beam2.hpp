@@ -41,6 +41,7 @@ struct Beam2 {
   BeamFormulation formulation = BeamFormulation::beam;
   std::optional<std::array<double, 3>> orientation;
   std::optional<double> shear_factor;
+  std::optional<double> contact_radius;
   double linear_bulk_viscosity = 0.06;
   std::shared_ptr<const FibreSection> fibres;  ///< of the section, once `prepared`; no entry of a deck
 
@@ -53,6 +54,9 @@ struct Beam2 {
                  "direction of the section's height, across the beam; required where a beam is not round"),
         optional("shear_factor", &Beam2::shear_factor, Range{.lower = 0, .upper = 1, .lower_open = true},
                  "shear area over area, along both axes; default: that of the section, -"),
+        optional("contact_radius", &Beam2::contact_radius, positive,
+                 "radius with which it touches; default: the outer one, of a section that is not round that "
+                 "of a circle of the same area"),
         optional("linear_bulk_viscosity", &Beam2::linear_bulk_viscosity, fraction,
                  "axial viscosity b1, share of critical damping of the fastest mode, -"),
     };

@@ -190,15 +190,6 @@ void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact)
     throw DeckError(node.place, "'contact' has no 'surfaces'; accepted: all, or a list of parts");
   if (!surfaces->value->is_scalar() || surfaces->value->text != "all")
     read_part_names(*surfaces->value, Slot{"surfaces", any_number, slot.known}, contact.surfaces);
-  for (std::size_t i = 0; i < contact.surfaces.size(); ++i) {
-    const YamlNode& name = *surfaces->value->items[i];
-    const Element& element = slot.known.part(name, contact.surfaces[i]).element;
-    const int nodes = nodes_per_element(element);
-    if (nodes == 1 || nodes == 2)
-      throw DeckError(name.place, "part '" + contact.surfaces[i] + "' is of " +
-                                      (nodes == 1 ? "particles" : "beams") +
-                                      ", which touch nothing; parts of solids or shells are accepted");
-  }
   if (const YamlEntry* exclude = node.find("exclude"))
     read_part_names(*exclude->value, Slot{"exclude", any_number, slot.known}, contact.exclude);
   if (const YamlEntry* pairs = node.find("pairs"))

@@ -47,10 +47,6 @@ void check_deletion(const YamlEntry& entry, const Part& part, const Material& ma
     throw DeckError(entry.place, "deletion by plastic_strain, but the material model '" +
                                      std::string(name_of(material)) +
                                      "' has none; a plastic one is accepted");
-  if (part.deletion->debris_radius && nodes_per_element(part.element) <= 2)
-    throw DeckError(entry.place, "debris_radius of a part of elements '" +
-                                     std::string(name_of(part.element)) +
-                                     "', which touch nothing; parts of solids or shells are accepted");
   for (const auto& [named, criterion] : {std::pair{part.deletion->volume_ratio.has_value(), "volume_ratio"},
                                          std::pair{part.deletion->corner_inverted, "corner_inverted"}})
     if (named && nodes_per_element(part.element) != 8)

@@ -36,6 +36,10 @@ Json contact_counts(const Summary::ContactCounts& contact) {
   return {{"searches", contact.searches},
           {"comparisons", contact.comparisons},
           {"candidate_pairs", contact.candidate_pairs},
+          {"bodies", contact.bodies},
+          {"lines", contact.lines},
+          {"line_comparisons", contact.line_comparisons},
+          {"line_candidate_pairs", contact.line_candidate_pairs},
           {"active_max", contact.active_max},
           {"penetration_max", contact.penetration_max},
           {"missed", contact.missed}};

@@ -171,7 +171,8 @@ void resolve_contact(Model& model, ThreadTeam& team) {
     settle(model.rigid);
     const ContactStep& step = scene.step;
     model.stages[Stage::contact_search] += step.search_seconds;
-    model.stages[Stage::contact] -= step.search_seconds;
+    model.stages[Stage::contact_lines] += step.line_seconds;
+    model.stages[Stage::contact] -= step.search_seconds + step.line_seconds;
     model.energy.contact.before += step.normal_work_before;
     model.energy.contact.after += step.normal_work_after;
     model.energy.friction.before += step.friction_work_before;

@@ -195,16 +195,20 @@ bool takes_part(const ContactSection& contact, const std::string& part) {
   return (contact.surfaces.empty() || named(contact.surfaces)) && !named(contact.exclude);
 }
 
-double shell_thickness(const Element& element) {
-  return std::visit(
-      [](const auto& kind) {
-        if constexpr (requires { kind.thickness; }) {
-          return std::optional<double>(kind.thickness).value_or(0);
-        } else {
-          return 0.0;
-        }
-      },
-      element);
+// Thickness or diameter with which each element touches; of solids nothing. A particle touches as far as half
+// its share of the lattice.
+std::vector<double> contact_thickness(const Element& element, const Mesh& mesh) {
+  if (mesh.nodes_per_element == 8) return {};
+  std::vector<double> thickness(mesh.element_count(), 0);
+  if (const auto* shell = std::get_if<Shell4>(&element))
+    std::fill(thickness.begin(), thickness.end(), shell->thickness);
+  if (const auto* rigid = std::get_if<Rigid>(&element))
+    std::fill(thickness.begin(), thickness.end(), rigid->thickness.value_or(0));
+  if (const auto* beam = std::get_if<Beam2>(&element))
+    std::fill(thickness.begin(), thickness.end(),
+              2 * beam->contact_radius.value_or(fibres_of(beam->section).radius));
+  for (std::size_t e = 0; e < mesh.volume.size(); ++e) thickness[e] = std::cbrt(mesh.volume[e]);
+  return thickness;
 }
 
 double debris_radius(const Part& part) {
@@ -248,18 +252,14 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Part& part = deck.parts[p];
     if (!takes_part(*deck.contact, part.name)) continue;
-    if (meshes[p].nodes_per_element <= 2) continue;  // beams and particles touch nothing
-    const bool shell = meshes[p].nodes_per_element == 4;
-    const std::size_t shells = shell ? meshes[p].element_count() : 0;
     if (model.surface_numbers) {
       model.surface_numbers->part[p] = static_cast<int>(surfaces.size());
       model.surface_numbers->element[p] = model.parts[p].element_slot;
     }
     surfaces.push_back({.name = part.name,
-                        .shell = shell,
                         .nodes_per_element = meshes[p].nodes_per_element,
                         .connectivity = connectivity[p],
-                        .thickness = std::vector<double>(shells, shell_thickness(part.element)),
+                        .thickness = contact_thickness(part.element, meshes[p]),
                         .rigid = model.parts[p].rigid,
                         .debris_radius = debris_radius(part)});
   }

@@ -276,6 +276,8 @@ std::vector<std::string> active_features(const Model& model) {
   if (!model.prescribed.empty()) features.insert("prescribed_motion");
   if (!model.walls.empty()) features.insert("rigid_wall");
   if (!model.contacts.empty()) features.insert("contact");
+  for (const ContactScene& scene : model.contacts)
+    if (scene.lines && !scene.lines->candidates.line.empty()) features.insert("line_contact");
   if (can_be_damaged(model)) features.insert("failure");
   if (model.erosion) features.insert("deletion");
   return {features.begin(), features.end()};
@@ -326,7 +328,13 @@ Summary observe_end(Model& model) {
                        .candidate_pairs = static_cast<std::int64_t>(counts.candidate_pairs),
                        .active_max = scene.totals.most_contacts,
                        .penetration_max = scene.totals.deepest_overlap,
-                       .missed = model.missed_contacts};
+                       .missed = model.missed_contacts,
+                       .bodies = scene.surface.body_count};
+    if (!scene.lines) continue;
+    const LineCandidates& lines = scene.lines->candidates;
+    summary.contact.lines = static_cast<std::int64_t>(lines.line.size());
+    summary.contact.line_comparisons = static_cast<std::int64_t>(lines.counts.comparisons);
+    summary.contact.line_candidate_pairs = static_cast<std::int64_t>(lines.counts.candidate_pairs);
   }
   for (std::size_t stage = 0; stage < stage_names.size(); ++stage)
     summary.wall_s.by_stage[std::string(stage_names[stage])] = model.stages.seconds[stage];

@@ -7,9 +7,21 @@
 
 namespace brio {
 
-enum class Stage { loads, elements, erosion, nodes, rigid, constraints, contact_search, contact, output };
-inline constexpr std::array<std::string_view, 9> stage_names{
-    "loads", "elements", "erosion", "nodes", "rigid", "constraints", "contact_search", "contact", "output"};
+enum class Stage {
+  loads,
+  elements,
+  erosion,
+  nodes,
+  rigid,
+  constraints,
+  contact_search,
+  contact,
+  contact_lines,
+  output
+};
+inline constexpr std::array<std::string_view, 10> stage_names{
+    "loads",       "elements",       "erosion", "nodes",         "rigid",
+    "constraints", "contact_search", "contact", "contact_lines", "output"};
 
 struct StageTimes {
   std::array<double, stage_names.size()> seconds{};

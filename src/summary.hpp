@@ -36,6 +36,9 @@ struct Summary {
     std::int64_t searches = 0, comparisons = 0, candidate_pairs = 0, active_max = 0;
     double penetration_max = 0;  ///< a length
     std::int64_t missed = 0;     ///< found by the audit, not by the search
+    std::int64_t bodies = 0;     ///< that the surface consists of
+    std::int64_t lines = 0;      ///< edges, beams and particles that may meet each other
+    std::int64_t line_comparisons = 0, line_candidate_pairs = 0;
   };
   struct WallTimes {
     double total = 0;  ///< seconds

@@ -61,7 +61,6 @@ struct ErodingMesh {
     std::vector<SurfacePart> all;
     for (const Part& p : part)
       all.push_back({.name = "part",
-                     .shell = p.shell,
                      .nodes_per_element = p.corners(),
                      .connectivity = p.connectivity,
                      .thickness = p.thickness});

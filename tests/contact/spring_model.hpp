@@ -148,7 +148,6 @@ class SpringModel {
     std::vector<SurfacePart> parts;
     for (const Piece& piece : pieces_)
       parts.push_back({.name = "part " + std::to_string(parts.size()),
-                       .shell = piece.shell,
                        .nodes_per_element = piece.shell ? 4 : 8,
                        .connectivity = piece.connectivity,
                        .thickness = piece.thickness});

@@ -100,10 +100,10 @@ TEST(Surface, ShellsAreOneFaceEachWithFreeEdges) {
 TEST(Surface, RefusesWhatHasNone) {
   const std::vector<int> nodes{0, 1, 2, 3};
   const std::vector<SurfacePart> thin{
-      {.name = "sheet", .shell = true, .nodes_per_element = 4, .connectivity = nodes, .thickness = {}}};
+      {.name = "sheet", .nodes_per_element = 4, .connectivity = nodes, .thickness = {}}};
   EXPECT_THROW(make_surface(thin, 4), std::invalid_argument);
   const std::vector<SurfacePart> dangling{
-      {.name = "sheet", .shell = true, .nodes_per_element = 4, .connectivity = nodes, .thickness = {0.1}}};
+      {.name = "sheet", .nodes_per_element = 4, .connectivity = nodes, .thickness = {0.1}}};
   EXPECT_THROW(make_surface(dangling, 3), std::invalid_argument);
 }
 

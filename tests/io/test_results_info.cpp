@@ -68,7 +68,8 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
                                          "external", "deleted", "total_start", "error_relative"}));
   EXPECT_EQ(keys(json["momentum"]), (Names{"linear", "angular"}));
   EXPECT_EQ(keys(json["contact"]),
-            (Names{"searches", "comparisons", "candidate_pairs", "active_max", "penetration_max", "missed"}));
+            (Names{"searches", "comparisons", "candidate_pairs", "bodies", "lines", "line_comparisons",
+                   "line_candidate_pairs", "active_max", "penetration_max", "missed"}));
   EXPECT_EQ(keys(json["wall_s"]), (Names{"total", "by_stage"}));
   EXPECT_EQ(json["momentum"]["angular"], (std::vector<double>{4, 5, 6}));
   EXPECT_EQ(json["wall_s"]["by_stage"]["forces"], 1.5);

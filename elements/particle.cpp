@@ -1,4 +1,7 @@
+#include <algorithm>
+
 #include "elements/particle_kernel.hpp"
+#include "elements/particle_pairs.hpp"
 #include "elements/sweep.hpp"
 
 namespace brio {
@@ -6,6 +9,7 @@ namespace brio {
 namespace {
 
 using Number = Lanes<double>;
+constexpr std::array<double, 2> default_smoothing_bounds{0.5, 2};
 constexpr int width = lane_count<double>;
 
 Number lanes_of(const double (&row)[width]) {
@@ -29,6 +33,9 @@ ParticleMotion<Number> motion_of(const NeighbourSums& sums) {
   motion.spacing = lanes_of(sums.spacing);
   motion.hourglass_weight = lanes_of(sums.hourglass_weight);
   motion.frequency_squared = lanes_of(sums.frequency_squared);
+  motion.weight = lanes_of(sums.weight);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) motion.middle_gradient.m[r][c] = lanes_of(sums.middle_gradient[r][c]);
   return motion;
 }
 
@@ -42,13 +49,33 @@ void publish(ParticleCloud& cloud, const int* node, int count, const ParticleFor
   }
 }
 
+/// With the kernel of now. \param volume at the end of the step
+void publish_now(ParticleCloud& cloud, const Particle& particle, const int* node, int count, Number volume,
+                 const ParticleForces<Number>& forces) {
+  const auto [least, largest] = particle.smoothing_bounds.value_or(default_smoothing_bounds);
+  for (int lane = 0; lane < count; ++lane) {
+    const auto i = static_cast<std::size_t>(node[lane] - cloud.first_node);
+    ParticleForce& own = cloud.residual[i];
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) own.column[c][r] = forces.residual.m[r][c][lane];
+      own.column[c][3] = c == 0 ? forces.viscosity[lane] : 0;
+    }
+    const double stretch = edge_of_cube(volume[lane]) / cloud.spacing[i];
+    cloud.next_smoothing_length[i] = cloud.smoothing * cloud.spacing[i] * std::clamp(stretch, least, largest);
+  }
+}
+
 /// Of lost lanes: their energy acts no more, and their half of the step's work is taken back (lose.hpp).
 void take_back_particles(LaneMask<double> lost, double step, ParticleForces<Number>& forces,
                          Increment<Number>& increment) {
   const Number zero(0.0);
   for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) forces.a.m[r][c] = where(lost, zero, forces.a.m[r][c]);
+    for (int c = 0; c < 3; ++c) {
+      forces.a.m[r][c] = where(lost, zero, forces.a.m[r][c]);
+      forces.residual.m[r][c] = where(lost, zero, forces.residual.m[r][c]);
+    }
   forces.stiffness = where(lost, zero, forces.stiffness);
+  forces.viscosity = where(lost, zero, forces.viscosity);
   const auto broken = lost & (increment.stable_step <= zero);
   const Number internal = increment.internal_energy - where(lost, (0.5 * step) * forces.power, zero);
   increment.internal_energy = where(broken, zero, internal);
@@ -71,7 +98,11 @@ SweepResult sweep_particles(Block& block, Chunk chunk, Nodes& nodes, double step
     const std::size_t pack = chunk.first_pack + done / width;
     const int* node = block.connectivity.data() + pack * width;
     const int count = static_cast<int>(std::min<std::size_t>(width, chunk.element_count - done));
-    sum_over_neighbours(cloud, nodes, node, count, sums);
+    if (cloud.is_eulerian()) {
+      sum_over_neighbours_now(cloud, nodes, node, count, step, sums);
+    } else {
+      sum_over_neighbours(cloud, nodes, node, count, sums);
+    }
     ParticleForces<Number> forces;
     auto& header = Layout::header(block, pack);
     auto* point = Layout::points(block, pack);
@@ -89,6 +120,7 @@ SweepResult sweep_particles(Block& block, Chunk chunk, Nodes& nodes, double step
       hold<double>(increment, block.held.data() + pack * 2 * width);
     }
     publish(cloud, node, count, forces);
+    if (cloud.is_eulerian()) publish_now(cloud, kernel, node, count, header.volume, forces);
     internal_energy.add(increment.internal_energy, count);
     hourglass_energy.add(increment.hourglass_energy, count);
     viscous_energy.add(increment.viscous_energy, count);
@@ -100,9 +132,15 @@ SweepResult sweep_particles(Block& block, Chunk chunk, Nodes& nodes, double step
   return result;
 }
 
-double exchange_pair_forces(Block& block, Chunk chunk, Nodes& nodes, double) {
-  add_pair_forces(*block.cloud, nodes, block.connectivity.data() + chunk.first_pack * width,
-                  static_cast<int>(chunk.element_count));
+double exchange_pair_forces(Block& block, Chunk chunk, Nodes& nodes, double step) {
+  ParticleCloud& cloud = *block.cloud;
+  const int* node = block.connectivity.data() + chunk.first_pack * width;
+  const int count = static_cast<int>(chunk.element_count);
+  if (cloud.is_eulerian()) {
+    const double repulsion = std::get<Particle>(block.element).artificial_stress.value_or(0.3);
+    return -add_pair_forces_now(cloud, nodes, node, count, repulsion, step);
+  }
+  add_pair_forces(cloud, nodes, node, count);
   return 0;
 }
 

@@ -29,7 +29,7 @@ struct Particle {
   static constexpr bool accepts = is_solid_law<Law>;
 
   ParticleFrame kernel = ParticleFrame::total_lagrangian;
-  double smoothing_length = 1.2;
+  std::optional<double> smoothing_length{};
   std::optional<std::array<double, 2>> smoothing_bounds{};
   std::optional<double> hourglass_stiffness{};
   std::optional<double> hourglass_viscosity{};
@@ -43,7 +43,9 @@ struct Particle {
                  "total_lagrangian: between the neighbours of the start, for bodies that deform; eulerian: "
                  "between those of now, for bodies that flow, mix and part"),
         optional("smoothing_length", &Particle::smoothing_length, Range{.lower = 1, .upper = 2},
-                 "of the kernel, whose radius is twice that, over the spacing of the particles, -"),
+                 "of the kernel, whose radius is twice that, over the spacing of the particles; default: "
+                 "1.1, or 1.5 "
+                 "where the kernel is eulerian"),
         optional("smoothing_bounds", &Particle::smoothing_bounds, positive,
                  "eulerian: least and largest smoothing length over that of the start; default: [0.5, 2]"),
         optional(
@@ -53,7 +55,7 @@ struct Particle {
         optional(
             "hourglass_viscosity", &Particle::hourglass_viscosity, fraction,
             "eulerian: viscous control of the same, share of density times speed of sound times spacing; "
-            "default: 0.1"),
+            "default: 0.3"),
         optional("artificial_stress", &Particle::artificial_stress, fraction,
                  "eulerian: share of tension by which particles that come close repel each other; default: "
                  "0.3"),
@@ -76,8 +78,9 @@ struct Particle {
   }
 
   constexpr bool is_eulerian() const { return kernel == ParticleFrame::eulerian; }
+  constexpr double smoothing() const { return smoothing_length.value_or(is_eulerian() ? 1.5 : 1.1); }
   constexpr double stiffness_share() const { return is_eulerian() ? 0 : hourglass_stiffness.value_or(0.1); }
-  constexpr double viscosity_share() const { return is_eulerian() ? hourglass_viscosity.value_or(0.1) : 0; }
+  constexpr double viscosity_share() const { return is_eulerian() ? hourglass_viscosity.value_or(0.3) : 0; }
 };
 
 }  // namespace brio

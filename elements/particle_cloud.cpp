@@ -1,31 +1,17 @@
-#include "elements/particle_cloud.hpp"
+#include "elements/particle_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "elements/gather.hpp"
+#include "elements/particle_weights.hpp"
 
 namespace brio {
 
 namespace {
-
-constexpr int width = lane_count<double>;
-
-/// A neighbourhood whose moments have a determinant below this share of that of a round one lies in a plane
-/// or on a line.
-constexpr double least_roundness = 1e-6;
-
-/// -W'(r) / r of the cubic B-spline in three dimensions (Monaghan & Lattanzio 1985).
-double kernel_weight(double distance, double smoothing_length) {
-  const double h = smoothing_length;
-  const double q = distance / h;
-  const double size = std::numbers::inv_pi / (h * h * h * h * h);
-  if (q < 1) return size * (3 - 2.25 * q);
-  return q < 2 ? size * 0.75 * (2 - q) * (2 - q) / q : 0;
-}
 
 Vector3<double> pair_vector(const Nodes& nodes, int from, int to) {
   const double* a = nodes.record[static_cast<std::size_t>(from)].position;
@@ -44,20 +30,9 @@ SymmetricTensor<double> moments(const ParticleCloud& cloud, std::size_t i) {
   return m;
 }
 
-/// The inverse; 0 where the neighbours do not stand in three directions.
-SymmetricTensor<double> corrected(const SymmetricTensor<double>& m) {
-  const SymmetricTensor<double> cofactor{m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz,
-                                         m.xx * m.yy - m.xy * m.xy, m.xz * m.yz - m.xy * m.zz,
-                                         m.xy * m.xz - m.yz * m.xx, m.xy * m.yz - m.xz * m.yy};
-  const double determinant = m.xx * cofactor.xx + m.xy * cofactor.xy + m.xz * cofactor.xz;
-  const double mean = trace(m) / 3;
-  if (!(determinant > least_roundness * mean * mean * mean)) return {};
-  return (1 / determinant) * cofactor;
-}
-
 void correct(ParticleCloud& cloud, std::size_t i) {
   const SymmetricTensor<double> m = moments(cloud, i);
-  const SymmetricTensor<double> c = corrected(m);
+  const SymmetricTensor<double> c = inverse_moments(m);
   cloud.correction[i] = c;
   const bool has_support = trace(c) > 0;
   cloud.hourglass_weight[i] = has_support ? 3 / trace(m) : 0;
@@ -116,7 +91,7 @@ ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume
       if (other == i) continue;
       const Vector3<double> x = pair_vector(nodes, first_node + static_cast<int>(i), first_node + j);
       const double length = smoothing * 0.5 * (cloud.spacing[i] + cloud.spacing[other]);
-      const double s = volume[i] * volume[other] * kernel_weight(std::sqrt(dot(x, x)), length);
+      const double s = volume[i] * volume[other] * kernel_weight(dot(x, x), 1 / length);
       if (!(s > 0)) continue;
       neighbour.push_back(j);
       pair.push_back({{s * x.x, s * x.y, s * x.z, s}});
@@ -167,6 +142,7 @@ void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const i
       for (int c = 0; c < 3; ++c) {
         sums.position[r][c][lane] = x_sum[c][r];
         sums.velocity[r][c][lane] = v_sum[c][r];
+        sums.middle_gradient[r][c][lane] = 0;
       }
     sums.position_by_velocity[lane] = sum3(xv_sum);
     sums.velocity_squared[lane] = sum3(vv_sum);
@@ -176,14 +152,11 @@ void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const i
     sums.volume[lane] = cloud.volume[i];
     sums.spacing[lane] = cloud.spacing[i];
     sums.hourglass_weight[lane] = cloud.hourglass_weight[i];
+    sums.weight[lane] = 0;  // asked for by the eulerian form alone
     const double growth = std::max(1.0, cloud.gradient_size[i] / cloud.largest_gradient_size);
     sums.frequency_squared[lane] = growth * growth * cloud.frequency_squared;
   }
-  // The struct is nothing but numbers by lanes.
-  auto* number = reinterpret_cast<double*>(&sums);
-  for (std::size_t row = 0; row < sizeof(NeighbourSums) / sizeof(double); row += width)
-    for (int lane = count; lane < width; ++lane)
-      number[row + static_cast<std::size_t>(lane)] = number[row + static_cast<std::size_t>(count) - 1];
+  repeat_last_lane(sums, count);
 }
 
 void add_pair_forces(const ParticleCloud& cloud, Nodes& nodes, const int* node, int count) {
@@ -215,10 +188,11 @@ void cut_particle(ParticleCloud& cloud, int particle) {
   for (std::size_t k = cloud.first[i]; k < cloud.first[i] + static_cast<std::size_t>(cloud.count[i]); ++k) {
     const auto j = static_cast<std::size_t>(cloud.neighbour[k]);
     remove_pair(cloud, j, particle);
-    correct(cloud, j);
+    if (!cloud.is_eulerian()) correct(cloud, j);  // the other form does so in every step
   }
   cloud.count[i] = 0;
   cloud.force[i] = {};
+  if (cloud.is_eulerian()) cloud.searched_at[i].component[3] = -1;
 }
 
 }  // namespace brio

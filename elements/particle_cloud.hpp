@@ -21,12 +21,9 @@
 
 #include <cmath>
 #include <cstddef>
-#include <span>
-#include <vector>
 
 #include "materials/stress_state.hpp"
 #include "src/base/aligned.hpp"
-#include "src/base/lanes.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {
@@ -36,23 +33,9 @@ struct alignas(32) ParticlePair {
   double weighted[4];
 };
 
-/// What a particle tells its neighbours: columns of A; in the fourth place of the first k, and of the second
-/// the viscosity of the eulerian form.
+/// What a particle tells its neighbours: columns of A, and k in the fourth place of the first.
 struct alignas(32) ParticleForce {
   double column[3][4];
-};
-
-/// Sums over the neighbours of the particles of a pack, one a lane.
-struct alignas(64) NeighbourSums {
-  double position[3][3][lane_count<double>];        ///< sum of s x X^T
-  double velocity[3][3][lane_count<double>];        ///< sum of s v X^T
-  double position_by_velocity[lane_count<double>];  ///< sum of s x.v
-  double velocity_squared[lane_count<double>];      ///< sum of s v.v
-  double correction[6][lane_count<double>];         ///< K: xx yy zz xy yz xz
-  double volume[lane_count<double>];                ///< at the start
-  double spacing[lane_count<double>];
-  double hourglass_weight[lane_count<double>];   ///< 3 / sum of s X.X, by which a modulus makes k
-  double frequency_squared[lane_count<double>];  ///< bound of the undeformed neighbourhood
 };
 
 /// Edge of a cube. Volumes in units of eight times each other have edges of the same bits, which is not so of
@@ -83,34 +66,17 @@ struct ParticleCloud {
   double skin = 0;                              ///< by which neighbours are searched further
   AlignedBuffer<double> smoothing_length;       ///< now
   AlignedBuffer<double> next_smoothing_length;  ///< of the step that follows
-  AlignedBuffer<NodeVector> repulsion;          ///< on each particle, against clumps
-  AlignedBuffer<NodeVector> searched_at;        ///< positions of the last search
+  AlignedBuffer<ParticleForce> residual;        ///< viscosity times L, and viscosity, for residual velocities
+  AlignedBuffer<NodeVector> pair_force;         ///< on each particle, of residual velocities and repulsion
+  /// Positions at the last search, and the smoothing lengths; -1 where a particle has been cut.
+  AlignedBuffer<NodeVector> searched_at;
   bool is_eulerian() const { return !smoothing_length.empty(); }
+  bool is_cut(std::size_t i) const { return searched_at[i].component[3] < 0; }
 
   std::size_t size() const { return volume.size(); }
 };
 
-/// Pairs closer than twice the mean of their smoothing lengths, of lists that hold at least these.
-/// \param volume of each particle
-/// \param first, candidates of particle i are candidate[first[i]] to candidate[first[i + 1] - 1]
-/// \param smoothing smoothing length over the cube root of the volume
-/// \throws std::invalid_argument naming a particle without neighbours in three directions
-ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume, std::span<const int> first,
-                                  std::span<const int> candidate, double smoothing, const Nodes& nodes);
-
-/// Sums for `count` particles of a pack; the lanes behind repeat the last.
-void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
-                         NeighbourSums& sums);
-
-/// Adds the pair forces on `count` particles to nodes.force.
-void add_pair_forces(const ParticleCloud& cloud, Nodes& nodes, const int* node, int count);
-
 /// Takes a particle out of its neighbours' lists.
 void cut_particle(ParticleCloud& cloud, int particle);
-
-/// The highest frequency, squared, of the linear elastic cloud at the start, by Lanczos' method, with a
-/// margin for what that has not found.
-double highest_frequency_squared(ParticleCloud& cloud, const Nodes& nodes,
-                                 const ElasticModuli<double>& moduli, double hourglass_modulus);
 
 }  // namespace brio

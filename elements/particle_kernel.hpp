@@ -18,12 +18,14 @@ struct ParticleMotion {
   Tensor<T> cofactor;       ///< det F F^-T
   T jacobian;               ///< det F
   SymmetricTensor<T> correction;
-  T volume;             ///< at the start
-  T spacing;            ///< its cube root
-  T hourglass_weight;   ///< by which a modulus makes k
-  T residual_power;     ///< sum of s e.v
-  T residual_rate;      ///< sum of s times the rate of e squared
-  T frequency_squared;  ///< bound of the undeformed neighbourhood
+  T volume;                   ///< at the start
+  T spacing;                  ///< its cube root
+  T hourglass_weight;         ///< by which a modulus makes k
+  T residual_power;           ///< sum of s e.v
+  T residual_rate;            ///< sum of s times the rate of e squared
+  T frequency_squared;        ///< bound for the moduli of the start
+  T weight;                   ///< sum of s, where the kernel is of now
+  Tensor<T> middle_gradient;  ///< L of the middle of the step, likewise
 };
 
 template <class T>
@@ -80,11 +82,11 @@ BRIO_INLINE ParticleMotion<T> particle_motion(const Tensor<T>& x_sum, const Tens
   return motion;
 }
 
-/// A, and k.
+/// A, and k; L and the viscosity of residual velocities.
 template <class T>
 struct ParticleForces {
-  Tensor<T> a;
-  T stiffness;
+  Tensor<T> a, residual;
+  T stiffness, viscosity;
   T power;  ///< of the forces that the particle's own energy exerts
 };
 
@@ -111,6 +113,24 @@ struct ParticleKernel : Particle {
     return moduli.shear * (3.0 * moduli.first_lame + 2.0 * moduli.shear) / (moduli.first_lame + moduli.shear);
   }
 
+  /// N of the middle of the step, and the volumes: from F at the end; or, with the kernel of now, whose
+  /// weights change within the step, from L of the middle itself.
+  template <class T>
+  BRIO_INLINE StepVolume<T> end_of_step(const ParticleMotion<T>& motion, T half_step, const Tensor<T>& l,
+                                        T last_volume, Tensor<T>& n) const {
+    T shrinking, stretching;
+    if (!is_eulerian()) {
+      n = centered(half_step * l, shrinking);
+      return step_volume(motion.volume * motion.jacobian, shrinking);
+    }
+    n = half_step * motion.middle_gradient;
+    centered(n, shrinking);
+    centered(T(-1.0) * n, stretching);
+    const MaskOf<T> is_valid = (shrinking > T(0.0)) & (stretching > T(0.0));
+    const T middle = last_volume / where(is_valid, shrinking, T(1.0));
+    return {middle * where(is_valid, stretching, T(1.0)), middle, is_valid};
+  }
+
   /// What holds residual motions gives way where the material flows: with the stress of yielding Y and the
   /// plastic strain p it is Y / (Y/E + p), the slope of stress over all of the strain.
   template <class T, class Law>
@@ -132,9 +152,8 @@ struct ParticleKernel : Particle {
     const MaskOf<T> is_upright = motion.jacobian > T(0.0);
     const T jacobian = where(is_upright, motion.jacobian, T(1.0));
     const Tensor<T> l = (1.0 / jacobian) * times_transposed(motion.gradient_rate, motion.cofactor);
-    T determinant;
-    const Tensor<T> n = centered(half_step * l, determinant);
-    const StepVolume<T> volume = step_volume(motion.volume * motion.jacobian, determinant);
+    Tensor<T> n;
+    const StepVolume<T> volume = end_of_step(motion, half_step, l, header.volume, n);
     header.volume = volume.end;
     MaterialAxes<T> axes;
     Increment<T> increment;
@@ -155,23 +174,31 @@ struct ParticleKernel : Particle {
 
     forces.stiffness = stiffness_share() * secant_modulus(law, youngs_modulus(moduli), point->history) *
                        motion.volume * motion.hourglass_weight;
+    // Of the forces at the start and at the end of the step.
     const T hourglass_work =
-        forces.stiffness * (step * motion.residual_power - step * half_step * motion.residual_rate);
+        half_step * (forces.stiffness * motion.residual_power +
+                     header.hourglass_stiffness * (motion.residual_power - step * motion.residual_rate));
     // What the control had stored shrinks with its stiffness: that is lost like plastic work.
-    const T left = forces.stiffness / max(header.hourglass_stiffness, forces.stiffness);
-    const T stored = where(motion.hourglass_weight > T(0.0), left, T(1.0)) * header.hourglass_energy;
+    const T before = max(header.hourglass_stiffness, forces.stiffness);
+    const MaskOf<T> holds = before > T(0.0);
+    const T stored =
+        where(holds, forces.stiffness / where(holds, before, T(1.0)), T(1.0)) * header.hourglass_energy;
     increment.hourglass_energy = stored + hourglass_work - header.hourglass_energy;
     increment.internal_energy += header.hourglass_energy - stored;
     header.hourglass_energy = stored + hourglass_work;
     header.hourglass_stiffness = forces.stiffness;
 
-    // V P = V sigma cof F of the start volume V.
+    // V P = V sigma cof F of the volume V that F is of.
     const SymmetricTensor<T> stress = fixed_stress(*point, axes) - isotropic(pressure);
-    const Tensor<T> force_tensor = motion.volume * (full(stress) * motion.cofactor);
+    const T volume_of_reference = is_eulerian() ? volume.end : motion.volume;
+    const Tensor<T> force_tensor = volume_of_reference * (full(stress) * motion.cofactor);
     forces.power = contract(force_tensor, motion.gradient_rate) + forces.stiffness * motion.residual_power;
     forces.a = force_tensor * full(motion.correction);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) forces.a.m[i][j] -= forces.stiffness * motion.gradient.m[i][j];
+    forces.viscosity =
+        viscosity_share() * density * sound_speed * motion.spacing * volume.end * motion.hourglass_weight;
+    forces.residual = forces.viscosity * l;
 
     // A quadratic form of gradients on the present configuration, (lambda + 2 mu) V |grad u|^2, over that at
     // the start is at most the ratio of the moduli times det F times the largest eigenvalue of F^-1 F^-T.
@@ -180,9 +207,12 @@ struct ParticleKernel : Particle {
       return c.m[0][i] * c.m[0][j] + c.m[1][i] * c.m[1][j] + c.m[2][i] * c.m[2][j];
     };
     const SymmetricTensor<T> g{entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(0, 2)};
-    const T growth = stiffness * largest_eigenvalue_bound(g) / (header.stiffness_at_start * jacobian);
+    const T growth = stiffness * largest_eigenvalue_bound(g) * (volume_of_reference / motion.volume) /
+                     (header.stiffness_at_start * jacobian);
     const T frequency_squared = motion.frequency_squared * max(growth, T(1.0));
-    const T damping = frequency_squared * (linear + quadratic) / square(sound_speed);
+    // sum s |v_j - v_i|^2 <= 2 sum s (v_j^2 + v_i^2), as one of two in every pair.
+    const T damping = frequency_squared * (linear + quadratic) / square(sound_speed) +
+                      4.0 * forces.viscosity * motion.weight / header.mass;
     increment.stable_step = where(volume.is_valid, damped_stable_step(frequency_squared, damping), T(-1.0));
     return increment;
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "elements/particle_cloud.hpp"
+#include "elements/particle_pairs.hpp"
 
 namespace brio {
 

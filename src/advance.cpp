@@ -52,7 +52,7 @@ void exchange_between_elements(Model& model, ThreadTeam& team) {
     const SweepTask& task = model.schedule.tasks[t];
     Block& block = model.blocks[task.block];
     if (exchanges(block))
-      model.sweep_results[t].hourglass_energy +=
+      model.sweep_results[t].viscous_energy +=
           block.kernel.exchange(block, task.chunk, model.nodes, model.times.previous);
   });
 }
@@ -60,6 +60,8 @@ void exchange_between_elements(Model& model, ThreadTeam& team) {
 // Internal forces by colours of chunks; sums and the stable step in the order of tasks.
 void sweep_elements(Model& model, ThreadTeam& team) {
   const StageTimer timer(model.stages, Stage::elements);
+  for (ParticleSearch& search : model.particle_searches)
+    follow_neighbours(search, model.blocks[search.block], model.nodes, team);
   const SweepSchedule& schedule = model.schedule;
   for (std::size_t colour = 0; colour + 1 < schedule.colour_first.size(); ++colour) {
     const std::size_t first = schedule.colour_first[colour];

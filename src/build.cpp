@@ -207,7 +207,7 @@ std::vector<double> contact_thickness(const Element& element, const Mesh& mesh) 
   if (const auto* beam = std::get_if<Beam2>(&element))
     std::fill(thickness.begin(), thickness.end(),
               2 * beam->contact_radius.value_or(fibres_of(beam->section).radius));
-  for (std::size_t e = 0; e < mesh.volume.size(); ++e) thickness[e] = std::cbrt(mesh.volume[e]);
+  for (std::size_t e = 0; e < mesh.volume.size(); ++e) thickness[e] = edge_of_cube(mesh.volume[e]);
   return thickness;
 }
 
@@ -318,6 +318,9 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   constrain(deck, meshes, model);
   make_contact(deck, meshes, connectivity, model);
   lump_masses(meshes, model);
+  for (std::size_t b = 0; b < model.blocks.size(); ++b)
+    if (model.blocks[b].cloud && model.blocks[b].cloud->is_eulerian())
+      model.particle_searches.push_back({.block = b});
   model.schedule = make_schedule(model.blocks, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());
   if (can_erode(model.blocks)) model.erosion = make_erosion(model.blocks, model.nodes.size());

@@ -15,6 +15,7 @@
 #include "src/ledger.hpp"
 #include "src/loads.hpp"
 #include "src/motion.hpp"
+#include "src/particles.hpp"
 #include "src/rigid.hpp"
 #include "src/schedule.hpp"
 #include "src/stage_times.hpp"
@@ -45,7 +46,8 @@ struct Model {
   std::vector<Block> blocks;
   std::vector<PartInModel> parts;
   SweepSchedule schedule;
-  std::vector<SweepResult> sweep_results;  ///< one a task
+  std::vector<SweepResult> sweep_results;         ///< one a task
+  std::vector<ParticleSearch> particle_searches;  ///< of blocks of particles whose kernel is of now
   std::vector<ActiveLoad> loads;
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;

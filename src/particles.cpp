@@ -1,33 +1,90 @@
 #include "src/particles.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+#include <cmath>
+#include <limits>
 
-#include "contact/global_search.hpp"
+#include "elements/particle_pairs.hpp"
 
 namespace brio {
 
+namespace {
+
+/// Lists are made longer by this share of the smallest smoothing length of the start.
+constexpr double skin_share = 0.3;
+
+const double* position(const ParticleCloud& cloud, const Nodes& nodes, std::size_t i) {
+  return nodes.record[static_cast<std::size_t>(cloud.first_node) + i].position;
+}
+
+// Points and boxes of the particles that live, which reach as far as the search must see.
+void fill_boxes(const ParticleCloud& cloud, const Nodes& nodes, ParticleSearch& search) {
+  const double largest = *std::max_element(cloud.smoothing_length.begin(), cloud.smoothing_length.end());
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+  search.point.assign(cloud.size(), {nowhere, nowhere, nowhere});
+  search.box.assign(cloud.size(), empty_box);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.is_cut(i)) continue;
+    const double* x = position(cloud, nodes, i);
+    const double reach = cloud.smoothing_length[i] + largest + cloud.skin;
+    search.point[i] = {x[0], x[1], x[2]};
+    search.box[i] = {{x[0] - reach, x[1] - reach, x[2] - reach}, {x[0] + reach, x[1] + reach, x[2] + reach}};
+  }
+}
+
+// Whether a pair may have come into the reach of its kernel that is in no list: no two particles have moved
+// further towards each other than the displacements of all are apart.
+bool lists_are_old(const ParticleCloud& cloud, const Nodes& nodes) {
+  CaptureBox moved = empty_box;
+  double growth = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.is_cut(i)) continue;
+    const double* x = position(cloud, nodes, i);
+    const double* then = cloud.searched_at[i].component;
+    for (int axis = 0; axis < 3; ++axis) {
+      moved.lower[axis] = std::min(moved.lower[axis], x[axis] - then[axis]);
+      moved.upper[axis] = std::max(moved.upper[axis], x[axis] - then[axis]);
+    }
+    growth = std::max(growth, cloud.smoothing_length[i] - then[3]);
+  }
+  if (!moved.holds_anything()) return false;
+  const double apart = std::hypot(moved.upper[0] - moved.lower[0], moved.upper[1] - moved.lower[1],
+                                  moved.upper[2] - moved.lower[2]);
+  return apart + 2 * growth >= cloud.skin;
+}
+
+}  // namespace
+
 void find_neighbours(Block& block, std::span<const double> volume, const Nodes& nodes) {
   const auto& particle = std::get<Particle>(block.element);
-  if (particle.is_eulerian())
-    throw std::invalid_argument("kernel: eulerian is not computed yet; accepted is total_lagrangian");
   const int first_node = block.node(0, 0);
   const double reach =
-      2 * particle.smoothing_length * edge_of_cube(*std::max_element(volume.begin(), volume.end()));
-  std::vector<Vector3<double>> point;
-  std::vector<CaptureBox> box;
+      2 * particle.smoothing() * edge_of_cube(*std::max_element(volume.begin(), volume.end()));
+  ParticleSearch search{};
   for (std::size_t i = 0; i < volume.size(); ++i) {
     const double* x = nodes.record[static_cast<std::size_t>(first_node) + i].position;
-    point.push_back({x[0], x[1], x[2]});
-    box.push_back({{x[0] - reach, x[1] - reach, x[2] - reach}, {x[0] + reach, x[1] + reach, x[2] + reach}});
+    search.point.push_back({x[0], x[1], x[2]});
+    search.box.push_back(
+        {{x[0] - reach, x[1] - reach, x[2] - reach}, {x[0] + reach, x[1] + reach, x[2] + reach}});
   }
-  GlobalSearch search;
   ThreadTeam team(1);
-  CandidatePairs pairs;
-  SearchCounts counts;
-  search.find(point, box, team, pairs, counts);
-  block.cloud =
-      make_particle_cloud(first_node, volume, pairs.first, pairs.node, particle.smoothing_length, nodes);
+  search.search.find(search.point, search.box, team, search.pairs, search.counts);
+  block.cloud = make_particle_cloud(first_node, volume, search.pairs.first, search.pairs.node,
+                                    particle.smoothing(), nodes);
+  if (!particle.is_eulerian()) return;
+  ParticleCloud& cloud = *block.cloud;
+  start_eulerian(cloud, particle.smoothing(), nodes);
+  cloud.skin = skin_share * *std::min_element(cloud.smoothing_length.begin(), cloud.smoothing_length.end());
+}
+
+void follow_neighbours(ParticleSearch& search, Block& block, const Nodes& nodes, ThreadTeam& team) {
+  ParticleCloud& cloud = *block.cloud;
+  std::copy(cloud.next_smoothing_length.begin(), cloud.next_smoothing_length.end(),
+            cloud.smoothing_length.begin());
+  if (search.counts.searches > 0 && !lists_are_old(cloud, nodes)) return;
+  fill_boxes(cloud, nodes, search);
+  search.search.find(search.point, search.box, team, search.pairs, search.counts);
+  set_neighbours(cloud, search.pairs.first, search.pairs.node, nodes);
 }
 
 }  // namespace brio

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "elements/particle_cloud.hpp"
 #include "elements/particle_kernel.hpp"
+#include "elements/particle_pairs.hpp"
 
 namespace brio {
 namespace {
@@ -45,9 +45,7 @@ struct Gradients {
   Tensor<double> of_position, of_velocity;
   double residual_power, residual_rate;
 };
-Gradients gradients(const IrregularCloud& irregular, int particle) {
-  NeighbourSums sums;
-  sum_over_neighbours(irregular.cloud, irregular.nodes, &particle, 1, sums);
+Gradients gradients_of(const NeighbourSums& sums) {
   Tensor<double> x, v;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -59,6 +57,11 @@ Gradients gradients(const IrregularCloud& irregular, int particle) {
       particle_motion(x, v, sums.position_by_velocity[0], sums.velocity_squared[0],
                       SymmetricTensor<double>{k[0][0], k[1][0], k[2][0], k[3][0], k[4][0], k[5][0]});
   return {motion.gradient, motion.gradient_rate, motion.residual_power, motion.residual_rate};
+}
+Gradients gradients(const IrregularCloud& irregular, int particle) {
+  NeighbourSums sums;
+  sum_over_neighbours(irregular.cloud, irregular.nodes, &particle, 1, sums);
+  return gradients_of(sums);
 }
 
 const Tensor<double> a{{{0.9, 0.3, -0.2}, {0.1, 1.2, 0.4}, {-0.3, 0.2, 0.8}}};
@@ -83,6 +86,40 @@ TEST(ParticleCloud, LinearFieldsHaveExactGradientsInsideAndAtTheSurface) {
       for (int j = 0; j < 3; ++j) {
         ASSERT_NEAR(found.of_position.m[i][j], a.m[i][j], 1e-12) << particle;
         ASSERT_NEAR(found.of_velocity.m[i][j], b.m[i][j], 4e-12) << particle;
+      }
+    ASSERT_NEAR(found.residual_power, 0, 1e-10);
+    ASSERT_NEAR(found.residual_rate, 0, 1e-10);
+  }
+}
+
+// Weighed anew where the particles stand, F is I.
+TEST(ParticleCloud, KernelOfNowHasExactGradientsOfVelocities) {
+  IrregularCloud irregular;
+  start_eulerian(irregular.cloud, 1.5, irregular.nodes);
+  irregular.cloud.skin = 0.3;
+  std::vector<int> first{0}, candidate;
+  const int n = static_cast<int>(irregular.nodes.size());
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) candidate.push_back(j);
+    first.push_back(static_cast<int>(candidate.size()));
+  }
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> shift(-0.2, 0.2);
+  for (NodeRecord& record : irregular.nodes.record) {
+    for (int i = 0; i < 3; ++i) record.position[i] += shift(random);
+    const Vector3<double> v = times(b, record.position);
+    record.velocity[0] = v.x - 2, record.velocity[1] = v.y + 9, record.velocity[2] = v.z;
+  }
+  set_neighbours(irregular.cloud, first, candidate, irregular.nodes);
+  for (int particle = 0; particle < n; ++particle) {
+    NeighbourSums sums;
+    sum_over_neighbours_now(irregular.cloud, irregular.nodes, &particle, 1, 0.0, sums);
+    const Gradients found = gradients_of(sums);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        ASSERT_NEAR(found.of_position.m[i][j], i == j ? 1 : 0, 1e-12) << particle;
+        ASSERT_NEAR(found.of_velocity.m[i][j], b.m[i][j], 4e-12) << particle;
+        ASSERT_NEAR(sums.middle_gradient[i][j][0], b.m[i][j], 4e-12) << particle;
       }
     ASSERT_NEAR(found.residual_power, 0, 1e-10);
     ASSERT_NEAR(found.residual_rate, 0, 1e-10);

@@ -269,6 +269,18 @@ constexpr Edit edits[] = {
     {"title: Two boxes", "title: a\n^title: b", "duplicate key 'title'"},
 };
 
+TEST(BadDeckOfParticles, SinglePrecisionIsRefusedWhereItIsAskedFor) {
+  const std::string text =
+      "materials: {m: {model: elastic, density: 1, youngs_modulus: 1, poissons_ratio: 0}}\n"
+      "parts: {p: {mesh: {particles: {sphere: {radius: 1, spacing: 0.2}}}, element: particle, material: m}}\n"
+      "time: {end: 1}\n"
+      "numerics:\n  precision: ";
+  EXPECT_EQ(fault_of([&] { parse_deck(text + "double\n", "a.yaml"); }), "");
+  const std::string fault = fault_of([&] { parse_deck(text + "float\n", "a.yaml"); });
+  EXPECT_NE(fault.find("a.yaml:5:14"), std::string::npos) << fault;
+  EXPECT_NE(fault.find("computed in double only"), std::string::npos) << fault;
+}
+
 /// The plain deck with a line of beams for its left part.
 std::string deck_with_beams(const std::string& from = {}, const std::string& to = {}) {
   std::string text = plain_deck;

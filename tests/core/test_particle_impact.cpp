@@ -129,7 +129,7 @@ void expect_shape_of_hexahedra(ParticleFrame kernel, double spacing) {
 }
 
 TEST(ParticleTaylorBarSlow, KernelOfTheStartGivesTheShapeOfHexahedra) {
-  expect_shape_of_hexahedra(ParticleFrame::total_lagrangian, 0.5e-3);
+  expect_shape_of_hexahedra(ParticleFrame::total_lagrangian, 0.4e-3);
 }
 TEST(ParticleTaylorBarSlow, KernelOfNowGivesTheShapeOfHexahedra) {
   expect_shape_of_hexahedra(ParticleFrame::eulerian, 0.4e-3);

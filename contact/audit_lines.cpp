@@ -20,7 +20,8 @@ class LineAuditor {
  public:
   LineAuditor(const ContactScene& scene, const Nodes& nodes)
       : scene_(scene), surface_(scene.surface), nodes_(nodes) {
-    collect_lines(surface_, scene.options, nodes, line_);
+    std::vector<LineEnd> ends;
+    collect_lines(surface_, scene.options, nodes, line_, ends);
     for (const Line& line : line_) {
       const Segment segment{end(line, 0), end(line, 1)};
       segment_.push_back(segment);

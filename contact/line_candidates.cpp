@@ -113,7 +113,7 @@ void sort_by_line(LineCandidates& candidates, const Surface& surface, const Node
 void search_lines(LineCandidates& candidates, const Candidates& faces, const Surface& surface,
                   const ContactOptions& options, const Nodes& nodes, ThreadTeam& team) {
   candidates.before.swap(candidates.line);
-  collect_lines(surface, options, nodes, candidates.line);
+  collect_lines(surface, options, nodes, candidates.line, candidates.ends);
   candidates.box.clear();
   candidates.range.clear();
   for (const Line& line : candidates.line) {

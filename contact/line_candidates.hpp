@@ -29,6 +29,7 @@ struct LineCandidates {
   std::vector<CaptureBox> box;             ///< working space
   std::vector<CaptureBox> range;           ///< working space
   CandidatePairs pairs;                    ///< working space
+  std::vector<LineEnd> ends;               ///< working space
   std::vector<std::pair<int, int>> found;  ///< working space
   std::vector<NodesOfPair> added;          ///< working space
   std::vector<Line> before;                ///< working space

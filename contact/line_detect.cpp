@@ -17,9 +17,14 @@ namespace {
 constexpr std::size_t lines_per_task = 64;
 /// An edge lies in a face of the other within 0.8 degrees (the sine).
 constexpr double flush = 0.014;
+/// A contact of the last step is followed as far as this beyond the normals of the faces (6 degrees): faces
+/// turn as they are pressed, and nothing may slip in while they do.
+constexpr double followed = 0.1;
 /// Edges flush with faces meet each other only so far from their ends, in lengths: nearer to them a node
 /// meets the face, and what the end of an upright edge would catch on is a seam between faces.
 constexpr double end_share = 0.02;
+/// Where an edge goes on beyond its end, it is met so far beyond it: nothing slips through between the two.
+constexpr double overlap_share = 0.01;
 /// Edges of solids are parallel within 1 degree (the sine): the nodes of one then meet the faces of the
 /// other.
 constexpr double parallel = 0.0175;
@@ -113,6 +118,7 @@ class LineCheck {
   // Where a node of the line comes closest, its own check stands for it, unless no face is there to meet.
   bool stands_for_itself(SegmentFeature feature, const Line& line, const Line& other) const {
     if (feature == SegmentFeature::inside || line.is_point()) return true;
+    if (line.continues[feature == SegmentFeature::first_end ? 0 : 1]) return true;
     return !line.is_edge() && !other.is_edge() && other.kind != LineKind::node;
   }
   bool is_here(const std::array<SegmentFeature, 2>& features) const {
@@ -120,14 +126,14 @@ class LineCheck {
   }
 
   // Whether a direction leads out of a line and no face is closer.
-  bool leads_out(const Line& line, const Vector3d& direction) const {
+  bool leads_out(const Line& line, const Vector3d& direction, double beyond = flush) const {
     if (line.kind == LineKind::node)
       return surface_.of_solid[static_cast<std::size_t>(line.node[0])] == 0 ||
              looks_against(surface_, nodes_, line.node[0], -direction, 0);
     if (line.kind != LineKind::solid_edge) return true;
     const EdgeNormals at = normals_at(surface_, nodes_, line);
-    return at.first.cross(direction).dot(at.along) > -flush &&
-           direction.cross(at.second).dot(at.along) > -flush;
+    return at.first.cross(direction).dot(at.along) > -beyond &&
+           direction.cross(at.second).dot(at.along) > -beyond;
   }
   // The normal of the face of an edge of a solid that a direction out of it is close to.
   std::optional<Vector3d> face_along(const Line& line, const Vector3d& direction) const {
@@ -146,16 +152,22 @@ class LineCheck {
   // What a direction found from the lines alone comes to; none if it leads not out of both. Where an edge
   // lies in a face of the other, that face tells the way.
   std::optional<Way> way_of(const Vector3d& direction, const std::array<double, 2>& at) const {
-    if (!leads_out(*b_, direction) || !leads_out(*a_, -direction)) return std::nullopt;
+    const double beyond = tracked() != nullptr ? followed : flush;
+    if (!leads_out(*b_, direction, beyond) || !leads_out(*a_, -direction, beyond)) return std::nullopt;
     if (a_->radius + b_->radius > 0) return Way{direction, at};
     const auto of_second = face_along(*b_, direction);
     const auto of_first = of_second ? std::nullopt : face_along(*a_, -direction);
-    if (!of_first && !of_second) return Way{direction, at};
-    const Vector3d normal = of_second ? *of_second : Vector3d(-*of_first);
-    const auto seen = crossing_along(normal);
-    for (double parameter : seen)
-      if (!(std::min(parameter, 1 - parameter) > end_share)) return std::nullopt;
-    return Way{normal, seen};
+    const bool in_face = of_first || of_second;
+    const Vector3d normal = of_second ? *of_second : of_first ? Vector3d(-*of_first) : direction;
+    const auto crossing = crossing_along(normal);
+    if (!is_on(*a_, crossing[0], in_face) || !is_on(*b_, crossing[1], in_face)) return std::nullopt;
+    return Way{normal, crossing};
+  }
+
+  bool is_on(const Line& line, double parameter, bool in_face) const {
+    const double margin = in_face ? end_share : 0;
+    return parameter >= (line.continues[0] ? -overlap_share : margin) &&
+           parameter <= 1 + (line.continues[1] ? overlap_share : -margin);
   }
 
   // Where the lines cross as seen along a direction.
@@ -197,17 +209,18 @@ class LineCheck {
     const double distance = std::sqrt(closest.squared_distance);
     const double size = length();
     const double beyond = distance - a_->radius - b_->radius - band_share * size;
-    if (!join_closest(closest, distance, size) && options_.velocity_check && beyond > 0) join_meeting();
+    if (join_closest(closest, distance, size)) return 0;  // however deep, it stays in sight
+    if (options_.velocity_check && beyond > 0) join_meeting();
     return beyond - travel_.rounding();
   }
 
-  // \returns whether the pair is joined, or settled not to be.
+  // \returns whether the pair is joined.
   bool join_closest(const ClosestSegments& closest, double distance, double size) {
     const double reach = a_->radius + b_->radius;
     const Vector3d motion = relative_velocity(closest.parameters);
     const double look = approach_share * travel_.dt() * motion.norm();
     if (distance - reach > band_share * size + look) return false;
-    if (!is_here(closest.features)) return false;
+    if (reach > 0 && !is_here(closest.features)) return false;
     const auto apart = direction(closest, distance, size, motion);
     const auto way = apart ? way_of(*apart, closest.parameters) : std::nullopt;
     if (!way) return false;
@@ -228,6 +241,7 @@ class LineCheck {
     if (a_->radius + b_->radius == 0) {
       if (are_parallel(area)) return std::nullopt;
       const Vector3d across = closest.normal / area;
+      if (const Contact* old = tracked()) return old->normal.dot(across) > 0 ? across : Vector3d(-across);
       return leads_out(*b_, across) ? across : Vector3d(-across);
     }
     const Contact* old = tracked();
@@ -244,13 +258,20 @@ class LineCheck {
   void join_meeting() {
     const auto meeting = edge_check(moving(*a_), moving(*b_));
     if (!meeting || !is_here(meeting->features) || meeting->normal.squaredNorm() < 0.5) return;
-    if (a_->radius + b_->radius == 0 &&
-        are_parallel((end(*a_, 1) - end(*a_, 0)).cross(end(*b_, 1) - end(*b_, 0)).norm()))
+    const double reach = a_->radius + b_->radius;
+    if (reach == 0 && are_parallel((end(*a_, 1) - end(*a_, 0)).cross(end(*b_, 1) - end(*b_, 0)).norm()))
       return;
-    const auto way = way_of(meeting->normal, meeting->parameters);
-    if (!way) return;
-    const double gap = offset_at(way->at).dot(way->normal) - a_->radius - b_->radius;
-    append(way->at, way->normal, std::max(gap, 0.0));
+    // Where an edge lies in a face, it may be a seam of it that an upright edge seems to meet.
+    if (!leads_out(*b_, meeting->normal) || !leads_out(*a_, -meeting->normal)) return;
+    const bool in_face =
+        reach == 0 && (face_along(*b_, meeting->normal) || face_along(*a_, -meeting->normal));
+    if (in_face && (!is_on(*a_, meeting->parameters[0], true) || !is_on(*b_, meeting->parameters[1], true)))
+      return;
+    // As seen along the normal at the beginning of the step, so that the impulses keep angular momentum.
+    const auto crossing = crossing_along(meeting->normal);
+    const bool crosses = reach == 0 && is_on(*a_, crossing[0], false) && is_on(*b_, crossing[1], false);
+    const auto& at = crosses ? crossing : meeting->parameters;
+    append(at, meeting->normal, std::max(offset_at(at).dot(meeting->normal) - reach, 0.0));
   }
 
   void append(std::array<double, 2> at, const Vector3d& normal, double gap) {

@@ -83,6 +83,28 @@ void add_nodes(const Surface& surface, const ContactOptions& options, std::vecto
   }
 }
 
+// Where sharp edges of a mesh are but one edge of a body, or the rim of a shell.
+void find_continued(const Surface& surface, const Nodes& nodes, std::vector<Line>& lines,
+                    std::vector<LineEnd>& ends) {
+  ends.clear();
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    if (!lines[l].is_edge()) continue;
+    const auto at = [&](std::size_t k) {
+      return position(nodes, surface.node[static_cast<std::size_t>(lines[l].node[k])]);
+    };
+    const Vector3d along = (at(1) - at(0)).normalized();
+    ends.push_back({lines[l].node[0], l, 0, along});
+    ends.push_back({lines[l].node[1], l, 1, -along});
+  }
+  std::sort(ends.begin(), ends.end(), [](const LineEnd& a, const LineEnd& b) {
+    return std::tuple(a.slave, a.line) < std::tuple(b.slave, b.line);
+  });
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t j = i + 1; j < ends.size() && ends[j].slave == ends[i].slave; ++j)
+      if (ends[i].away.dot(ends[j].away) < -cosine_of_sharp)
+        lines[ends[i].line].continues[ends[i].end] = lines[ends[j].line].continues[ends[j].end] = true;
+}
+
 bool share_a_node(const Line& a, const Line& b) {
   return a.node[0] == b.node[0] || a.node[0] == b.node[1] || a.node[1] == b.node[0] || a.node[1] == b.node[1];
 }
@@ -134,13 +156,14 @@ bool is_alive(const Surface& surface, const Line& line) {
 }
 
 void collect_lines(const Surface& surface, const ContactOptions& options, const Nodes& nodes,
-                   std::vector<Line>& lines) {
+                   std::vector<Line>& lines, std::vector<LineEnd>& ends) {
   lines.clear();
   if (options.edges) add_edges(surface, options, nodes, lines);
   if (add_round_elements(surface, lines)) add_nodes(surface, options, lines);
   std::sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
     return std::tuple(a.node, a.kind, a.round, a.face) < std::tuple(b.node, b.kind, b.round, b.face);
   });
+  find_continued(surface, nodes, lines, ends);
 }
 
 NodesOfPair nodes_of(const Surface& surface, const Line& a, const Line& b) {

@@ -26,7 +26,8 @@ enum class LineKind : std::uint8_t { solid_edge, shell_edge, beam, particle, nod
 struct Line {
   std::array<int, 2> node{};  ///< slave indices, ascending; the same twice: a point
   LineKind kind = LineKind::node;
-  std::uint8_t corner = 0;  ///< of an edge: from this corner of its face to the next
+  std::uint8_t corner = 0;          ///< of an edge: from this corner of its face to the next
+  std::array<bool, 2> continues{};  ///< an edge: whether another goes on straight from this end
   int part = 0;
   int body = 0;
   int face = -1;   ///< of an edge
@@ -50,10 +51,17 @@ EdgeNormals normals_at(const Surface& surface, const Nodes& nodes, const Line& e
 /// Whether a line is still what it was when it was collected: elements may have been deleted since.
 bool is_alive(const Surface& surface, const Line& line);
 
+/// An end of an edge: working space of collect_lines.
+struct LineEnd {
+  int slave;
+  std::size_t line, end;
+  Eigen::Vector3d away;  ///< from it along the line, of unit length
+};
+
 /// Replace `lines` by all of the surface, ascending by nodes and kind. Edges of solids are those that are
 /// sharp now; nodes of faces are lines only where there are beams.
 void collect_lines(const Surface& surface, const ContactOptions& options, const Nodes& nodes,
-                   std::vector<Line>& lines);
+                   std::vector<Line>& lines, std::vector<LineEnd>& ends);
 
 /// The nodes of two lines, global.
 using NodesOfPair = std::array<int, 4>;

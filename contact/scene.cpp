@@ -128,7 +128,7 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   scene.candidates = Candidates(options.search);
   if (options.edges || !scene.surface.round.empty()) {
     scene.lines.emplace(options.search);
-    collect_lines(scene.surface, options, nodes, scene.lines->candidates.line);
+    collect_lines(scene.surface, options, nodes, scene.lines->candidates.line, scene.lines->candidates.ends);
   }
   const std::size_t slaves = scene.surface.slaves();
   scene.motion.resize(slaves);

@@ -267,11 +267,8 @@ class LineCheck {
         reach == 0 && (face_along(*b_, meeting->normal) || face_along(*a_, -meeting->normal));
     if (in_face && (!is_on(*a_, meeting->parameters[0], true) || !is_on(*b_, meeting->parameters[1], true)))
       return;
-    // As seen along the normal at the beginning of the step, so that the impulses keep angular momentum.
-    const auto crossing = crossing_along(meeting->normal);
-    const bool crosses = reach == 0 && is_on(*a_, crossing[0], false) && is_on(*b_, crossing[1], false);
-    const auto& at = crosses ? crossing : meeting->parameters;
-    append(at, meeting->normal, std::max(offset_at(at).dot(meeting->normal) - reach, 0.0));
+    const double gap = offset_at(meeting->parameters).dot(meeting->normal) - reach;
+    append(meeting->parameters, meeting->normal, std::max(gap, 0.0));
   }
 
   void append(std::array<double, 2> at, const Vector3d& normal, double gap) {

@@ -130,7 +130,9 @@ TEST_P(Drop, OfOneKindOnAnother) {
               smooth.restitution, smooth.linear_error, smooth.angular_error, smooth.overlap, smooth.missed,
               smooth.energy_error, rough.restitution, rough.linear_error, rough.angular_error, rough.overlap,
               rough.missed);
-  EXPECT_LT(smooth.angular_error, 1e-11);
+  // A touch found along the motion pushes along the normal of that moment, a little aside of the line through
+  // both places at the beginning of the step.
+  EXPECT_LT(smooth.angular_error, 1e-6);
   for (const Outcome& outcome : {smooth, rough}) {
     EXPECT_GT(outcome.most_contacts, 0);
     EXPECT_EQ(outcome.missed, 0);

@@ -248,5 +248,40 @@ TEST_F(ProgramSlow, CutsAPipeAndMissesNoContact) {
   EXPECT_GT(contact, -1e-3 * found["energy"]["external"].get<double>()) << "contact adds no energy";
 }
 
+TEST_F(ProgramSlow, ScattersBricksAndMissesNoContact) {
+  const Ending ending = brio("run '" BRIO_SOURCE_DIR
+                             "/inputs/brick_stack.yaml' --output bricks --set contact.audit=true "
+                             "--set time.end=6e-3 --set output.fields.every=5e-4");
+  ASSERT_EQ(ending.exit_code, 0) << ending.faults;
+  const nlohmann::json found = nlohmann::json::parse(read("bricks/brick_stack.summary.json"));
+  EXPECT_EQ(found["contact"]["bodies"], 19);
+  EXPECT_EQ(found["contact"]["missed"], 0);
+  EXPECT_LT(std::abs(found["energy"]["error_relative"].get<double>()), 1e-4);
+  EXPECT_GT(found["energy"]["contact"].get<double>(), 0) << "contact adds no energy";
+}
+
+TEST_F(ProgramSlow, CatchesATubeInANetOfBeams) {
+  const Ending ending =
+      brio("run '" BRIO_SOURCE_DIR "/inputs/net.yaml' --output net --set contact.audit=true");
+  ASSERT_EQ(ending.exit_code, 0) << ending.faults;
+  const nlohmann::json found = nlohmann::json::parse(read("net/net.summary.json"));
+  EXPECT_EQ(found["contact"]["missed"], 0);
+  EXPECT_LT(std::abs(found["energy"]["error_relative"].get<double>()), 1e-2);
+  EXPECT_GT(found["energy"]["contact"].get<double>(), 0);
+  std::istringstream history(read("net/net.history.csv"));
+  std::string names, row, last;
+  std::getline(history, names);
+  while (std::getline(history, row)) last = row;
+  const auto column = [&](const std::string& name) {
+    const std::string before = names.substr(0, names.find(name));
+    std::istringstream values(last);
+    std::string value;
+    for (auto left = std::count(before.begin(), before.end(), ',') + 1; left > 0; --left)
+      std::getline(values, value, ',');
+    return std::stod(value);
+  };
+  EXPECT_GT(column("tube.velocity_z"), 1) << "thrown back from -20";
+}
+
 }  // namespace
 }  // namespace brio

@@ -1,7 +1,9 @@
 #include "contact/line_candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "contact/closest_segments.hpp"
 #include "contact/face_geometry.hpp"
@@ -36,22 +38,107 @@ bool has(const std::vector<NodesOfPair>& pairs, const NodesOfPair& pair) {
   return std::binary_search(pairs.begin(), pairs.end(), pair);
 }
 
-bool overlap(const Surface& surface, const Nodes& nodes, const Line& a, const Line& b) {
+double distance(const Surface& surface, const Nodes& nodes, const Line& a, const Line& b) {
   const auto segment = [&](const Line& line) {
     return Segment{position(nodes, surface.node[static_cast<std::size_t>(line.node[0])]),
                    position(nodes, surface.node[static_cast<std::size_t>(line.node[1])])};
   };
-  const double reach = a.radius + b.radius;
-  return closest_points_of_segments(segment(a), segment(b)).squared_distance < reach * reach;
+  return std::sqrt(closest_points_of_segments(segment(a), segment(b)).squared_distance);
+}
+
+/// Ways over faces and beams from node to node of the surface.
+class Ways {
+ public:
+  explicit Ways(const Surface& surface) : surface_(surface), beams_(surface.slaves()) {
+    for (const RoundElement& element : surface.round) {
+      if (!element.alive()) continue;
+      const int ends[2] = {surface.slave(element.node[0]), surface.slave(element.node[1])};
+      beams_[static_cast<std::size_t>(ends[0])].push_back(ends[1]);
+      beams_[static_cast<std::size_t>(ends[1])].push_back(ends[0]);
+    }
+  }
+
+  // Replace `reached` by the nodes to which one leads that nowhere is as far from a line as a limit.
+  void reach(const Nodes& nodes, const Line& from, double limit, std::vector<int>& reached) const {
+    reached.clear();
+    for (int slave : from.node) reached.push_back(slave);
+    const auto visit = [&](int slave) {
+      Line point;
+      point.node = {slave, slave};
+      if (distance(surface_, nodes, from, point) < limit &&
+          std::find(reached.begin(), reached.end(), slave) == reached.end())
+        reached.push_back(slave);
+    };
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      const int own = reached[i];
+      for (int f : surface_.faces_of.of(own))
+        for (int node : surface_.face[static_cast<std::size_t>(f)].node) visit(surface_.slave(node));
+      for (int slave : beams_[static_cast<std::size_t>(own)]) visit(slave);
+    }
+  }
+
+ private:
+  const Surface& surface_;
+  std::vector<std::vector<int>> beams_;  // of each slave node: the nodes at the other ends of its beams
+};
+
+bool is_new(const LineCandidates& candidates, const Line& line) {
+  const auto at = std::lower_bound(candidates.before.begin(), candidates.before.end(), line.node,
+                                   [](const Line& known, const auto& of) { return known.node < of; });
+  return at == candidates.before.end() || at->node != line.node;
+}
+
+// Pairs that lie in the tightest fold that their body can have, of lines that are seen for the first time.
+void exclude_folds(LineCandidates& candidates, const Surface& surface, const Nodes& nodes) {
+  const bool first_search = candidates.counts.searches == 1;
+  double largest = 0;
+  std::vector<std::pair<int, int>> line_at;  // by slave node
+  for (int l = 0; l < static_cast<int>(candidates.line.size()); ++l) {
+    const Line& line = candidates.line[static_cast<std::size_t>(l)];
+    largest = std::max(largest, line.radius);
+    for (int slave : line.node) line_at.emplace_back(slave, l);
+  }
+  std::sort(line_at.begin(), line_at.end());
+  const Ways ways(surface);
+  std::vector<int> reached;
+  for (const Line& a : candidates.line) {
+    if (a.radius == 0 || a.is_point() || (!first_search && !is_new(candidates, a))) continue;
+    ways.reach(nodes, a, 0.5 * std::numbers::pi * (a.radius + largest), reached);
+    for (int slave : reached)
+      for (auto at = std::lower_bound(line_at.begin(), line_at.end(), std::pair(slave, 0));
+           at != line_at.end() && at->first == slave; ++at) {
+        const Line& b = candidates.line[static_cast<std::size_t>(at->second)];
+        if (distance(surface, nodes, a, b) >= 0.5 * std::numbers::pi * (a.radius + b.radius)) continue;
+        candidates.drawn.push_back(&a < &b ? nodes_of(surface, a, b) : nodes_of(surface, b, a));
+      }
+  }
+}
+
+// Pairs of one body that never meet: they overlap as drawn, or lie in a fold.
+void exclude_drawn(LineCandidates& candidates, const Surface& surface, const Nodes& nodes) {
+  const bool first_search = candidates.counts.searches == 1;
+  const auto is_round = [&](const Line& line) {
+    return line.radius > 0 && !line.is_point() && (first_search || is_new(candidates, line));
+  };
+  if (std::none_of(candidates.line.begin(), candidates.line.end(), is_round)) return;
+  exclude_folds(candidates, surface, nodes);
+  for (const auto& [first, second] : candidates.found) {
+    const Line& a = candidates.line[static_cast<std::size_t>(first)];
+    const Line& b = candidates.line[static_cast<std::size_t>(second)];
+    if (!first_search || a.body != b.body || is_new(candidates, a) || is_new(candidates, b)) continue;
+    if (distance(surface, nodes, a, b) < a.radius + b.radius)
+      candidates.drawn.push_back(nodes_of(surface, a, b));
+  }
+  std::sort(candidates.drawn.begin(), candidates.drawn.end());
+  candidates.drawn.erase(std::unique(candidates.drawn.begin(), candidates.drawn.end()),
+                         candidates.drawn.end());
 }
 
 // Keep lines apart that overlap where they come to be.
-void find_overlapping(LineCandidates& candidates, const Surface& surface, const Nodes& nodes) {
-  const bool first = candidates.counts.searches == 1;
-  const auto is_new = [&](const Line& line) {
-    const auto at = std::lower_bound(candidates.before.begin(), candidates.before.end(), line.node,
-                                     [](const Line& known, const auto& of) { return known.node < of; });
-    return at == candidates.before.end() || at->node != line.node;
+void exclude_overlapping(LineCandidates& candidates, const Surface& surface, const Nodes& nodes) {
+  exclude_drawn(candidates, surface, nodes);
+  const auto overlap = [&](const Line& a, const Line& b) {
+    return distance(surface, nodes, a, b) < a.radius + b.radius;
   };
   candidates.added.clear();
   std::erase_if(candidates.found, [&](const std::pair<int, int>& pair) {
@@ -59,20 +146,17 @@ void find_overlapping(LineCandidates& candidates, const Surface& surface, const 
     const Line& b = candidates.line[static_cast<std::size_t>(pair.second)];
     if (a.radius + b.radius == 0) return false;
     const NodesOfPair nodes_of_both = nodes_of(surface, a, b);
-    if (!first && has(candidates.drawn, nodes_of_both)) return true;
+    if (has(candidates.drawn, nodes_of_both)) return true;
     const auto of_tear = std::lower_bound(candidates.torn.begin(), candidates.torn.end(), nodes_of_both);
     if (of_tear != candidates.torn.end() && *of_tear == nodes_of_both) {
-      if (overlap(surface, nodes, a, b)) return true;
+      if (overlap(a, b)) return true;
       candidates.torn.erase(of_tear);
       return false;
     }
-    const bool torn = is_new(a) || is_new(b);
-    if (!torn && !(first && a.body == b.body)) return false;
-    if (!overlap(surface, nodes, a, b)) return false;
-    (torn ? candidates.added : candidates.drawn).push_back(nodes_of_both);
+    if ((!is_new(candidates, a) && !is_new(candidates, b)) || !overlap(a, b)) return false;
+    candidates.added.push_back(nodes_of_both);
     return true;
   });
-  if (first) std::sort(candidates.drawn.begin(), candidates.drawn.end());
   candidates.torn.insert(candidates.torn.end(), candidates.added.begin(), candidates.added.end());
   std::sort(candidates.torn.begin(), candidates.torn.end());
 }
@@ -98,7 +182,7 @@ void sort_by_line(LineCandidates& candidates, const Surface& surface, const Node
     const Line& second = candidates.line[static_cast<std::size_t>(b)];
     if (may_touch(surface, first, second)) found.emplace_back(a, b);
   });
-  find_overlapping(candidates, surface, nodes);
+  exclude_overlapping(candidates, surface, nodes);
   std::sort(found.begin(), found.end());
   lists.item.clear();
   for (const auto& [a, b] : found) {

@@ -20,8 +20,9 @@ struct LineCandidates {
   Lists partners;                   ///< of each line: those after it that it may meet, ascending
   std::vector<double> wake;         ///< of each pair: travel at which it may be near
   std::vector<double> path, ahead;  ///< of each line in this step, the longest of its nodes
-  /// By their nodes, global, ascending: pairs of one body that overlap as drawn, which never meet, and pairs
-  /// that overlapped when one of them came to be, at a tear, which meet once they have come apart.
+  /// By their nodes, global, ascending: pairs of one body that overlap as drawn or lie in its tightest fold,
+  /// which never meet, and pairs that overlapped when one of them came to be, at a tear, which meet once they
+  /// have come apart.
   std::vector<NodesOfPair> drawn, torn;
 
   explicit LineCandidates(SearchStrategy strategy = SearchStrategy::automatic) : search(strategy) {}

@@ -177,7 +177,7 @@ def save(path, view, size):
     return pixels
 
 
-def shown_shapes(source, options):
+def shown_shapes(source, options, time):
     """What to draw: the scene itself, and tubes and spheres if they are asked for. A sphere of its radius in the
     middle of a beam is inside its tube, so that beams and particles need not be told apart."""
     shapes = [source]
@@ -186,8 +186,11 @@ def shown_shapes(source, options):
         with_radius.ThresholdMethod, with_radius.UpperThreshold = "Above Upper Threshold", 1e-30
         on_points = simple.CellDatatoPointData(Input=with_radius, PassCellData=1)
         surface = simple.ExtractSurface(Input=on_points)
-        shapes.append(simple.Tube(Input=surface, Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar",
-                                  NumberofSides=12))
+        tubes = simple.Tube(Input=surface, Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar",
+                            NumberofSides=12)
+        tubes.UpdatePipeline(time)
+        if tubes.GetDataInformation().GetNumberOfPoints() > 0:  # ParaView cannot show what is empty
+            shapes.append(tubes)
         centres = simple.CellCenters(Input=with_radius, VertexCells=1)
         shapes.append(simple.Glyph(Input=centres, GlyphType="Sphere", ScaleArray=["POINTS", "radius"],
                                    ScaleFactor=2.0, GlyphMode="All Points"))
@@ -222,7 +225,7 @@ def main():
     view.OrientationAxesVisibility = 1
     view.OrientationAxesLabelColor = [0.1, 0.1, 0.1]
     displays = []
-    for shape in shown_shapes(source, options):
+    for shape in shown_shapes(source, options, times[0]):
         display = simple.Show(shape, view)
         display.Representation = "Surface" if options.hide_edges or displays else "Surface With Edges"
         display.EdgeColor = [0.15, 0.15, 0.15]

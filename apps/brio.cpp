@@ -1,10 +1,13 @@
 /// The command line.
 
+#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <new>
 #include <string>
+#include <thread>
 
 #include "apps/commands.hpp"
 #include "io/closest_word.hpp"
@@ -32,6 +35,56 @@ int end_of_parsing(const CLI::App& program, const CLI::ParseError& end, int argu
   return complain(fault + "\nbrio --help says more", brio::exit_bad_input);
 }
 
+// Each subcommand adds itself to the command line and, if it is chosen, runs while the command line is
+// parsed.
+
+void add_overrides(CLI::App* command, std::vector<std::string>& overrides) {
+  command->add_option("--set", overrides, "KEY.PATH=VALUE, overrides a value of the deck")
+      ->allow_extra_args(false);
+}
+
+void add_run_command(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<brio::RunArguments>();
+  brio::RunOptions& options = arguments->options;
+  CLI::App* command = program.add_subcommand("run", "Run a deck and write its results");
+  command->add_option("deck", options.deck, "YAML deck")->required();
+  command->add_option("--output", options.output, "result folder; default NAME.results here");
+  command->add_option("--threads", options.threads, "number of threads; default all processors")
+      ->check(CLI::Range(1, 1024));
+  add_overrides(command, options.overrides);
+  command->add_flag("--quiet", arguments->quiet, "print nothing but faults");
+  command->add_flag("--json", arguments->json, "print the summary as JSON");
+  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command->callback([arguments, &exit_code] { exit_code = brio::run(*arguments); });
+}
+
+void add_check_command(CLI::App& program) {
+  struct Arguments {
+    std::filesystem::path deck;
+    std::vector<std::string> overrides;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("check", "Read a deck, build its scene and say what it is");
+  command->add_option("deck", arguments->deck, "YAML deck")->required();
+  add_overrides(command, arguments->overrides);
+  command->callback([arguments] { brio::check(arguments->deck, arguments->overrides); });
+}
+
+void add_info_command(CLI::App& program) {
+  auto path = std::make_shared<std::filesystem::path>();
+  CLI::App* command = program.add_subcommand("info", "Say what is in a result");
+  command->add_option("result", *path, "result folder or .vtkhdf file")->required();
+  command->callback([path] { brio::print_info(*path); });
+}
+
+void add_schema_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "schema", "print the JSON schema of the deck, for completion and checking in editors");
+  auto markdown = std::make_shared<bool>(false);
+  command->add_flag("--markdown", *markdown, "print the reference of the deck for people instead");
+  command->callback([markdown] { brio::print_schema(*markdown); });
+}
+
 }  // namespace
 
 int main(int argument_count, char** arguments) {
@@ -39,10 +92,10 @@ int main(int argument_count, char** arguments) {
   CLI::App program("Brio: explicit transient dynamics of solids, shells and beams with contact", "brio");
   int exit_code = brio::exit_good;
   program.require_subcommand(1);
-  brio::add_run_command(program, exit_code);
-  brio::add_check_command(program, exit_code);
-  brio::add_info_command(program, exit_code);
-  brio::add_schema_command(program, exit_code);
+  add_run_command(program, exit_code);
+  add_check_command(program);
+  add_info_command(program);
+  add_schema_command(program);
   for (CLI::App* command : program.get_subcommands({}))
     command->set_version_flag("--version", "brio " BRIO_VERSION);
   program.set_version_flag("--version", "brio " BRIO_VERSION);

@@ -40,6 +40,16 @@ std::size_t state_bytes(const Model& model) {
   return bytes;
 }
 
+}  // namespace
+
+void print_overlaps(std::span<const InitialOverlap> overlaps) {
+  for (const InitialOverlap& overlap : overlaps)
+    fmt::print(
+        "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
+        "{:.3g}\n",
+        overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
+}
+
 void check(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   Model model;
   const Deck deck = load_deck(path, overrides, model);
@@ -63,29 +73,6 @@ void check(const std::filesystem::path& path, const std::vector<std::string>& ov
   for (const std::string& feature : active_features(model)) fmt::print(" {}", feature);
   fmt::print("\n");
   print_overlaps(model.initial_overlaps);
-}
-
-}  // namespace
-
-void print_overlaps(std::span<const InitialOverlap> overlaps) {
-  for (const InitialOverlap& overlap : overlaps)
-    fmt::print(
-        "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
-        "{:.3g}\n",
-        overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
-}
-
-void add_check_command(CLI::App& program, int&) {
-  struct Arguments {
-    std::filesystem::path deck;
-    std::vector<std::string> overrides;
-  };
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("check", "Read a deck, build its scene and say what it is");
-  command->add_option("deck", arguments->deck, "YAML deck")->required();
-  command->add_option("--set", arguments->overrides, "KEY.PATH=VALUE, overrides a value of the deck")
-      ->allow_extra_args(false);
-  command->callback([arguments] { check(arguments->deck, arguments->overrides); });
 }
 
 }  // namespace brio

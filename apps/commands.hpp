@@ -1,11 +1,14 @@
 #pragma once
-/// The subcommands of `brio`. Each adds itself to the command line and, if it is chosen, runs while the
-/// command line is parsed and leaves its exit code.
+/// What the subcommands of `brio` do, once the command line is read. The library that reads it is seen by
+/// brio.cpp alone: it takes seconds to compile.
 
-#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "contact/overlap.hpp"
+#include "io/run_deck.hpp"
 
 namespace brio {
 
@@ -18,9 +21,15 @@ inline constexpr int exit_file_failure = 4;       ///< what was written before s
 /// A line for each pair of parts whose nodes were moved apart before the first step.
 void print_overlaps(std::span<const InitialOverlap> overlaps);
 
-void add_run_command(CLI::App& program, int& exit_code);
-void add_check_command(CLI::App& program, int& exit_code);
-void add_info_command(CLI::App& program, int& exit_code);
-void add_schema_command(CLI::App& program, int& exit_code);
+struct RunArguments {
+  RunOptions options;
+  bool quiet = false;
+  bool json = false;
+};
+/// \return the exit code.
+int run(RunArguments& arguments);
+void check(const std::filesystem::path& deck, const std::vector<std::string>& overrides);
+void print_info(const std::filesystem::path& result);
+void print_schema(bool markdown);
 
 }  // namespace brio

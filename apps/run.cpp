@@ -6,11 +6,8 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <memory>
-#include <thread>
 
 #include "apps/commands.hpp"
-#include "io/run_deck.hpp"
 
 namespace brio {
 
@@ -79,36 +76,17 @@ void print_outcome(const RunOutcome& outcome) {
 
 }  // namespace
 
-void add_run_command(CLI::App& program, int& exit_code) {
-  struct Arguments {
-    RunOptions options;
-    bool quiet = false;
-    bool json = false;
-  };
-  auto arguments = std::make_shared<Arguments>();
-  RunOptions& options = arguments->options;
-  CLI::App* command = program.add_subcommand("run", "Run a deck and write its results");
-  command->add_option("deck", options.deck, "YAML deck")->required();
-  command->add_option("--output", options.output, "result folder; default NAME.results here");
-  command->add_option("--threads", options.threads, "number of threads; default all processors")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--set", options.overrides, "KEY.PATH=VALUE, overrides a value of the deck")
-      ->allow_extra_args(false);
-  command->add_flag("--quiet", arguments->quiet, "print nothing but faults");
-  command->add_flag("--json", arguments->json, "print the summary as JSON");
-  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  command->callback([arguments, &exit_code] {
-    std::signal(SIGINT, stop_after_this_step);
-    std::signal(SIGTERM, stop_after_this_step);
-    arguments->options.stop = &stop_signal;
-    ProgressLine line;
-    if (!arguments->quiet) arguments->options.progress = [&](const Progress& progress) { line(progress); };
-    const RunOutcome outcome = run_deck(arguments->options);
-    if (!outcome.message.empty()) fmt::print(stderr, "\nbrio: {}\n", outcome.message);
-    if (!arguments->quiet && !arguments->json) print_outcome(outcome);
-    if (arguments->json) std::cout << std::ifstream(outcome.summary_file).rdbuf();
-    exit_code = outcome.summary.exit_code;
-  });
+int run(RunArguments& arguments) {
+  std::signal(SIGINT, stop_after_this_step);
+  std::signal(SIGTERM, stop_after_this_step);
+  arguments.options.stop = &stop_signal;
+  ProgressLine line;
+  if (!arguments.quiet) arguments.options.progress = [&](const Progress& progress) { line(progress); };
+  const RunOutcome outcome = run_deck(arguments.options);
+  if (!outcome.message.empty()) fmt::print(stderr, "\nbrio: {}\n", outcome.message);
+  if (!arguments.quiet && !arguments.json) print_outcome(outcome);
+  if (arguments.json) std::cout << std::ifstream(outcome.summary_file).rdbuf();
+  return outcome.summary.exit_code;
 }
 
 }  // namespace brio

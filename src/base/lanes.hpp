@@ -16,8 +16,8 @@
 
 #include "src/base/real.hpp"
 
-// Kernels are inlined whole into the loop over packs; under sanitizers that takes minutes to compile.
-#if defined(BRIO_SANITIZED)
+// Kernels are inlined whole into the loop over packs; for sanitizers and tests that takes long to compile.
+#if defined(BRIO_KERNELS_BY_CALL)
 #define BRIO_INLINE inline
 #else
 #define BRIO_INLINE inline __attribute__((always_inline))

@@ -58,6 +58,9 @@ void check(const std::filesystem::path& path, const std::vector<std::string>& ov
 
   if (!deck.title.empty()) fmt::print("{}\n\n", deck.title);
   print_parts(deck, model);
+  for (const MergedParts& merged : model.merged)
+    fmt::print("merged: {} nodes of '{}' are nodes of '{}', from up to {:.3g} away\n", merged.nodes,
+               merged.second, merged.first, merged.farthest);
   const StepControl& control = model.control;
   if (std::isfinite(control.stable)) {
     const PartInModel& critical = model.parts[control.critical_block];

@@ -172,6 +172,22 @@ void read_value(const YamlNode& node, const Slot& slot, Load& load) {
   throw DeckError(node.place, "nothing is said about the load; " + accepted_words("", names_of(load)));
 }
 
+void read_value(const YamlNode& node, const Slot& slot, Connection& connection) {
+  Merge& merge = connection.emplace<Merge>();
+  read_fields(node, slot, merge);
+  merge.place = to_string(node.place);
+  const YamlNode& parts = *node.find("merge")->value;
+  for (std::size_t i = 0; i < parts.items.size(); ++i) {
+    const Part& part = slot.known.part(*parts.items[i], merge.parts[i]);
+    if (std::holds_alternative<Rigid>(part.element) || std::holds_alternative<Particle>(part.element))
+      throw DeckError(parts.items[i]->place,
+                      "part '" + part.name + "' is of elements '" + std::string(name_of(part.element)) +
+                          "', which share no nodes; accepted are parts of solids, shells and beams");
+  }
+  if (merge.parts.size() != 2 || merge.parts[0] == merge.parts[1])
+    throw DeckError(parts.place, "'merge' takes two different parts");
+}
+
 void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair) {
   read_fields(node, slot, pair, {"parts"});
   const YamlEntry* parts = node.find("parts");

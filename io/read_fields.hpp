@@ -61,6 +61,7 @@ void read_value(const YamlNode& node, const Slot& slot, Curve& curve);
 void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition);
 void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition);
 void read_value(const YamlNode& node, const Slot& slot, Load& load);
+void read_value(const YamlNode& node, const Slot& slot, Connection& connection);
 void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair);
 void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact);
 

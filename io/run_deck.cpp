@@ -138,7 +138,7 @@ Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>
   try {
     model = build(deck, meshes);
   } catch (const BuildError& fault) {
-    throw DeckError(path.string() + ": " + fault.what());
+    throw DeckError((fault.place.empty() ? path.string() : fault.place) + ": " + fault.what());
   }
   return deck;
 }

@@ -155,6 +155,16 @@ struct SchemaOf<Load> : WithoutDefault {
 };
 
 template <>
+struct SchemaOf<Connection> : WithoutDefault {
+  static Schema make(const Range&) {
+    Schema object = object_of<Merge>();
+    add_meaning<Merge>(object);
+    object["properties"]["merge"].update(Schema{{"minItems", 2}, {"maxItems", 2}, {"uniqueItems", true}});
+    return object;
+  }
+};
+
+template <>
 struct SchemaOf<ContactSection> : WithoutDefault {
   static Schema make(const Range&) {
     const Schema parts{{"type", "array"}, {"items", {{"type", "string"}}}};

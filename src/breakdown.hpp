@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace brio {
 
@@ -14,7 +15,9 @@ struct Breakdown : std::runtime_error {
 
 /// A deck or mesh that cannot be built: `what()` names part and rule.
 struct BuildError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit BuildError(const std::string& fault, std::string place_ = {})
+      : std::runtime_error(fault), place(std::move(place_)) {}
+  std::string place;  ///< in the deck, where it is known
 };
 
 }  // namespace brio

@@ -18,9 +18,18 @@ const Material& material_of(const Part& part, const Deck& deck) {
 }
 
 // Elements in memory order, with nodes numbered in the order in which those elements first touch them.
-void place_parts(const Deck& deck, std::span<const Mesh> meshes, Model& model,
-                 std::vector<std::vector<int>>& connectivity) {
+// \return the number of nodes.
+std::size_t place_parts(const Deck& deck, std::span<const Mesh> meshes, const SharedNodes& shared,
+                        Model& model, std::vector<std::vector<int>>& connectivity) {
   int next = 0;
+  std::size_t offset = 0;  // of the part among the nodes of all meshes
+  std::vector<int> number(shared.same_as.size(), -1);
+  const auto number_of = [&](std::size_t node) {
+    if (shared.same_as.empty()) return next++;
+    int& found = number[shared.same_as[offset + node]];
+    if (found < 0) found = next++;
+    return found;
+  };
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Mesh& mesh = meshes[p];
     const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
@@ -35,8 +44,9 @@ void place_parts(const Deck& deck, std::span<const Mesh> meshes, Model& model,
       const auto e = static_cast<std::size_t>(part.element_order[slot]);
       part.element_slot[e] = static_cast<int>(slot);
       for (std::size_t corner = 0; corner < corners; ++corner) {
-        int& node = part.node[static_cast<std::size_t>(mesh.connectivity[e * corners + corner])];
-        if (node < 0) node = next++;
+        const auto corner_node = static_cast<std::size_t>(mesh.connectivity[e * corners + corner]);
+        int& node = part.node[corner_node];
+        if (node < 0) node = number_of(corner_node);
         nodes.push_back(node);
       }
     }
@@ -44,24 +54,26 @@ void place_parts(const Deck& deck, std::span<const Mesh> meshes, Model& model,
       if (node < 0) throw BuildError("part '" + part.name + "' has a node that belongs to no element");
     connectivity.push_back(std::move(nodes));
     model.parts.push_back(std::move(part));
+    offset += mesh.position.size();
   }
+  return static_cast<std::size_t>(next);
 }
 
-std::size_t node_total(std::span<const Mesh> meshes) {
-  std::size_t count = 0;
-  for (const Mesh& mesh : meshes) count += mesh.position.size();
-  return count;
-}
-
-void fill_nodes(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+void fill_nodes(const Deck& deck, std::span<const Mesh> meshes, const SharedNodes& shared, std::size_t count,
+                Model& model) {
   const bool turning = std::any_of(deck.parts.begin(), deck.parts.end(),
                                    [](const Part& part) { return has_rotations(part.element); });
-  model.nodes = Nodes(node_total(meshes), turning);
-  for (std::size_t p = 0; p < meshes.size(); ++p)
-    for (std::size_t i = 0; i < meshes[p].position.size(); ++i)
+  model.nodes = Nodes(count, turning);
+  std::size_t offset = 0;
+  for (std::size_t p = 0; p < meshes.size(); ++p) {
+    for (std::size_t i = 0; i < meshes[p].position.size(); ++i) {
+      if (!shared.same_as.empty() && shared.same_as[offset + i] != offset + i) continue;
       for (std::size_t axis = 0; axis < 3; ++axis)
         model.nodes.record[static_cast<std::size_t>(model.parts[p].node[i])].position[axis] =
             meshes[p].position[i][axis];
+    }
+    offset += meshes[p].position.size();
+  }
 }
 
 void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connectivity, Model& model) {
@@ -101,8 +113,10 @@ void lump_masses(std::span<const Mesh> meshes, Model& model) {
       throw BuildError(fault.what());
     }
   }
-  for (PartInModel& part : model.parts)
-    for (int node : part.node) part.mass += nodes.mass[static_cast<std::size_t>(node)];
+  for (PartInModel& part : model.parts) {
+    const Block& block = model.blocks[part.block];
+    for (std::size_t e = 0; e < block.element_count; ++e) part.mass += block.kernel.mass(block, e);
+  }
   for (const RigidBody& body : model.rigid.body) model.parts[body.part].mass = body.mass;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     nodes.record[i].inverse_mass = nodes.mass[i] > 0 ? 1 / nodes.mass[i] : 0;
@@ -311,8 +325,10 @@ void open_books(Model& model) {
 Model build(const Deck& deck, std::span<const Mesh> meshes) {
   Model model;
   std::vector<std::vector<int>> connectivity;
-  place_parts(deck, meshes, model, connectivity);
-  fill_nodes(deck, meshes, model);
+  SharedNodes shared = share_nodes(deck, meshes);
+  const std::size_t node_count = place_parts(deck, meshes, shared, model, connectivity);
+  fill_nodes(deck, meshes, shared, node_count, model);
+  model.merged = std::move(shared.merged);
   make_blocks(deck, connectivity, model);
   make_rigid_bodies(deck, meshes, model);
   constrain(deck, meshes, model);

@@ -487,6 +487,26 @@ struct Pressure {
 
 using Load = std::variant<Gravity, NodalForce, Pressure>;
 
+// ---- connections
+// -----------------------------------------------------------------------------------------------
+
+/// `merge: [panel, stiffener]`: parts that share nodes.
+struct Merge {
+  static constexpr std::string_view name = "merge";
+  static constexpr std::string_view meaning = "parts that share nodes";
+  std::vector<std::string> parts;  ///< two
+  double tolerance = 0;
+  std::string place;  ///< in the deck
+  static constexpr auto fields() {
+    return std::tuple{
+        required("merge", &Merge::parts, any_number,
+                 "two parts; nodes of the second become nodes of the first"),
+        required("tolerance", &Merge::tolerance, positive, "largest distance of two nodes that become one")};
+  }
+};
+
+using Connection = std::variant<Merge>;
+
 // ---- the rest
 // --------------------------------------------------------------------------------------------------
 
@@ -578,6 +598,7 @@ struct Deck {
   std::string text;                                        ///< the deck as run, with overrides, as YAML
   std::vector<std::pair<std::string, Material>> materials;
   std::vector<Part> parts;
+  std::vector<Connection> connections;
   std::vector<InitialCondition> initial_conditions;
   std::vector<BoundaryCondition> boundary_conditions;
   std::vector<Load> loads;
@@ -591,6 +612,7 @@ struct Deck {
         optional("units", &Deck::units, any_number, "labels such as {length: mm}; nothing is converted"),
         required("materials", &Deck::materials, any_number, "a map of names to laws"),
         required("parts", &Deck::parts, any_number, "a map of names to parts"),
+        optional("connections", &Deck::connections, any_number, "how parts hold together"),
         optional("initial_conditions", &Deck::initial_conditions, any_number, "velocities at the start"),
         optional("boundary_conditions", &Deck::boundary_conditions, any_number,
                  "motions that are prescribed"),

@@ -14,6 +14,7 @@
 #include "src/erosion.hpp"
 #include "src/ledger.hpp"
 #include "src/loads.hpp"
+#include "src/merge.hpp"
 #include "src/motion.hpp"
 #include "src/particles.hpp"
 #include "src/rigid.hpp"
@@ -45,6 +46,7 @@ struct Model {
   Nodes nodes;
   std::vector<Block> blocks;
   std::vector<PartInModel> parts;
+  std::vector<MergedParts> merged;  ///< one a connection
   SweepSchedule schedule;
   std::vector<SweepResult> sweep_results;         ///< one a task
   std::vector<ParticleSearch> particle_searches;  ///< of blocks of particles whose kernel is of now

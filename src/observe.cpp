@@ -86,10 +86,12 @@ std::int64_t deleted_so_far(const Model& model) { return model.erosion ? model.e
 
 }  // namespace
 
-FieldObserver::FieldObserver(const Model& model) : point_of_node_(model.nodes.size()) {
+FieldObserver::FieldObserver(const Model& model) : point_of_node_(model.nodes.size(), -1) {
   for (const PartInModel& part : model.parts) {
     for (int node : part.node) {
-      point_of_node_[static_cast<std::size_t>(node)] = static_cast<std::int64_t>(node_of_point_.size());
+      std::int64_t& point = point_of_node_[static_cast<std::size_t>(node)];
+      if (point >= 0) continue;  // of a part before, which shares it
+      point = static_cast<std::int64_t>(node_of_point_.size());
       node_of_point_.push_back(node);
     }
   }
@@ -273,6 +275,7 @@ std::vector<std::string> active_features(const Model& model) {
   }
   for (const ActiveLoad& load : model.loads)
     features.insert(std::array{"gravity", "nodal_force", "pressure"}[load.load.index()]);
+  if (!model.merged.empty()) features.insert("merged_nodes");
   if (!model.prescribed.empty()) features.insert("prescribed_motion");
   if (!model.walls.empty()) features.insert("rigid_wall");
   if (!model.contacts.empty()) features.insert("contact");

@@ -59,6 +59,7 @@ std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std:
   }
   if (chosen.empty()) throw BuildError("a condition or load selects no node");
   std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());  // parts can share nodes
   return chosen;
 }
 

@@ -108,7 +108,8 @@ void exclude_folds(LineCandidates& candidates, const Surface& surface, const Nod
       for (auto at = std::lower_bound(line_at.begin(), line_at.end(), std::pair(slave, 0));
            at != line_at.end() && at->first == slave; ++at) {
         const Line& b = candidates.line[static_cast<std::size_t>(at->second)];
-        if (distance(surface, nodes, a, b) >= 0.5 * std::numbers::pi * (a.radius + b.radius)) continue;
+        if (&a == &b || distance(surface, nodes, a, b) >= 0.5 * std::numbers::pi * (a.radius + b.radius))
+          continue;
         candidates.drawn.push_back(&a < &b ? nodes_of(surface, a, b) : nodes_of(surface, b, a));
       }
   }

@@ -87,7 +87,7 @@ class LineCheck {
     return edge;
   }
 
-  // The shorter of both; of points the radius.
+  // The shorter of both; of points the diameter.
   double length() const {
     const auto size = [&](const Line& line) {
       return line.is_point() ? 2 * line.radius : (end(line, 1) - end(line, 0)).norm();

@@ -48,10 +48,6 @@ Block make_block(std::string part, const Element& element, const Material& mater
   return block;
 }
 
-double contact_radius(const Block& block, const Nodes& nodes, std::size_t particle) {
-  return block.kernel.sample(block, nodes, particle).radius;
-}
-
 HeldEnergy held_energy(const Block& block, std::size_t element) {
   const auto width = static_cast<std::size_t>(block.lanes);
   const double* pack = block.held.data() + element / width * 2 * width;

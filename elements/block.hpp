@@ -111,9 +111,6 @@ bool accepts(const Element& element, const Material& material);
 Block make_block(std::string part, const Element& element, const Material& material, Precision precision,
                  std::span<const int> connectivity, const std::optional<Deletion>& deletion = {});
 
-/// Half of the spacing that a particle's mass and density give it: the distance at which it touches.
-double contact_radius(const Block& block, const Nodes& nodes, std::size_t particle);
-
 /// Energy that an element has received. \pre block.loses_elements
 struct HeldEnergy {
   double internal, hourglass;

@@ -91,7 +91,7 @@ TEST(Architecture, PrintingAndExitingStayInApps) {
 
 TEST(Architecture, ThreadsStayInParallel) {
   // Asking how many processors there are is the command line's business.
-  expect_only_in(R"(#include <thread>)", {"src/base/parallel", "apps/run.cpp"});
+  expect_only_in(R"(#include <thread>)", {"src/base/parallel", "apps/brio.cpp"});
   expect_only_in(
       R"(std::(thread|jthread|async)\b[^:]|#include <(mutex|condition_variable|omp\.h)>|#pragma omp)",
       {"src/base/parallel"});

@@ -61,6 +61,13 @@ void check(const std::filesystem::path& path, const std::vector<std::string>& ov
   for (const MergedParts& merged : model.merged)
     fmt::print("merged: {} nodes of '{}' are nodes of '{}', from up to {:.3g} away\n", merged.nodes,
                merged.second, merged.first, merged.farthest);
+  for (const TiedParts& tied : model.ties.found)
+    fmt::print("tied: {} nodes of '{}' to the surface of '{}', from up to {:.3g} away\n", tied.count,
+               tied.nodes, tied.surface, tied.largest_gap);
+  if (model.ties.step_share < 1)
+    fmt::print(
+        "tied: nodes away from their faces take the stable step down to {:.3g} of that of the elements\n",
+        model.ties.step_share);
   const StepControl& control = model.control;
   if (std::isfinite(control.stable)) {
     const PartInModel& critical = model.parts[control.critical_block];

@@ -172,10 +172,10 @@ void read_value(const YamlNode& node, const Slot& slot, Load& load) {
   throw DeckError(node.place, "nothing is said about the load; " + accepted_words("", names_of(load)));
 }
 
-void read_value(const YamlNode& node, const Slot& slot, Connection& connection) {
-  Merge& merge = connection.emplace<Merge>();
+namespace {
+
+void read_connection(const YamlNode& node, const Slot& slot, Merge& merge) {
   read_fields(node, slot, merge);
-  merge.place = to_string(node.place);
   const YamlNode& parts = *node.find("merge")->value;
   for (std::size_t i = 0; i < parts.items.size(); ++i) {
     const Part& part = slot.known.part(*parts.items[i], merge.parts[i]);
@@ -186,6 +186,46 @@ void read_value(const YamlNode& node, const Slot& slot, Connection& connection) 
   }
   if (merge.parts.size() != 2 || merge.parts[0] == merge.parts[1])
     throw DeckError(parts.place, "'merge' takes two different parts");
+}
+
+void refuse_rigid(const YamlNode& node, const Part& part) {
+  if (std::holds_alternative<Rigid>(part.element))
+    throw DeckError(node.place,
+                    "part '" + part.name + "' is rigid; accepted in 'tie' are parts of other elements");
+}
+
+void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) {
+  read_fields(node, slot, tie);
+  const YamlNode& names = *node.find("tie")->value;
+  if (tie.names.size() != 2)
+    throw DeckError(names.place, "'tie' takes a part or a set, and the part whose faces hold its nodes");
+  const YamlNode& slave = *names.items[0];
+  check_set(slave, slot, node_set_names);
+  const Part& held = slot.known.part(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));
+  refuse_rigid(slave, held);
+  const Part& holder = slot.known.part(*names.items[1], tie.names[1]);
+  refuse_rigid(*names.items[1], holder);
+  if (nodes_per_element(holder.element) < 4)
+    throw DeckError(names.items[1]->place,
+                    "part '" + holder.name + "' is of elements '" + std::string(name_of(holder.element)) +
+                        "', which have no faces; accepted are parts of solids and shells");
+  if (&held == &holder) throw DeckError(names.place, "'tie' takes two different parts");
+}
+
+}  // namespace
+
+void read_value(const YamlNode& node, const Slot& slot, Connection& connection) {
+  require_map(node, slot);
+  for (const std::string_view name : names_of(connection)) {
+    if (node.find(name) == nullptr) continue;
+    choose_alternative(connection, name, [&](auto& chosen) {
+      read_connection(node, slot, chosen);
+      chosen.place = to_string(node.place);
+    });
+    return;
+  }
+  throw DeckError(node.place,
+                  "nothing is said about the connection; " + accepted_words("", names_of(connection)));
 }
 
 void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair) {

@@ -157,10 +157,15 @@ struct SchemaOf<Load> : WithoutDefault {
 template <>
 struct SchemaOf<Connection> : WithoutDefault {
   static Schema make(const Range&) {
-    Schema object = object_of<Merge>();
-    add_meaning<Merge>(object);
-    object["properties"]["merge"].update(Schema{{"minItems", 2}, {"maxItems", 2}, {"uniqueItems", true}});
-    return object;
+    Schema choice{{"oneOf", Schema::array()}};
+    for_each_alternative(static_cast<const Connection*>(nullptr), [&]<class One>(std::type_identity<One>) {
+      Schema object = object_of<One>();
+      add_meaning<One>(object);
+      object["properties"][std::string(One::name)].update(
+          Schema{{"minItems", 2}, {"maxItems", 2}, {"uniqueItems", true}});
+      choice["oneOf"].push_back(std::move(object));
+    });
+    return choice;
   }
 };
 

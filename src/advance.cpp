@@ -87,6 +87,7 @@ void sweep_elements(Model& model, ThreadTeam& team) {
           model.parts[model.control.critical_block].element_order[result.critical_element]);
     }
   }
+  model.control.stable *= model.ties.step_share;
   if (!(model.control.stable > 0))
     throw Breakdown(element_name(model, model.control.critical_block, model.control.critical_element) +
                     " has inverted or holds a value that is not a number, at time " +
@@ -142,6 +143,20 @@ void book_support(Model& model, const Reaction& reaction) {
   model.energy.external.before += reaction.before;
   model.energy.external.after += reaction.after;
   model.momentum.supports.add(reaction.impulse);
+}
+
+// Before velocities: what pulls at held nodes pulls at the faces that hold them.
+void gather_tied_forces(Model& model) {
+  if (model.ties.empty()) return;
+  const StageTimer timer(model.stages, Stage::ties);
+  gather_forces(model.ties, model.nodes);
+}
+
+// Whenever velocities of faces may have changed.
+void carry_tied_nodes(Model& model) {
+  if (model.ties.empty()) return;
+  const StageTimer timer(model.stages, Stage::ties);
+  carry_velocities(model.ties, model.nodes, model.times.next);
 }
 
 void constrain(Model& model) {
@@ -254,6 +269,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   apply_loads(model);
   sweep_elements(model, team);
   erode_elements(model, team);
+  gather_tied_forces(model);
   choose_step(model);
   energy.external.before += load_work(model);
   KineticEnergy kinetic;
@@ -262,6 +278,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
     kinetic = accelerate(model.nodes, model.times.mean(), model.kinetic_sums, team);
   }
   constrain(model);
+  carry_tied_nodes(model);
   accelerate_rigid(model, team);
   resolve_contact(model, team);
   stop_at_walls(model);
@@ -287,6 +304,10 @@ void update_positions(Model& model, ThreadTeam& team) {
   {
     const StageTimer timer(model.stages, Stage::nodes);
     move(model.nodes, model.times.next, team);
+  }
+  if (!model.ties.empty()) {
+    const StageTimer timer(model.stages, Stage::ties);
+    place(model.ties, model.nodes, model.times.next);
   }
   if (!model.rigid.empty()) {
     const StageTimer timer(model.stages, Stage::rigid);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "src/build_rigid.hpp"
+#include "src/build_ties.hpp"
 #include "src/particles.hpp"
 
 namespace brio {
@@ -332,8 +333,10 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   make_blocks(deck, connectivity, model);
   make_rigid_bodies(deck, meshes, model);
   constrain(deck, meshes, model);
+  make_ties(deck, meshes, connectivity, model);
   make_contact(deck, meshes, connectivity, model);
   lump_masses(meshes, model);
+  if (!model.ties.empty()) condense(model.ties, model.nodes);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (model.blocks[b].cloud && model.blocks[b].cloud->is_eulerian())
       model.particle_searches.push_back({.block = b});
@@ -343,6 +346,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   model.kinetic_sums.resize(range_count(model.nodes));
   model.control.settings = deck.time;
   set_initial_velocities(deck, meshes, model);
+  start_ties(model);
   start_rigid_bodies(deck, meshes, model);
   load(deck, meshes, model);
   open_books(model);

@@ -505,7 +505,22 @@ struct Merge {
   }
 };
 
-using Connection = std::variant<Merge>;
+/// `tie: [stiffener, panel]`: nodes of the first that faces of the second hold.
+struct TieToSurface {
+  static constexpr std::string_view name = "tie";
+  static constexpr std::string_view meaning = "nodes that a surface holds";
+  std::vector<std::string> names;  ///< "part" or "part.set", and a part
+  double tolerance = 0;
+  std::string place;  ///< in the deck
+  static constexpr auto fields() {
+    return std::tuple{required("tie", &TieToSurface::names, any_number,
+                               "a part or a set whose nodes are held, and the part whose faces hold them"),
+                      required("tolerance", &TieToSurface::tolerance, positive,
+                               "largest distance of a node that is held from the surface")};
+  }
+};
+
+using Connection = std::variant<Merge, TieToSurface>;
 
 // ---- the rest
 // --------------------------------------------------------------------------------------------------

@@ -113,16 +113,18 @@ void check_parts(const Deck& deck, std::span<const std::size_t> offset, std::spa
 
 SharedNodes share_nodes(const Deck& deck, std::span<const Mesh> meshes) {
   SharedNodes shared;
-  if (deck.connections.empty()) return shared;
+  const auto merges = [](const Connection& connection) { return std::holds_alternative<Merge>(connection); };
+  if (std::none_of(deck.connections.begin(), deck.connections.end(), merges)) return shared;
   std::vector<std::size_t> offset{0};
   for (const Mesh& mesh : meshes) offset.push_back(offset.back() + mesh.position.size());
   shared.same_as.resize(offset.back());
   std::iota(shared.same_as.begin(), shared.same_as.end(), std::size_t{0});
   for (const Connection& connection : deck.connections) {
-    const Merge& entry = std::get<Merge>(connection);
-    shared.merged.push_back(merge(entry, deck, meshes, offset, shared.same_as));
+    const auto* entry = std::get_if<Merge>(&connection);
+    if (entry == nullptr) continue;
+    shared.merged.push_back(merge(*entry, deck, meshes, offset, shared.same_as));
     for (std::size_t i = 0; i < shared.same_as.size(); ++i) shared.same_as[i] = root(shared.same_as, i);
-    check_parts(deck, offset, shared.same_as, entry.place);
+    check_parts(deck, offset, shared.same_as, entry->place);
   }
   return shared;
 }

@@ -21,6 +21,7 @@
 #include "src/schedule.hpp"
 #include "src/stage_times.hpp"
 #include "src/surface_numbers.hpp"
+#include "src/ties.hpp"
 
 namespace brio {
 
@@ -46,7 +47,8 @@ struct Model {
   Nodes nodes;
   std::vector<Block> blocks;
   std::vector<PartInModel> parts;
-  std::vector<MergedParts> merged;  ///< one a connection
+  std::vector<MergedParts> merged;  ///< one a merge
+  Ties ties;
   SweepSchedule schedule;
   std::vector<SweepResult> sweep_results;         ///< one a task
   std::vector<ParticleSearch> particle_searches;  ///< of blocks of particles whose kernel is of now

@@ -42,7 +42,8 @@ bool has_shells(const Model& model) {
 }
 
 // Mean velocity of a part: momentum over mass.
-Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBodies& rigid) {
+Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBodies& rigid,
+                     std::span<const double> moved_mass) {
   if (part.rigid >= 0) {
     const Eigen::Vector3d& v = rigid.motion[static_cast<std::size_t>(part.rigid)].velocity;
     return {v[0], v[1], v[2]};
@@ -51,8 +52,9 @@ Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBod
   double mass = 0;
   for (int entry : part.node) {
     const auto node = static_cast<std::size_t>(entry);
-    mass += nodes.mass[node];
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += nodes.mass[node] * nodes.record[node].velocity[i];
+    const double own = nodes.mass[node] + (moved_mass.empty() ? 0 : moved_mass[node]);
+    mass += own;
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += own * nodes.record[node].velocity[i];
   }
   for (double& component : sum) component = mass > 0 ? component / mass : 0;
   return sum;
@@ -260,7 +262,7 @@ void observe_history(Model& model, std::vector<double>& row) {
     row.insert(row.end(), vector.begin(), vector.end());
   row.push_back(static_cast<double>(deleted_so_far(model)));
   for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p) {
-    const Vector velocity = mean_velocity(model.parts[p], model.nodes, model.rigid);
+    const Vector velocity = mean_velocity(model.parts[p], model.nodes, model.rigid, model.ties.moved_mass);
     row.insert(row.end(), velocity.begin(), velocity.end());
   }
 }
@@ -276,6 +278,7 @@ std::vector<std::string> active_features(const Model& model) {
   for (const ActiveLoad& load : model.loads)
     features.insert(std::array{"gravity", "nodal_force", "pressure"}[load.load.index()]);
   if (!model.merged.empty()) features.insert("merged_nodes");
+  if (!model.ties.empty()) features.insert("ties");
   if (!model.prescribed.empty()) features.insert("prescribed_motion");
   if (!model.walls.empty()) features.insert("rigid_wall");
   if (!model.contacts.empty()) features.insert("contact");

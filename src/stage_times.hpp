@@ -14,14 +14,15 @@ enum class Stage {
   nodes,
   rigid,
   constraints,
+  ties,
   contact_search,
   contact,
   contact_lines,
   output
 };
-inline constexpr std::array<std::string_view, 10> stage_names{
+inline constexpr std::array<std::string_view, 11> stage_names{
     "loads",       "elements",       "erosion", "nodes",         "rigid",
-    "constraints", "contact_search", "contact", "contact_lines", "output"};
+    "constraints", "ties", "contact_search", "contact", "contact_lines", "output"};
 
 struct StageTimes {
   std::array<double, stage_names.size()> seconds{};

@@ -1,0 +1,61 @@
+#pragma once
+/// Nodes held by faces of other parts for the whole run (contact/tie.hpp: where), by condensation: such a
+/// node has no motion of its own. Its mass is on the corners of its face, its force goes there every step,
+/// and its velocity and position follow from theirs. This needs no iteration, leaves nothing that could
+/// drift, and gives the same bits for any number of threads.
+///
+/// Mass goes to the corners by their weights (lumped). With positive weights and no gap that is never less
+/// than what the condensed mass matrix would have, so that the stable step of the elements remains one; where
+/// arms add more, `step_share` takes the step down by what they can add.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contact/tie.hpp"
+#include "src/base/nodes.hpp"
+
+namespace brio {
+
+struct TiedNode {
+  Tie tie;
+  double mass = 0;     ///< that the corners carry for it
+  double inertia = 0;  ///< rotational, likewise; of nodes that turn with their face
+  int face_part = 0;   ///< of the deck
+  int element = 0;     ///< of that part's mesh, whose face holds the node
+  int connection = 0;  ///< index in Ties::found
+};
+
+/// What became of one connection.
+struct TiedParts {
+  std::string nodes, surface;
+  std::string place;  ///< in the deck
+  int count = 0;
+  double largest_gap = 0;  ///< of a node from the surface
+};
+
+/// Empty where a deck ties nothing.
+struct Ties {
+  std::vector<TiedNode> node;  ///< those that are held before those that hold them
+  std::vector<TiedParts> found;
+  std::vector<double> moved_mass;  ///< of each node of the model: what its corners carry for it
+  double step_share = 1;           ///< of the elements' stable step
+  std::int64_t released = 0;       ///< nodes, since the start
+
+  bool empty() const { return node.empty(); }
+};
+
+/// Put held nodes exactly where they are held, move masses to the corners, and find the step's share.
+void condense(Ties& ties, Nodes& nodes);
+
+/// Forces and moments of held nodes to the corners, in a fixed order.
+void gather_forces(const Ties& ties, Nodes& nodes);
+
+/// Velocities of held nodes, such that moving by them over the step keeps them where they are held.
+void carry_velocities(const Ties& ties, Nodes& nodes, double step);
+
+/// Positions of held nodes, after all nodes have moved over the step.
+void place(Ties& ties, Nodes& nodes, double step);
+
+}  // namespace brio

@@ -115,7 +115,7 @@ void exclude_folds(LineCandidates& candidates, const Surface& surface, const Nod
   }
 }
 
-// Pairs of one body that never meet: they overlap as drawn, or lie in a fold.
+// Pairs of one body, or of bodies tied together, that never meet: they overlap as drawn, or lie in a fold.
 void exclude_drawn(LineCandidates& candidates, const Surface& surface, const Nodes& nodes) {
   const bool first_search = candidates.counts.searches == 1;
   const auto is_round = [&](const Line& line) {
@@ -126,7 +126,9 @@ void exclude_drawn(LineCandidates& candidates, const Surface& surface, const Nod
   for (const auto& [first, second] : candidates.found) {
     const Line& a = candidates.line[static_cast<std::size_t>(first)];
     const Line& b = candidates.line[static_cast<std::size_t>(second)];
-    if (!first_search || a.body != b.body || is_new(candidates, a) || is_new(candidates, b)) continue;
+    if (!first_search || !surface.held.one_piece(a.body, b.body) || is_new(candidates, a) ||
+        is_new(candidates, b))
+      continue;
     if (distance(surface, nodes, a, b) < a.radius + b.radius)
       candidates.drawn.push_back(nodes_of(surface, a, b));
   }

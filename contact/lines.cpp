@@ -118,6 +118,15 @@ bool share_a_face(const Surface& surface, const Line& a, const Line& b) {
   return false;
 }
 
+bool are_held(const Surface& surface, const Line& a, const Line& b) {
+  const auto apart = [&](const Line& line, int part) {
+    return std::any_of(line.node.begin(), line.node.end(), [&](int slave) {
+      return surface.held.apart(surface.node[static_cast<std::size_t>(slave)], part);
+    });
+  };
+  return apart(a, b.part) || apart(b, a.part);
+}
+
 bool kinds_may_touch(const Line& a, const Line& b) {
   const Line& first = a.kind <= b.kind ? a : b;
   const Line& second = a.kind <= b.kind ? b : a;
@@ -177,6 +186,7 @@ bool may_touch(const Surface& surface, const Line& a, const Line& b) {
   if (rigid >= 0 && rigid == surface.rigid_body(surface.node[static_cast<std::size_t>(b.node[0])]))
     return false;
   if (surface.pairs.parts_apart(a.part, b.part)) return false;
+  if (!surface.held.empty() && are_held(surface, a, b)) return false;
   return a.body != b.body || !share_a_face(surface, a, b);
 }
 

@@ -59,12 +59,14 @@ void find_anew(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   find_contacts(scene, nodes, team);
 }
 
-// Pairs of one part that overlap from the start are how the part was drawn: corners, seams, flanges.
+// Pairs of one part that overlap from the start are how the part was drawn: corners, seams, flanges; so are
+// those beside a tie.
 bool exclude_within_parts(ContactScene& scene) {
   std::vector<std::pair<int, int>> found;
   for (const Contact& contact : scene.contacts)
     if (!contact.of_lines() && contact.gap < 0 &&
-        contact.body == scene.surface.body[static_cast<std::size_t>(contact.slave)])
+        scene.surface.held.one_piece(contact.body,
+                                     scene.surface.body[static_cast<std::size_t>(contact.slave)]))
       found.emplace_back(contact.slave, contact.face);
   if (found.empty()) return false;
   std::sort(found.begin(), found.end());
@@ -73,7 +75,8 @@ bool exclude_within_parts(ContactScene& scene) {
   grown.first.push_back(0);
   for (int s = 0; s < static_cast<int>(scene.surface.slaves()); ++s) {
     const auto known = scene.excluded.of(s);
-    const auto begin = grown.item.insert(grown.item.end(), known.begin(), known.end()) - grown.item.begin();
+    const std::ptrdiff_t begin = std::ssize(grown.item);
+    grown.item.insert(grown.item.end(), known.begin(), known.end());
     for (; next != found.end() && next->first == s; ++next) grown.item.push_back(next->second);
     std::sort(grown.item.begin() + begin, grown.item.end());
     grown.first.push_back(static_cast<int>(grown.item.size()));

@@ -18,8 +18,12 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void load_motion(ContactScene& scene, const Nodes& nodes) {
+void load_motion(ContactScene& scene, const Nodes& nodes, const Ties& ties) {
   scene.in_contact.clear();
+  if (!ties.empty()) {
+    find_held(scene.held, scene.surface, ties, scene.contacts, scene.in_contact);
+    load_outside(scene.held, nodes);
+  }
   for (const Contact& contact : scene.contacts)
     for (int slave : contact.node) scene.in_contact.insert(slave);
   scene.in_contact.for_each([&](std::size_t s) {
@@ -27,6 +31,8 @@ void load_motion(ContactScene& scene, const Nodes& nodes) {
     for (int axis = 0; axis < 3; ++axis) {
       scene.motion[s].velocity[axis] = nodes.record[node].velocity[axis];
       scene.motion[s].inverse_mass[axis] = nodes.free_inverse_mass(node, axis);
+      // Not a support: its corners take what it is given.
+      if (ties.holds(scene.surface.node[s])) scene.motion[s].inverse_mass[axis] = 1;
     }
   });
 }
@@ -156,7 +162,13 @@ void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   scene.step.line_seconds += seconds_since(lines);
 }
 
-void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies) {
+void hold(ContactScene& scene, const Ties& ties, const std::vector<int>& part_of_surface) {
+  scene.surface.held = held_pairs(scene.surface, ties, part_of_surface);
+  scene.held.way.resize(scene.surface.slave_of.size());
+}
+
+void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies,
+             const Ties& ties) {
   assert(nodes.velocity_before.size() == nodes.size());
   scene.step = ContactStep{};
   if (scene.surface.node.empty()) return;
@@ -164,9 +176,14 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std
   scene.travel.follow(scene.surface, nodes, scene.candidates.point, dt, team);
   find_contacts(scene, nodes, team);
   warm_start(scene.last, scene.last_dt > 0 ? dt / scene.last_dt : 1.0, scene.contacts);
-  load_motion(scene, nodes);
+  load_motion(scene, nodes, ties);
   const double edge = scene.candidates.smallest_edge;
-  if (bodies.empty()) {
+  if (!ties.empty()) {
+    scene.rigid.find(scene.surface, nodes, scene.contacts, bodies);
+    solve(scene.solver, scene.options, edge, dt, scene.contacts,
+          HeldMotion{MixedMotion{scene.contacts, scene.rigid.touch, scene.motion, bodies}, scene.held,
+                     scene.held.outside_motion});
+  } else if (bodies.empty()) {
     solve(scene.solver, scene.options, edge, dt, scene.contacts, scene.motion);
   } else {
     scene.rigid.find(scene.surface, nodes, scene.contacts, bodies);
@@ -177,6 +194,10 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std
   scene.step.residual = scene.solver.residual;
   if (!scene.contacts.empty()) store_velocities(scene, nodes);
   sum_impulses(scene);
+  if (!ties.empty() && !scene.contacts.empty()) {
+    store_outside(scene.held, nodes);
+    pass_on(scene, ties, nodes, dt);
+  }
   book(scene, nodes, bodies);
   scene.last_dt = dt;
 }

@@ -15,6 +15,7 @@
 #include "contact/candidates.hpp"
 #include "contact/detect.hpp"
 #include "contact/erosion.hpp"
+#include "contact/held_contact.hpp"
 #include "contact/line_detect.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
@@ -85,6 +86,7 @@ struct ContactScene {
   std::vector<Eigen::Vector3d> normal_impulse;  ///< of each slave node, in the last step
   std::vector<Eigen::Vector3d> friction_impulse;
   RigidContacts rigid;
+  HeldContacts held;
 
   ContactStep step;
   ContactTotals totals;
@@ -103,7 +105,13 @@ void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
 /// \param bodies rigid bodies, by the numbers that the parts of the surface name. Their nodes carry the
 /// velocities of their bodies on entry; on return the bodies are corrected, and their nodes are left to the
 /// caller
+/// \param ties nodes that surfaces hold, with `hold` said to the scene before; they move with their faces on
+/// entry and on return
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
-             std::span<RigidMotion> bodies = {});
+             std::span<RigidMotion> bodies = {}, const Ties& ties = {});
+
+/// Let held nodes and what holds them never meet. \param part_of_surface of each part of the ties: its number
+/// in the surface, or -1
+void hold(ContactScene& scene, const Ties& ties, const std::vector<int>& part_of_surface);
 
 }  // namespace brio

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/held_contact.hpp"
 #include "contact/rigid_contact.hpp"
 
 namespace brio {
@@ -172,6 +173,11 @@ void solve(Solver& solver, const ContactOptions& options, double smallest_edge, 
 
 void solve(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
            std::span<Contact> contacts, const MixedMotion& motion) {
+  solve_for(solver, options, smallest_edge, dt, contacts, motion);
+}
+
+void solve(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
+           std::span<Contact> contacts, const HeldMotion& motion) {
   solve_for(solver, options, smallest_edge, dt, contacts, motion);
 }
 

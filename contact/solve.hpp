@@ -50,4 +50,9 @@ struct MixedMotion;
 void solve(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
            std::span<Contact> contacts, const MixedMotion& motion);
 
+struct HeldMotion;
+/// The same where held nodes take part.
+void solve(Solver& solver, const ContactOptions& options, double smallest_edge, double dt,
+           std::span<Contact> contacts, const HeldMotion& motion);
+
 }  // namespace brio

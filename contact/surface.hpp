@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/held_pairs.hpp"
 #include "contact/lists.hpp"
 #include "contact/pair_table.hpp"
 
@@ -78,17 +79,29 @@ struct Surface {
   int body_count = 0;
   std::vector<int> rigid_of_node;  ///< of each global node: its rigid body, or -1; empty where there is none
   PairTable pairs;                 ///< what is said of pairs of parts
+  HeldPairs held;                  ///< what does not meet because one holds the other
 
   /// -1: none.
   int rigid_body(int global_node) const {
     return rigid_of_node.empty() || global_node < 0 ? -1
                                                     : rigid_of_node[static_cast<std::size_t>(global_node)];
   }
-  /// Nothing that is rigid can meet itself, and parts may be kept from touching.
+  /// Nothing that is rigid can meet itself, parts may be kept from touching, and a surface does not meet what
+  /// it holds.
   bool never_touch(int slave, const Face& other) const {
     const int global_node = node[static_cast<std::size_t>(slave)];
     const int own = rigid_body(global_node);
-    return (own >= 0 && own == rigid_body(other.node[0])) || pairs.apart(global_node, other.part);
+    return (own >= 0 && own == rigid_body(other.node[0])) || pairs.apart(global_node, other.part) ||
+           (!held.empty() && is_held(slave, other));
+  }
+  /// Whether a node and a face belong to a tie: the node to its face's part, or a corner to the node's part.
+  bool is_held(int slave, const Face& other) const {
+    if (held.apart(node[static_cast<std::size_t>(slave)], other.part)) return true;
+    for (int corner : other.node)
+      if (const int holder = held.holder[static_cast<std::size_t>(corner)]; holder >= 0)
+        for (int f : faces_of.of(slave))
+          if (face[static_cast<std::size_t>(f)].part == holder) return true;
+    return false;
   }
 
   /// Largest radius of the beams and particles of a slave node; 0: it has none.

@@ -184,7 +184,7 @@ void resolve_contact(Model& model, ThreadTeam& team) {
   if (model.contacts.empty()) return;
   const StageTimer timer(model.stages, Stage::contact);
   for (ContactScene& scene : model.contacts) {
-    resolve(scene, model.nodes, model.times.next, team, model.rigid.motion);
+    resolve(scene, model.nodes, model.times.next, team, model.rigid.motion, model.ties);
     settle(model.rigid);
     const ContactStep& step = scene.step;
     model.stages[Stage::contact_search] += step.search_seconds;

@@ -260,6 +260,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
   check_debris_in_contact(deck);
   if (!deck.contact) return;
   std::vector<SurfacePart> surfaces;
+  std::vector<int> part_of_surface(deck.parts.size(), -1);
   if (can_erode(model.blocks))
     model.surface_numbers = {.part = std::vector<int>(deck.parts.size(), -1),
                              .element = std::vector<std::vector<int>>(deck.parts.size()),
@@ -267,8 +268,9 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Part& part = deck.parts[p];
     if (!takes_part(*deck.contact, part.name)) continue;
+    part_of_surface[p] = static_cast<int>(surfaces.size());
     if (model.surface_numbers) {
-      model.surface_numbers->part[p] = static_cast<int>(surfaces.size());
+      model.surface_numbers->part[p] = part_of_surface[p];
       model.surface_numbers->element[p] = model.parts[p].element_slot;
     }
     surfaces.push_back({.name = part.name,
@@ -282,6 +284,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));
     const std::vector<PairRule> rules = pair_rules(*deck.contact, surfaces);
     if (!rules.empty()) model.contacts.back().surface.pairs = {rules, surfaces, model.nodes.size()};
+    if (!model.ties.empty()) hold(model.contacts.back(), model.ties, part_of_surface);
     if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
     ThreadTeam team(1);
     model.initial_overlaps = remove_initial_overlap(model.contacts.back(), model.nodes, team);

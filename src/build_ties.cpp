@@ -263,10 +263,10 @@ void make_ties(const Deck& deck, std::span<const Mesh> meshes, std::span<const s
     if (const auto* entry = std::get_if<TieToSurface>(&connection)) tying.add(*entry);
   if (model.ties.empty()) return;
   const std::string& place = model.ties.found.front().place;
-  if (deck.contact) throw BuildError("ties beside contact are not accepted yet", place);
   if (!model.walls.empty()) throw BuildError("ties beside rigid walls are not accepted yet", place);
   if (can_erode(model.blocks)) throw BuildError("ties beside deletion are not accepted yet", place);
   tying.sort();
+  number(model.ties, model.nodes.size());
   release_supports(model.ties, model);
 }
 

@@ -9,6 +9,7 @@
 
 #include "contact/overlap.hpp"
 #include "contact/scene.hpp"
+#include "contact/ties.hpp"
 #include "src/constraints.hpp"
 #include "src/deck.hpp"
 #include "src/erosion.hpp"
@@ -21,7 +22,6 @@
 #include "src/schedule.hpp"
 #include "src/stage_times.hpp"
 #include "src/surface_numbers.hpp"
-#include "src/ties.hpp"
 
 namespace brio {
 

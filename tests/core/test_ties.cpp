@@ -8,6 +8,7 @@
 #include "src/build_ties.hpp"
 #include "src/observe.hpp"
 #include "tests/core/scene.hpp"
+#include "tests/core/tied_scene.hpp"
 
 namespace brio {
 namespace {
@@ -15,45 +16,6 @@ namespace {
 using namespace test;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-TieToSurface tied(std::string nodes, std::string surface, double tolerance = 1e-3) {
-  return {.names = {std::move(nodes), std::move(surface)}, .tolerance = tolerance, .place = "deck.yaml:3:5"};
-}
-
-/// A box of coarse elements below z = 0 and one of fine elements above a gap.
-Deck two_boxes(std::array<int, 3> coarse, std::array<int, 3> fine, double gap = 0,
-               double poissons_ratio = 0.3) {
-  Deck deck;
-  deck.materials = {{"material", elastic(poissons_ratio)}};
-  deck.parts = {box("coarse", {1, 1, 1}, coarse, {0, 0, -0.5}, inviscid_hex8()),
-                box("fine", {1, 1, 1}, fine, {0, 0, 0.5 + gap}, inviscid_hex8())};
-  deck.connections = {tied("fine.zmin", "coarse", 2 * gap + 1e-3)};
-  deck.time.end = 1e-2;
-  return deck;
-}
-
-/// Velocities of a linear field, with held nodes where they are held.
-void set_velocities(Model& model, const Vector3d& constant, const Matrix3d& gradient) {
-  const Vector3d spin(0.5 * (gradient(2, 1) - gradient(1, 2)), 0.5 * (gradient(0, 2) - gradient(2, 0)),
-                      0.5 * (gradient(1, 0) - gradient(0, 1)));
-  Nodes& nodes = model.nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vector3d v = constant + gradient * Vector3d(nodes.record[i].position);
-    for (int axis = 0; axis < 3; ++axis) {
-      nodes.record[i].velocity[axis] = v[axis];
-      if (nodes.has_rotations()) nodes.angular_velocity[i].component[axis] = spin[axis];
-    }
-  }
-  carry_velocities(model.ties, nodes, 0);
-  double energy = 0;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    energy += 0.5 * nodes.mass[i] * velocity(nodes, static_cast<int>(i)).squaredNorm();
-    if (nodes.has_rotations())
-      energy +=
-          0.5 * nodes.rotational_inertia[i] * Vector3d(nodes.angular_velocity[i].component).squaredNorm();
-  }
-  model.energy.kinetic_start = energy;
-}
 
 Vector3d place_of(const Model& model, std::size_t part, std::size_t mesh_node) {
   return position(model.nodes, model.parts[part].node[mesh_node]);
@@ -203,32 +165,6 @@ TEST(Ties, AwayFromFacesOfSolidsKeepMomentumAndEnergy) {
   EXPECT_LT(errors.linear, 1e-12);
   EXPECT_LT(errors.angular, 1e-12);
   EXPECT_LT(errors.energy, 1.1 * error_of_elements());
-}
-
-Part plate(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Triple centre,
-           double thickness) {
-  Shell4 shell;
-  shell.thickness = thickness;
-  Part part{std::move(name), PlateMesh{size, elements}, {}, shell, "material"};
-  part.placement.translate = centre;
-  return part;
-}
-
-Part beam(double height, int elements) {
-  Beam2 element;
-  element.section = RectangleSection{.width = 0.02, .height = 0.04};
-  element.orientation = {0, 0, 1};
-  return {"stiffener", LineMesh{{-0.5, 0, height}, {0.5, 0, height}, elements}, {}, element, "material"};
-}
-
-/// A panel with a beam beside its middle surface.
-Deck stiffened_panel(double height = 0.03, int beams = 24) {
-  Deck deck;
-  deck.materials = {{"material", elastic(0)}};
-  deck.parts = {plate("panel", {1, 0.1}, {16, 2}, {0, 0, 0}, 0.02), beam(height, beams)};
-  deck.connections = {tied("stiffener", "panel", 0.03)};
-  deck.time.end = 0.05;
-  return deck;
 }
 
 TEST(Ties, AwayFromShellsKeepMomentumAndEnergy) {

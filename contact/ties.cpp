@@ -1,4 +1,4 @@
-#include "src/ties.hpp"
+#include "contact/ties.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +19,6 @@ Vector3d velocity_of(const Nodes& nodes, int node) {
   return Vector3d(nodes.record[static_cast<std::size_t>(node)].velocity);
 }
 Vector3d row(Rows rows, int node) { return Vector3d(rows[static_cast<std::size_t>(node)].component); }
-
-FaceVertices corners_of(const Tie& tie, const Nodes& nodes) {
-  return {position_of(nodes, tie.corner[0]), position_of(nodes, tie.corner[1]),
-          position_of(nodes, tie.corner[2]), position_of(nodes, tie.corner[3])};
-}
 
 void add(AlignedBuffer<NodeVector>& rows, int node, const Vector3d& value) {
   double* sum = rows[static_cast<std::size_t>(node)].component;
@@ -126,6 +121,17 @@ Vector3d held_velocity(const Tie& tie, const Nodes& nodes, double step) {
 }
 
 }  // namespace
+
+FaceVertices corners_of(const Tie& tie, const Nodes& nodes) {
+  return {position_of(nodes, tie.corner[0]), position_of(nodes, tie.corner[1]),
+          position_of(nodes, tie.corner[2]), position_of(nodes, tie.corner[3])};
+}
+
+void number(Ties& ties, std::size_t node_count) {
+  ties.of_node.assign(node_count, -1);
+  for (std::size_t i = 0; i < ties.node.size(); ++i)
+    ties.of_node[static_cast<std::size_t>(ties.node[i].tie.node)] = static_cast<int>(i);
+}
 
 void condense(Ties& ties, Nodes& nodes) {
   const std::vector<double> own_mass(nodes.mass.begin(), nodes.mass.end());

@@ -38,13 +38,23 @@ struct TiedParts {
 /// Empty where a deck ties nothing.
 struct Ties {
   std::vector<TiedNode> node;  ///< those that are held before those that hold them
+  std::vector<int> of_node;    ///< of each node of the model: its place in `node`, or -1
   std::vector<TiedParts> found;
   std::vector<double> moved_mass;  ///< of each node of the model: what its corners carry for it
   double step_share = 1;           ///< of the elements' stable step
   std::int64_t released = 0;       ///< nodes, since the start
 
   bool empty() const { return node.empty(); }
+  bool holds(int global_node) const {
+    return !of_node.empty() && of_node[static_cast<std::size_t>(global_node)] >= 0;
+  }
 };
+
+/// Positions of the corners of a tie.
+FaceVertices corners_of(const Tie& tie, const Nodes& nodes);
+
+/// Fill Ties::of_node.
+void number(Ties& ties, std::size_t node_count);
 
 /// Put held nodes exactly where they are held, move masses to the corners, and find the step's share.
 void condense(Ties& ties, Nodes& nodes);

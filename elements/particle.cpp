@@ -18,6 +18,11 @@ Number lanes_of(const double (&row)[width]) {
   return number;
 }
 
+SymmetricTensor<Number> symmetric_of(const double (&row)[6][width]) {
+  return {lanes_of(row[0]), lanes_of(row[1]), lanes_of(row[2]),
+          lanes_of(row[3]), lanes_of(row[4]), lanes_of(row[5])};
+}
+
 ParticleMotion<Number> motion_of(const NeighbourSums& sums) {
   Tensor<Number> x, v;
   for (int r = 0; r < 3; ++r)
@@ -25,17 +30,20 @@ ParticleMotion<Number> motion_of(const NeighbourSums& sums) {
       x.m[r][c] = lanes_of(sums.position[r][c]);
       v.m[r][c] = lanes_of(sums.velocity[r][c]);
     }
-  const auto& k = sums.correction;
-  ParticleMotion<Number> motion = particle_motion(
-      x, v, lanes_of(sums.position_by_velocity), lanes_of(sums.velocity_squared),
-      {lanes_of(k[0]), lanes_of(k[1]), lanes_of(k[2]), lanes_of(k[3]), lanes_of(k[4]), lanes_of(k[5])});
+  ParticleMotion<Number> motion =
+      particle_motion(x, v, lanes_of(sums.position_by_velocity), lanes_of(sums.velocity_squared),
+                      symmetric_of(sums.correction));
   motion.volume = lanes_of(sums.volume);
   motion.spacing = lanes_of(sums.spacing);
   motion.hourglass_weight = lanes_of(sums.hourglass_weight);
   motion.frequency_squared = lanes_of(sums.frequency_squared);
   motion.weight = lanes_of(sums.weight);
   for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) motion.middle_gradient.m[r][c] = lanes_of(sums.middle_gradient[r][c]);
+    for (int c = 0; c < 3; ++c) {
+      motion.middle_gradient.m[r][c] = lanes_of(sums.middle_gradient[r][c]);
+      motion.residual_gradient.m[r][c] = lanes_of(sums.residual_gradient[r][c]);
+    }
+  motion.share = symmetric_of(sums.share);
   return motion;
 }
 

@@ -54,7 +54,12 @@ void remove_pair(ParticleCloud& cloud, std::size_t from, int to) {
   for (std::size_t k = begin; k < end; ++k) {
     if (cloud.neighbour[k] == to) continue;
     cloud.neighbour[kept] = cloud.neighbour[k];
-    cloud.pair[kept++] = cloud.pair[k];
+    if (cloud.is_eulerian()) {
+      cloud.weight[kept] = cloud.weight[k];
+    } else {
+      cloud.pair[kept] = cloud.pair[k];
+    }
+    ++kept;
   }
   cloud.count[from] = static_cast<int>(kept - begin);
 }
@@ -142,7 +147,7 @@ void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const i
       for (int c = 0; c < 3; ++c) {
         sums.position[r][c][lane] = x_sum[c][r];
         sums.velocity[r][c][lane] = v_sum[c][r];
-        sums.middle_gradient[r][c][lane] = 0;
+        sums.middle_gradient[r][c][lane] = sums.residual_gradient[r][c][lane] = 0;
       }
     sums.position_by_velocity[lane] = sum3(xv_sum);
     sums.velocity_squared[lane] = sum3(vv_sum);
@@ -152,7 +157,8 @@ void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const i
     sums.volume[lane] = cloud.volume[i];
     sums.spacing[lane] = cloud.spacing[i];
     sums.hourglass_weight[lane] = cloud.hourglass_weight[i];
-    sums.weight[lane] = 0;  // asked for by the eulerian form alone
+    sums.weight[lane] = 0;  // asked for, as gradients and share, by the eulerian form alone
+    for (auto& row : sums.share) row[lane] = 0;
     const double growth = std::max(1.0, cloud.gradient_size[i] / cloud.largest_gradient_size);
     sums.frequency_squared[lane] = growth * growth * cloud.frequency_squared;
   }

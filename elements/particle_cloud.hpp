@@ -66,6 +66,7 @@ struct ParticleCloud {
   double skin = 0;                              ///< by which neighbours are searched further
   AlignedBuffer<double> smoothing_length;       ///< now
   AlignedBuffer<double> next_smoothing_length;  ///< of the step that follows
+  AlignedBuffer<double> weight;                 ///< s of each pair, in place of `pair`
   AlignedBuffer<ParticleForce> residual;        ///< viscosity times L, and viscosity, for residual velocities
   AlignedBuffer<NodeVector> pair_force;         ///< on each particle, of residual velocities and repulsion
   /// Positions at the last search, and the smoothing lengths; -1 where a particle has been cut.

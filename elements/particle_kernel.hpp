@@ -18,14 +18,17 @@ struct ParticleMotion {
   Tensor<T> cofactor;       ///< det F F^-T
   T jacobian;               ///< det F
   SymmetricTensor<T> correction;
-  T volume;                   ///< at the start
-  T spacing;                  ///< its cube root
-  T hourglass_weight;         ///< by which a modulus makes k
-  T residual_power;           ///< sum of s e.v
-  T residual_rate;            ///< sum of s times the rate of e squared
-  T frequency_squared;        ///< bound for the moduli of the start
-  T weight;                   ///< sum of s, where the kernel is of now
-  Tensor<T> middle_gradient;  ///< L of the middle of the step, likewise
+  T volume;             ///< at the start
+  T spacing;            ///< its cube root
+  T hourglass_weight;   ///< by which a modulus makes k
+  T residual_power;     ///< sum of s e.v
+  T residual_rate;      ///< sum of s times the rate of e squared
+  T frequency_squared;  ///< bound for the moduli of the start
+  T weight;             ///< sum of s, where the kernel is of now
+  // Likewise:
+  Tensor<T> middle_gradient;    ///< L of the middle of the step
+  Tensor<T> residual_gradient;  ///< L of residual velocities
+  SymmetricTensor<T> share;     ///< S of particle_support.hpp
 };
 
 template <class T>
@@ -37,10 +40,6 @@ BRIO_INLINE Tensor<T> cofactors(const Tensor<T>& a) {
             m[0][1] * m[2][0] - m[0][0] * m[2][1]},
            {m[0][1] * m[1][2] - m[0][2] * m[1][1], m[0][2] * m[1][0] - m[0][0] * m[1][2],
             m[0][0] * m[1][1] - m[0][1] * m[1][0]}}};
-}
-template <class T>
-BRIO_INLINE Tensor<T> full(const SymmetricTensor<T>& s) {
-  return {{{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}}};
 }
 template <class T>
 BRIO_INLINE T contract(const Tensor<T>& a, const Tensor<T>& b) {
@@ -191,14 +190,15 @@ struct ParticleKernel : Particle {
     // V P = V sigma cof F of the volume V that F is of.
     const SymmetricTensor<T> stress = fixed_stress(*point, axes) - isotropic(pressure);
     const T volume_of_reference = is_eulerian() ? volume.end : motion.volume;
-    const Tensor<T> force_tensor = volume_of_reference * (full(stress) * motion.cofactor);
+    Tensor<T> force_tensor = volume_of_reference * (full(stress) * motion.cofactor);
+    if (is_eulerian()) force_tensor = full(motion.share) * force_tensor;
     forces.power = contract(force_tensor, motion.gradient_rate) + forces.stiffness * motion.residual_power;
     forces.a = force_tensor * full(motion.correction);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) forces.a.m[i][j] -= forces.stiffness * motion.gradient.m[i][j];
     forces.viscosity =
         viscosity_share() * density * sound_speed * motion.spacing * volume.end * motion.hourglass_weight;
-    forces.residual = forces.viscosity * l;
+    forces.residual = forces.viscosity * motion.residual_gradient;
 
     // A quadratic form of gradients on the present configuration, (lambda + 2 mu) V |grad u|^2, over that at
     // the start is at most the ratio of the moduli times det F times the largest eigenvalue of F^-1 F^-T.

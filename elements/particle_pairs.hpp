@@ -17,10 +17,13 @@ struct alignas(64) NeighbourSums {
   double correction[6][lane_count<double>];         ///< K: xx yy zz xy yz xz
   double volume[lane_count<double>];                ///< at the start
   double spacing[lane_count<double>];
-  double hourglass_weight[lane_count<double>];       ///< 3 / sum of s X.X, by which a modulus makes k
-  double frequency_squared[lane_count<double>];      ///< bound for the moduli of the start
-  double weight[lane_count<double>];                 ///< sum of s, where the kernel is of now
-  double middle_gradient[3][3][lane_count<double>];  ///< L of the middle of the step, likewise
+  double hourglass_weight[lane_count<double>];   ///< 3 / sum of s X.X, by which a modulus makes k
+  double frequency_squared[lane_count<double>];  ///< bound for the moduli of the start
+  double weight[lane_count<double>];             ///< sum of s, where the kernel is of now
+  // Where the kernel is of now, likewise; `position` and `correction` are then those of particle_support.hpp.
+  double middle_gradient[3][3][lane_count<double>];    ///< L of the middle of the step
+  double residual_gradient[3][3][lane_count<double>];  ///< L of residual velocities
+  double share[6][lane_count<double>];                 ///< S of particle_support.hpp: xx yy zz xy yz xz
 };
 
 /// Pairs closer than twice the mean of their smoothing lengths, of lists that hold at least these.

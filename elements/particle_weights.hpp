@@ -9,30 +9,38 @@
 namespace brio {
 
 /// W(r) h^3 pi at r / h.
-inline double kernel_shape(double q) {
-  if (q < 1) return 1 + q * q * (0.75 * q - 1.5);
-  return q < 2 ? 0.25 * (2 - q) * (2 - q) * (2 - q) : 0;
+template <class T>
+BRIO_INLINE T kernel_shape(T q) {
+  const T near = 1.0 + q * q * (0.75 * q - 1.5);
+  const T rest = 2.0 - q;
+  return where(q < T(1.0), near, where(q < T(2.0), 0.25 * rest * rest * rest, T(0.0)));
 }
 
 /// -W'(r) / r. \param inverse_length 1 / h
-inline double kernel_weight(double distance_squared, double inverse_length) {
-  const double inverse_squared = inverse_length * inverse_length;
-  const double q_squared = distance_squared * inverse_squared;
-  if (!(q_squared < 4)) return 0;
-  const double q = std::sqrt(q_squared);
-  const double size = std::numbers::inv_pi * inverse_squared * inverse_squared * inverse_length;
-  return q < 1 ? size * (3 - 2.25 * q) : size * 0.75 * (2 - q) * (2 - q) / q;
+template <class T>
+BRIO_INLINE T kernel_weight(T distance_squared, T inverse_length) {
+  const T inverse_squared = inverse_length * inverse_length;
+  const T q_squared = distance_squared * inverse_squared;
+  const T q = sqrt(q_squared);
+  const T size = std::numbers::inv_pi * inverse_squared * inverse_squared * inverse_length;
+  const MaskOf<T> is_near = q < T(1.0);
+  const T shape = where(is_near, 3.0 - 2.25 * q, 0.75 * (2.0 - q) * (2.0 - q) / where(is_near, T(1.0), q));
+  return where(q_squared < T(4.0), size * shape, T(0.0));
 }
 
 /// A neighbourhood whose moments have a determinant below this share of that of a round one lies in a plane
 /// or on a line.
 inline constexpr double least_roundness = 1e-6;
 
+/// The inverse times the determinant.
+inline SymmetricTensor<double> adjugate(const SymmetricTensor<double>& m) {
+  return {m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz, m.xx * m.yy - m.xy * m.xy,
+          m.xz * m.yz - m.xy * m.zz, m.xy * m.xz - m.yz * m.xx, m.xy * m.yz - m.xz * m.yy};
+}
+
 /// The inverse; 0 where the neighbours do not stand in three directions.
 inline SymmetricTensor<double> inverse_moments(const SymmetricTensor<double>& m) {
-  const SymmetricTensor<double> cofactor{m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz,
-                                         m.xx * m.yy - m.xy * m.xy, m.xz * m.yz - m.xy * m.zz,
-                                         m.xy * m.xz - m.yz * m.xx, m.xy * m.yz - m.xz * m.yy};
+  const SymmetricTensor<double> cofactor = adjugate(m);
   const double determinant = m.xx * cofactor.xx + m.xy * cofactor.xy + m.xz * cofactor.xz;
   const double mean = trace(m) / 3;
   if (!(determinant > least_roundness * mean * mean * mean)) return {};

@@ -1,11 +1,16 @@
 #pragma once
-/// Largest principal value of a symmetric tensor and its direction, on lanes, by Jacobi's rotations: equal
-/// values need no care, and the direction is a unit vector to round-off whatever the tensor.
+/// Principal values of a symmetric tensor and their directions, on lanes, by Jacobi's rotations: equal values
+/// need no care, and the directions are unit vectors to round-off whatever the tensor.
 
 #include "src/base/tensor.hpp"
 
 namespace brio {
 
+template <class T>
+struct PrincipalAxes {
+  Vector3<T> value;
+  Tensor<T> direction;  ///< columns: unit vectors, in the order of the values
+};
 template <class T>
 struct PrincipalValue {
   T value;
@@ -51,7 +56,7 @@ BRIO_INLINE T largest_component(const SymmetricTensor<T>& a) {
 
 /// \param a finite
 template <class T>
-BRIO_INLINE PrincipalValue<T> largest_principal(const SymmetricTensor<T>& a) {
+BRIO_INLINE PrincipalAxes<T> principal_axes(const SymmetricTensor<T>& a) {
   constexpr int sweeps =
       5;  // converge as the square from the second on; three suffice for almost all tensors
   const T largest = detail::largest_component(a);
@@ -66,15 +71,23 @@ BRIO_INLINE PrincipalValue<T> largest_principal(const SymmetricTensor<T>& a) {
     detail::rotate_to_zero(m, v, 0, 2);
     detail::rotate_to_zero(m, v, 1, 2);
   }
-  PrincipalValue<T> result{m.m[0][0], {v.m[0][0], v.m[1][0], v.m[2][0]}};
+  return {{unit * m.m[0][0], unit * m.m[1][1], unit * m.m[2][2]}, v};
+}
+
+/// \param a finite
+template <class T>
+BRIO_INLINE PrincipalValue<T> largest_principal(const SymmetricTensor<T>& a) {
+  const PrincipalAxes<T> axes = principal_axes(a);
+  const Tensor<T>& v = axes.direction;
+  const T value[3] = {axes.value.x, axes.value.y, axes.value.z};
+  PrincipalValue<T> result{value[0], {v.m[0][0], v.m[1][0], v.m[2][0]}};
   for (int k = 1; k < 3; ++k) {
-    const auto above = m.m[k][k] > result.value;
-    result.value = where(above, m.m[k][k], result.value);
+    const auto above = value[k] > result.value;
+    result.value = where(above, value[k], result.value);
     result.direction = {where(above, v.m[0][k], result.direction.x),
                         where(above, v.m[1][k], result.direction.y),
                         where(above, v.m[2][k], result.direction.z)};
   }
-  result.value = unit * result.value;
   return result;
 }
 

@@ -88,6 +88,16 @@ BRIO_INLINE Tensor<T> operator*(T s, const Tensor<T>& a) {
   return c;
 }
 template <class T>
+BRIO_INLINE Tensor<T> full(const SymmetricTensor<T>& s) {
+  return {{{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}}};
+}
+template <class T>
+BRIO_INLINE Tensor<T> transposed(const Tensor<T>& a) {
+  return {{{a.m[0][0], a.m[1][0], a.m[2][0]},
+           {a.m[0][1], a.m[1][1], a.m[2][1]},
+           {a.m[0][2], a.m[1][2], a.m[2][2]}}};
+}
+template <class T>
 BRIO_INLINE Tensor<T> identity() {
   Tensor<T> one;
   for (int i = 0; i < 3; ++i)

@@ -74,17 +74,6 @@ inline Tensor<double> random_rotation(RandomPath& random) {
            {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
 }
 template <class T>
-Tensor<T> full(const SymmetricTensor<T>& a) {
-  return {{{a.xx, a.xy, a.xz}, {a.xy, a.yy, a.yz}, {a.xz, a.yz, a.zz}}};
-}
-template <class T>
-Tensor<T> transposed(const Tensor<T>& a) {
-  Tensor<T> b;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) b(i, j) = a(j, i);
-  return b;
-}
-template <class T>
 SymmetricTensor<T> rotated(const Tensor<T>& rotation, const SymmetricTensor<T>& a) {
   return symmetric_part(rotation * full(a) * transposed(rotation));
 }

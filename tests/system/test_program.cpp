@@ -284,5 +284,21 @@ TEST_F(ProgramSlow, CatchesATubeInANetOfBeams) {
   EXPECT_GT(column("tube.velocity_z"), 1) << "thrown back from -20";
 }
 
+// Particles, shells and beams in one contact, coarsely.
+TEST_F(ProgramSlow, SplashesABirdOnAStiffenedPanel) {
+  const Ending ending =
+      brio("run '" BRIO_SOURCE_DIR
+           "/inputs/bird_strike.yaml' --output bird --set contact.audit=true --set time.end=3e-3"
+           " --set parts.bird.mesh.particles.cylinder.spacing=0.015 --set output.fields.every=3e-4");
+  ASSERT_EQ(ending.exit_code, 0) << ending.faults;
+  const nlohmann::json found = nlohmann::json::parse(read("bird/bird_strike.summary.json"));
+  EXPECT_EQ(found["contact"]["missed"], 0);
+  EXPECT_EQ(found["contact"]["bodies"], 2) << "the bird, and the panel with what is merged with it";
+  EXPECT_LT(std::abs(found["energy"]["error_relative"].get<double>()), 1e-3);
+  EXPECT_GT(found["energy"]["contact"].get<double>(), 0);
+  EXPECT_GT(found["dt"]["min"].get<double>(), 0.5 * found["dt"]["max"].get<double>());
+  EXPECT_LT(found["momentum"]["linear"][0].get<double>(), -60) << "it slides off";
+}
+
 }  // namespace
 }  // namespace brio

@@ -26,23 +26,31 @@ std::vector<int> parts_of(const Surface& surface, int slave) {
 HeldPairs held_pairs(const Surface& surface, const Ties& ties, const std::vector<int>& part_of_surface) {
   HeldPairs held;
   if (ties.empty()) return held;
-  held.holder.assign(surface.slave_of.size(), -1);
+  held.part_of_surface = part_of_surface;
+  renew(held, surface, ties);
   DisjointSets bodies(static_cast<std::size_t>(surface.body_count));
+  const auto body_of = [&](int node) { return surface.body[static_cast<std::size_t>(surface.slave(node))]; };
+  for (const TiedNode& entry : ties.node)
+    if (held.holder[static_cast<std::size_t>(entry.tie.node)] >= 0)
+      bodies.join(body_of(entry.tie.node), body_of(entry.tie.corner[0]));
+  for (int body = 0; body < surface.body_count; ++body) held.piece.push_back(bodies.root(body));
+  return held;
+}
+
+void renew(HeldPairs& held, const Surface& surface, const Ties& ties) {
+  held.holder.assign(surface.slave_of.size(), -1);
+  held.pairs.clear();
   for (const TiedNode& entry : ties.node) {
-    const int holder = part_of_surface[static_cast<std::size_t>(entry.face_part)];
+    const int holder = held.part_of_surface[static_cast<std::size_t>(entry.face_part)];
     const int slave = surface.slave(entry.tie.node);
     if (holder < 0 || slave < 0) continue;
     held.holder[static_cast<std::size_t>(entry.tie.node)] = holder;
     held.pairs.emplace_back(entry.tie.node, holder);
     for (int part : parts_of(surface, slave))
       for (int corner : entry.tie.corner) held.pairs.emplace_back(corner, part);
-    bodies.join(surface.body[static_cast<std::size_t>(slave)],
-                surface.body[static_cast<std::size_t>(surface.slave(entry.tie.corner[0]))]);
   }
   std::sort(held.pairs.begin(), held.pairs.end());
   held.pairs.erase(std::unique(held.pairs.begin(), held.pairs.end()), held.pairs.end());
-  for (int body = 0; body < surface.body_count; ++body) held.piece.push_back(bodies.root(body));
-  return held;
 }
 
 }  // namespace brio

@@ -15,7 +15,8 @@ struct HeldPairs {
   /// Global nodes and parts that they never meet, ascending: held nodes and the part that holds them; corners
   /// of the faces that hold, and the parts that they hold.
   std::vector<std::pair<int, int>> pairs;
-  std::vector<int> piece;  ///< of each body as built: the least of those that ties join to it
+  std::vector<int> piece;            ///< of each body as built: the least of those that ties join to it
+  std::vector<int> part_of_surface;  ///< of each part that holds: its number in the surface, or -1
 
   bool empty() const { return holder.empty(); }
   bool apart(int global_node, int part) const {
@@ -32,5 +33,8 @@ struct HeldPairs {
 /// Pairs of a surface that ties hold together. \param part_of_surface of each part that holds: its number in
 /// the surface, or -1
 HeldPairs held_pairs(const Surface& surface, const Ties& ties, const std::vector<int>& part_of_surface);
+
+/// The same after ties have ended.
+void renew(HeldPairs& held, const Surface& surface, const Ties& ties);
 
 }  // namespace brio

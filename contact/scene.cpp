@@ -167,6 +167,11 @@ void hold(ContactScene& scene, const Ties& ties, const std::vector<int>& part_of
   scene.held.way.resize(scene.surface.slave_of.size());
 }
 
+void let_go(ContactScene& scene, const Ties& ties) {
+  renew(scene.surface.held, scene.surface, ties);
+  scene.candidates.growth[0] = -1;
+}
+
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies,
              const Ties& ties) {
   assert(nodes.velocity_before.size() == nodes.size());

@@ -113,5 +113,7 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
 /// Let held nodes and what holds them never meet. \param part_of_surface of each part of the ties: its number
 /// in the surface, or -1
 void hold(ContactScene& scene, const Ties& ties, const std::vector<int>& part_of_surface);
+/// What was released may meet from the next call of `resolve` on.
+void let_go(ContactScene& scene, const Ties& ties);
 
 }  // namespace brio

@@ -87,6 +87,17 @@ Vector3d normal_at(const Tie& tie, const FaceVertices& face) {
   return normal_of(combine(tie.along, face), combine(tie.across, face));
 }
 
+// With g = sum a_k x_k, h = sum b_k x_k and N = g x h, the normal n = N/|N| changes by (1 - n n) dN / |N|.
+Vector3d normal_rate(const Tie& tie, const FaceVertices& face, const FaceVertices& velocity) {
+  const Vector3d g = combine(tie.along, face);
+  const Vector3d h = combine(tie.across, face);
+  const Vector3d area = g.cross(h);
+  const double size = area.norm();
+  const Vector3d normal = area / size;
+  const Vector3d rate = combine(tie.along, velocity).cross(h) + g.cross(combine(tie.across, velocity));
+  return (rate - normal.dot(rate) * normal) / size;
+}
+
 Vector3d point_on(const Tie& tie, const FaceVertices& face) { return face[0] + combine(tie.weight, face); }
 
 Vector3d held_position(const Tie& tie, const FaceVertices& face) {
@@ -95,7 +106,7 @@ Vector3d held_position(const Tie& tie, const FaceVertices& face) {
   return tie.gap == 0 ? point : Vector3d(point + tie.gap * normal_at(tie, face));
 }
 
-// With g = sum a_k x_k, h = sum b_k x_k and N = g x h, the normal n = N/|N| changes by (1 - n n) dN / |N|.
+// The transpose of normal_rate.
 std::array<Vector3d, 4> spread(const Tie& tie, const FaceVertices& face, const Vector3d& force) {
   std::array<Vector3d, 4> share;
   for (std::size_t k = 0; k < 4; ++k) share[k] = tie.weight[k] * force;

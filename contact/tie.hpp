@@ -42,6 +42,9 @@ std::optional<Tie> project(const Eigen::Vector3d& node, const FaceVertices& face
 /// Unit normal of the face at the point.
 Eigen::Vector3d normal_at(const Tie& tie, const FaceVertices& face);
 
+/// How fast it turns with velocities of the corners.
+Eigen::Vector3d normal_rate(const Tie& tie, const FaceVertices& face, const FaceVertices& velocity);
+
 /// The point of the face.
 Eigen::Vector3d point_on(const Tie& tie, const FaceVertices& face);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace brio {
 
@@ -71,53 +72,97 @@ void move_mass(TiedNode& held, Nodes& nodes) {
   }
 }
 
+std::size_t place_in(std::span<const int> ascending, int node) {
+  return static_cast<std::size_t>(std::lower_bound(ascending.begin(), ascending.end(), node) -
+                                  ascending.begin());
+}
+
 // Rayleigh's quotient: the highest frequency grows at most by the largest ratio of the energy that masses
 // would have where they are held to the energy that they have on the corners. Of a node that moves as
 // sum A_k v_k that energy is at most (sum |A_k|) sum |A_k| v_k^2 m / 2; an arm that turns with angular
 // velocities adds the product of v_k and the arm times omega_k.
-double largest_energy_ratio(const Ties& ties, const Nodes& nodes, std::span<const double> own_mass) {
-  std::vector<double> bound(own_mass.begin(), own_mass.end());
-  std::vector<double> coupling(own_mass.size(), 0);
+double largest_energy_ratio(Ties& ties, const Nodes& nodes) {
+  ties.bound = ties.own_mass;
+  ties.coupling.assign(ties.bound.size(), 0);
+  const auto at = [&](int node) { return place_in(ties.concerned, node); };
   for (const TiedNode& held : ties.node) {
     const Tie& tie = held.tie;
     const std::array<double, 4> share = largest_share(tie, corners_of(tie, nodes));
     double sum = 0;
     for (double one : share) sum += one;
-    const double mass = bound[static_cast<std::size_t>(tie.node)];
+    const double mass = std::exchange(ties.bound[at(tie.node)], 0);
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto corner = static_cast<std::size_t>(tie.corner[k]);
-      bound[corner] += sum * share[k] * mass;
-      coupling[corner] += share[k] * mass * tie.arm.norm();
+      ties.bound[at(tie.corner[k])] += sum * share[k] * mass;
+      ties.coupling[at(tie.corner[k])] += share[k] * mass * tie.arm.norm();
     }
-    bound[static_cast<std::size_t>(tie.node)] = 0;
   }
   double largest = 1;
-  for (const TiedNode& held : ties.node)
-    for (int entry : held.tie.corner) {
-      const auto corner = static_cast<std::size_t>(entry);
-      if (!(nodes.mass[corner] > 0)) continue;
-      double ratio = bound[corner] / nodes.mass[corner];
-      if (coupling[corner] > 0)
-        ratio += coupling[corner] / std::sqrt(nodes.mass[corner] * nodes.rotational_inertia[corner]);
-      largest = std::max(largest, ratio);
-    }
+  for (std::size_t i = 0; i < ties.concerned.size(); ++i) {
+    const auto node = static_cast<std::size_t>(ties.concerned[i]);
+    if (!(nodes.mass[node] > 0)) continue;
+    double ratio = ties.bound[i] / nodes.mass[node];
+    if (ties.coupling[i] > 0)
+      ratio += ties.coupling[i] / std::sqrt(nodes.mass[node] * nodes.rotational_inertia[node]);
+    largest = std::max(largest, ratio);
+  }
   return largest;
 }
 
-Vector3d held_velocity(const Tie& tie, const Nodes& nodes, double step) {
-  Vector3d velocity = Vector3d::Zero();
-  for (std::size_t k = 0; k < 4; ++k) velocity += tie.weight[k] * velocity_of(nodes, tie.corner[k]);
-  if (tie.turning) {
-    const Vector3d rate = mean_angular_velocity(tie, nodes);
-    if (!tie.has_arm()) return velocity;
-    if (step == 0) return velocity + rate.cross(tie.arm);
-    return velocity + (turned_by(step * rate, tie.arm) - tie.arm) / step;
+void list_concerned(Ties& ties, const Nodes& nodes) {
+  ties.concerned.clear();
+  for (const TiedNode& held : ties.node) {
+    ties.concerned.push_back(held.tie.node);
+    for (int corner : held.tie.corner) ties.concerned.push_back(corner);
   }
-  if (tie.gap == 0 || step == 0) return velocity;
-  const FaceVertices now = corners_of(tie, nodes);
-  FaceVertices then = now;
-  for (std::size_t k = 0; k < 4; ++k) then[k] += step * velocity_of(nodes, tie.corner[k]);
-  return velocity + tie.gap / step * (normal_at(tie, then) - normal_at(tie, now));
+  std::sort(ties.concerned.begin(), ties.concerned.end());
+  ties.concerned.erase(std::unique(ties.concerned.begin(), ties.concerned.end()), ties.concerned.end());
+  ties.own_mass.clear();
+  ties.own_inertia.clear();
+  for (int entry : ties.concerned) {
+    const auto node = static_cast<std::size_t>(entry);
+    ties.own_mass.push_back(nodes.mass[node]);
+    ties.own_inertia.push_back(nodes.has_rotations() ? nodes.rotational_inertia[node] : 0);
+  }
+}
+
+void move_masses(Ties& ties, Nodes& nodes) {
+  for (TiedNode& held : ties.node) {
+    move_mass(held, nodes);
+    ties.moved_mass[static_cast<std::size_t>(held.tie.node)] = held.mass;
+  }
+  // Weights that sum to one but for rounding take nothing from the step.
+  constexpr double rounding = 1e-9;
+  const double ratio = largest_energy_ratio(ties, nodes);
+  ties.step_share = ratio > 1 + rounding ? 1 / std::sqrt(ratio) : 1;
+}
+
+// Where masses are without ties.
+void take_back(Ties& ties, Nodes& nodes) {
+  for (const TiedNode& held : ties.node) ties.moved_mass[static_cast<std::size_t>(held.tie.node)] = 0;
+  for (std::size_t i = 0; i < ties.concerned.size(); ++i) {
+    const auto node = static_cast<std::size_t>(ties.concerned[i]);
+    nodes.mass[node] = ties.own_mass[i];
+    if (nodes.has_rotations()) nodes.rotational_inertia[node] = ties.own_inertia[i];
+    set_inverses(nodes, ties.concerned[i]);
+  }
+}
+
+NodeMotion motion_of(std::span<const int> concerned, const Nodes& nodes) {
+  NodeMotion sum;
+  for (int entry : concerned) {
+    const auto node = static_cast<std::size_t>(entry);
+    const Vector3d v = velocity_of(nodes, entry);
+    const Vector3d linear = nodes.mass[node] * v;
+    sum.energy += 0.5 * v.dot(linear);
+    sum.linear += linear;
+    sum.angular += position_of(nodes, entry).cross(linear);
+    if (!nodes.has_rotations()) continue;
+    const Vector3d rate = row(nodes.angular_velocity, entry);
+    const Vector3d spin = nodes.rotational_inertia[node] * rate;
+    sum.energy += 0.5 * rate.dot(spin);
+    sum.angular += spin;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -134,17 +179,33 @@ void number(Ties& ties, std::size_t node_count) {
 }
 
 void condense(Ties& ties, Nodes& nodes) {
-  const std::vector<double> own_mass(nodes.mass.begin(), nodes.mass.end());
   place(ties, nodes, 0);
+  list_concerned(ties, nodes);
   ties.moved_mass.assign(nodes.size(), 0);
-  for (TiedNode& held : ties.node) {
-    move_mass(held, nodes);
-    ties.moved_mass[static_cast<std::size_t>(held.tie.node)] = held.mass;
-  }
-  // Weights that sum to one but for rounding take nothing from the step.
-  constexpr double rounding = 1e-9;
-  const double ratio = largest_energy_ratio(ties, nodes, own_mass);
-  ties.step_share = ratio > 1 + rounding ? 1 / std::sqrt(ratio) : 1;
+  move_masses(ties, nodes);
+}
+
+NodeMotion release(Ties& ties, Nodes& nodes) {
+  const auto marked = [](const TiedNode& held) { return held.released; };
+  NodeMotion lost;
+  if (std::none_of(ties.node.begin(), ties.node.end(), marked)) return lost;
+  const NodeMotion before = motion_of(ties.concerned, nodes);
+  take_back(ties, nodes);
+  for (const TiedNode& held : ties.node)
+    if (held.released) ties.of_node[static_cast<std::size_t>(held.tie.node)] = -1;
+  ties.released += static_cast<std::int64_t>(std::erase_if(ties.node, marked));
+  for (std::size_t i = 0; i < ties.node.size(); ++i)
+    ties.of_node[static_cast<std::size_t>(ties.node[i].tie.node)] = static_cast<int>(i);
+  // With the masses without ties still at hand for those that remain, and motion compared over all.
+  for (TiedNode& held : ties.node) move_mass(held, nodes);
+  const NodeMotion after = motion_of(ties.concerned, nodes);
+  take_back(ties, nodes);
+  list_concerned(ties, nodes);
+  move_masses(ties, nodes);
+  lost.energy = before.energy - after.energy;
+  lost.linear = before.linear - after.linear;
+  lost.angular = before.angular - after.angular;
+  return lost;
 }
 
 void gather_forces(const Ties& ties, Nodes& nodes) {
@@ -161,6 +222,25 @@ void gather_forces(const Ties& ties, Nodes& nodes) {
     const Vector3d moment = row(nodes.moment, tie.node) + tie.arm.cross(force);
     for (std::size_t k = 0; k < 4; ++k) add(nodes.moment, tie.corner[k], tie.weight[k] * moment);
   }
+}
+
+Vector3d held_velocity(const Tie& tie, const Nodes& nodes, double step) {
+  Vector3d velocity = Vector3d::Zero();
+  for (std::size_t k = 0; k < 4; ++k) velocity += tie.weight[k] * velocity_of(nodes, tie.corner[k]);
+  if (tie.turning) {
+    const Vector3d rate = mean_angular_velocity(tie, nodes);
+    if (!tie.has_arm()) return velocity;
+    if (step == 0) return velocity + rate.cross(tie.arm);
+    return velocity + (turned_by(step * rate, tie.arm) - tie.arm) / step;
+  }
+  if (tie.gap == 0) return velocity;
+  const FaceVertices now = corners_of(tie, nodes);
+  FaceVertices rate;
+  for (std::size_t k = 0; k < 4; ++k) rate[k] = velocity_of(nodes, tie.corner[k]);
+  if (step == 0) return velocity + tie.gap * normal_rate(tie, now, rate);
+  FaceVertices then = now;
+  for (std::size_t k = 0; k < 4; ++k) then[k] += step * rate[k];
+  return velocity + tie.gap / step * (normal_at(tie, then) - normal_at(tie, now));
 }
 
 void carry_velocities(const Ties& ties, Nodes& nodes, double step) {

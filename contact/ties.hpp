@@ -20,11 +20,12 @@ namespace brio {
 
 struct TiedNode {
   Tie tie;
-  double mass = 0;     ///< that the corners carry for it
-  double inertia = 0;  ///< rotational, likewise; of nodes that turn with their face
-  int face_part = 0;   ///< of the deck
-  int element = 0;     ///< of that part's mesh, whose face holds the node
-  int connection = 0;  ///< index in Ties::found
+  double mass = 0;        ///< that the corners carry for it
+  double inertia = 0;     ///< rotational, likewise; of nodes that turn with their face
+  int face_part = 0;      ///< of the deck
+  int element = 0;        ///< of that part's mesh, whose face holds the node
+  int connection = 0;     ///< index in Ties::found
+  bool released = false;  ///< to be let go
 };
 
 /// What became of one connection.
@@ -40,9 +41,13 @@ struct Ties {
   std::vector<TiedNode> node;  ///< those that are held before those that hold them
   std::vector<int> of_node;    ///< of each node of the model: its place in `node`, or -1
   std::vector<TiedParts> found;
-  std::vector<double> moved_mass;  ///< of each node of the model: what its corners carry for it
-  double step_share = 1;           ///< of the elements' stable step
-  std::int64_t released = 0;       ///< nodes, since the start
+  std::vector<double> moved_mass;             ///< of each node of the model: what its corners carry for it
+  std::vector<int> concerned;                 ///< held nodes and corners, ascending
+  std::vector<double> own_mass, own_inertia;  ///< of these, without ties
+  std::vector<double> bound, coupling;        ///< working space, of these
+  std::vector<Eigen::Vector3d> wall_push, wall_rub;  ///< what a wall gives each held node in this step
+  double step_share = 1;                             ///< of the elements' stable step
+  std::int64_t released = 0;                         ///< nodes, since the start
 
   bool empty() const { return node.empty(); }
   bool holds(int global_node) const {
@@ -59,8 +64,22 @@ void number(Ties& ties, std::size_t node_count);
 /// Put held nodes exactly where they are held, move masses to the corners, and find the step's share.
 void condense(Ties& ties, Nodes& nodes);
 
+/// Energy and momentum of motion, about the origin.
+struct NodeMotion {
+  double energy = 0;
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+};
+
+/// Let the nodes go that are marked: they take their mass back from the corners and keep their velocity.
+/// \returns what motion has lost by that, for the books.
+NodeMotion release(Ties& ties, Nodes& nodes);
+
 /// Forces and moments of held nodes to the corners, in a fixed order.
 void gather_forces(const Ties& ties, Nodes& nodes);
+
+/// Velocity of one held node by those of its corners.
+Eigen::Vector3d held_velocity(const Tie& tie, const Nodes& nodes, double step);
 
 /// Velocities of held nodes, such that moving by them over the step keeps them where they are held.
 void carry_velocities(const Ties& ties, Nodes& nodes, double step);

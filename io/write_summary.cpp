@@ -54,25 +54,26 @@ Json wall_times(const Summary::WallTimes& wall) {
 }  // namespace
 
 std::string summary_json(const Summary& summary) {
-  const Json json{{"version", summary.version},
-                  {"deck", summary.deck},
-                  {"status", summary.status},
-                  {"exit_code", summary.exit_code},
-                  {"steps", summary.steps},
-                  {"time", summary.time},
-                  {"dt", {{"min", summary.dt.min}, {"max", summary.dt.max}, {"last", summary.dt.last}}},
-                  {"nodes", summary.nodes},
-                  {"elements", counts(summary.elements)},
-                  {"deleted", counts(summary.deleted)},
-                  {"energy", energies(summary.energy)},
-                  {"mass", masses(summary.mass)},
-                  {"momentum", {{"linear", summary.momentum.linear}, {"angular", summary.momentum.angular}}},
-                  {"contact", contact_counts(summary.contact)},
-                  {"wall_s", wall_times(summary.wall_s)},
-                  {"element_updates_per_s", summary.element_updates_per_s},
-                  {"peak_memory_mb", summary.peak_memory_mb},
-                  {"threads", summary.threads},
-                  {"active_features", summary.active_features}};
+  Json json{{"version", summary.version},
+            {"deck", summary.deck},
+            {"status", summary.status},
+            {"exit_code", summary.exit_code},
+            {"steps", summary.steps},
+            {"time", summary.time},
+            {"dt", {{"min", summary.dt.min}, {"max", summary.dt.max}, {"last", summary.dt.last}}},
+            {"nodes", summary.nodes},
+            {"elements", counts(summary.elements)},
+            {"deleted", counts(summary.deleted)},
+            {"energy", energies(summary.energy)},
+            {"mass", masses(summary.mass)},
+            {"momentum", {{"linear", summary.momentum.linear}, {"angular", summary.momentum.angular}}},
+            {"contact", contact_counts(summary.contact)},
+            {"wall_s", wall_times(summary.wall_s)},
+            {"element_updates_per_s", summary.element_updates_per_s},
+            {"peak_memory_mb", summary.peak_memory_mb},
+            {"threads", summary.threads},
+            {"active_features", summary.active_features}};
+  if (summary.ties) json["ties"] = {{"nodes", summary.ties->nodes}, {"released", summary.ties->released}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -5,6 +5,7 @@
 
 #include "contact/audit.hpp"
 #include "src/motion.hpp"
+#include "src/release_ties.hpp"
 
 namespace brio {
 
@@ -218,7 +219,13 @@ void stop_at_walls(Model& model) {
   if (model.walls.empty()) return;
   const StageTimer timer(model.stages, Stage::constraints);
   for (const WallInRun& wall : model.walls) {
+    Reaction support_of_ties;
+    if (!model.ties.empty()) stop_held_at(wall, model.times, model.ties, model.nodes, support_of_ties);
     book_wall(model, stop_at(wall, model.times, model.nodes));
+    if (!model.ties.empty()) {
+      book_wall(model, reaction_of_held(model.ties, model.times, model.nodes));
+      book_support(model, support_of_ties);
+    }
     for (std::size_t b = 0; b < model.rigid.body.size(); ++b) {
       Reaction support;
       book_wall(model,
@@ -253,6 +260,8 @@ void erode_elements(Model& model, ThreadTeam& team) {
   for (ActiveLoad& load : model.loads) drop_sides(load, erosion.deleted);
   for (ContactScene& scene : model.contacts)
     erode(scene, *model.surface_numbers, erosion.deleted, model.nodes, team);
+  if (release_ties(model.ties, erosion, model.nodes, model.energy, model.momentum))
+    for (ContactScene& scene : model.contacts) let_go(scene, model.ties);
   if (!is_sparse(model.schedule, model.blocks)) return;
   model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());

@@ -262,9 +262,6 @@ void make_ties(const Deck& deck, std::span<const Mesh> meshes, std::span<const s
   for (const Connection& connection : deck.connections)
     if (const auto* entry = std::get_if<TieToSurface>(&connection)) tying.add(*entry);
   if (model.ties.empty()) return;
-  const std::string& place = model.ties.found.front().place;
-  if (!model.walls.empty()) throw BuildError("ties beside rigid walls are not accepted yet", place);
-  if (can_erode(model.blocks)) throw BuildError("ties beside deletion are not accepted yet", place);
   tying.sort();
   number(model.ties, model.nodes.size());
   release_supports(model.ties, model);

@@ -15,8 +15,8 @@ namespace brio {
 /// \param connectivity of each part, by place in its block
 /// \throws BuildError with the place of the connection where nothing is near, a node would be held twice or
 /// by itself, or a support holds a node otherwise than its face.
-void make_ties(const Deck& deck, std::span<const Mesh> meshes,
-               std::span<const std::vector<int>> connectivity, Model& model);
+void make_ties(const Deck& deck, std::span<const Mesh> meshes, std::span<const std::vector<int>> connectivity,
+               Model& model);
 
 /// Let held nodes start with their faces.
 /// \throws BuildError where initial conditions give them another motion.

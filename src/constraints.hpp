@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "contact/ties.hpp"
 #include "src/deck.hpp"
 #include "src/ledger.hpp"
 
@@ -51,5 +52,11 @@ struct WallReaction {
 
 /// Stops nodes; work and impulse of the normal and of the tangential part come apart.
 WallReaction stop_at(const WallInRun& wall, const StepTimes& times, Nodes& nodes);
+
+/// Stops held nodes, by impulses on what holds them; before the others. Held nodes then move with their
+/// faces. \param support what supports of the corners did meanwhile is added
+void stop_held_at(const WallInRun& wall, const StepTimes& times, Ties& ties, Nodes& nodes, Reaction& support);
+/// What the wall did to held nodes, once all nodes have been stopped.
+WallReaction reaction_of_held(const Ties& ties, const StepTimes& times, Nodes& nodes);
 
 }  // namespace brio

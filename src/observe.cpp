@@ -342,6 +342,11 @@ Summary observe_end(Model& model) {
     summary.contact.line_comparisons = static_cast<std::int64_t>(lines.counts.comparisons);
     summary.contact.line_candidate_pairs = static_cast<std::int64_t>(lines.counts.candidate_pairs);
   }
+  if (!model.ties.found.empty()) {
+    Summary::TieCounts& ties = summary.ties.emplace();
+    for (const TiedParts& found : model.ties.found) ties.nodes += found.count;
+    ties.released = model.ties.released;
+  }
   for (std::size_t stage = 0; stage < stage_names.size(); ++stage)
     summary.wall_s.by_stage[std::string(stage_names[stage])] = model.stages.seconds[stage];
   summary.active_features = active_features(model);

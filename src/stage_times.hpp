@@ -21,8 +21,8 @@ enum class Stage {
   output
 };
 inline constexpr std::array<std::string_view, 11> stage_names{
-    "loads",       "elements",       "erosion", "nodes",         "rigid",
-    "constraints", "ties", "contact_search", "contact", "contact_lines", "output"};
+    "loads", "elements",       "erosion", "nodes",         "rigid", "constraints",
+    "ties",  "contact_search", "contact", "contact_lines", "output"};
 
 struct StageTimes {
   std::array<double, stage_names.size()> seconds{};

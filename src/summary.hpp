@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,10 @@ struct Summary {
     std::int64_t lines = 0;      ///< edges, beams and particles that may meet each other
     std::int64_t line_comparisons = 0, line_candidate_pairs = 0;
   };
+  struct TieCounts {
+    std::int64_t nodes = 0;     ///< held at the start
+    std::int64_t released = 0;  ///< of these, because elements were deleted
+  };
   struct WallTimes {
     double total = 0;  ///< seconds
     std::map<std::string, double> by_stage;
@@ -59,6 +64,7 @@ struct Summary {
   Masses mass;
   Momenta momentum;
   ContactCounts contact;
+  std::optional<TieCounts> ties;  ///< where the deck ties something
   WallTimes wall_s;
   double element_updates_per_s = 0;
   double peak_memory_mb = 0;

@@ -55,6 +55,20 @@ Deck block_on_floor() {
   return deck;
 }
 
+// The same with a block that is covered by a shell, whose nodes it holds.
+Deck can_under_covered_block() {
+  Deck deck = can_under_block();
+  deck.parts[1].placement.translate = {0, 0, 1.15};
+  Shell4 shell;
+  shell.thickness = 0.02;
+  Part cover{"cover", PlateMesh{{1.4, 1.4}, {15, 15}}, {}, shell, "material"};
+  cover.placement.translate = {0, 0, 1.04};
+  deck.parts.push_back(cover);
+  deck.connections = {TieToSurface{{"cover", "block"}, 1e-2, "deck.yaml:3:5"}};
+  deck.initial_conditions.push_back(moving("cover", {3, 0, -20}));
+  return deck;
+}
+
 struct Counted {
   std::size_t allocations = 0;
   int searches = 0;
@@ -78,6 +92,7 @@ Counted count(const Deck& deck, int threads, int steps) {
   model.nodes = start.nodes;
   model.blocks = start.blocks;
   model.energy = start.energy;
+  model.ties = start.ties;
   for (int step = 0; step < 10; ++step) advance();
   Counted counted;
   const AllocationCount allocations;
@@ -110,6 +125,15 @@ TEST(StepAllocation, NoneWhereBlocksSlideOverEachOther) {
 TEST(StepAllocation, NoneInASceneOfShellsWithContactAndFriction) {
   for (int threads : {1, 2}) {
     const Counted counted = count(can_under_block(), threads, 300);
+    EXPECT_EQ(counted.allocations, 0u) << threads;
+    EXPECT_GT(counted.searches, 1);
+    EXPECT_GT(counted.active, 200);
+  }
+}
+
+TEST(StepAllocation, NoneWhereHeldNodesAreInContact) {
+  for (int threads : {1, 2}) {
+    const Counted counted = count(can_under_covered_block(), threads, 300);
     EXPECT_EQ(counted.allocations, 0u) << threads;
     EXPECT_GT(counted.searches, 1);
     EXPECT_GT(counted.active, 200);

@@ -246,7 +246,7 @@ Model ran(Deck deck, const Matrix3d& frame, int threads = 1) {
   Model model = build_model(deck);
   Matrix3d gradient;
   gradient << 5, -20, 3, 10, 4, -6, 7, 8, -9;
-  set_velocities(model, {}, frame * gradient * frame.transpose());
+  set_velocities(model, Vector3d::Zero(), frame * gradient * frame.transpose());
   ThreadTeam team(threads);
   run(model, deck, team);
   return model;
@@ -417,6 +417,16 @@ TEST(Ties, OfSupportedNodesToFreeFacesAreRefused) {
             std::string::npos);
   deck.boundary_conditions.push_back(fix("coarse.xmin", {0}));
   EXPECT_EQ(fault_of(deck), "");
+}
+
+TEST(Ties, MayStartTurning) {
+  for (Deck deck : {two_boxes({2, 2, 2}, {3, 3, 3}, 0.1), stiffened_panel()}) {
+    for (const Part& part : deck.parts) {
+      deck.initial_conditions.push_back(moving(part.name, {1, 2, 3}));
+      deck.initial_conditions.back().spin = Spin{{0.1, 0.2, 0.3}, {20, -30, 10}};
+    }
+    EXPECT_EQ(fault_of(deck), "");
+  }
 }
 
 TEST(Ties, OfNodesThatStartOtherwiseAreRefused) {

@@ -176,7 +176,7 @@ class NodeCheck {
   }
 
   // Unit vector that leads the node out of the body, from the closest point to the node if that is outside.
-  Vector3d way_out(const NearFace& near, bool outside) const {
+  Vector3d way_out(const NearFace& near, bool above) const {
     const ClosestPoint& closest = near.closest;
     const double along = closest.separation.dot(closest.normal);
     const bool over_triangle =
@@ -184,7 +184,7 @@ class NodeCheck {
     if (over_triangle) return closest.normal;
     if (near.distance <= direction_share * edge(near.face))
       return pseudo_normal(scene_.surface, scene_.nodes, near.face, closest);
-    return closest.separation / (outside ? near.distance : -near.distance);
+    return closest.separation / (above ? near.distance : -near.distance);
   }
 
   // Just under the surface of another body a node is stopped by the closest place whichever way its own
@@ -208,25 +208,27 @@ class NodeCheck {
     const bool self = face(near.face).body == scene_.surface.body[static_cast<std::size_t>(slave_)];
     const bool overlap_matters = !history_.empty() || (!self && first == i);
     if (!within_band(near) && !overlap_matters) return;
-    const bool outside = near.distance <= touching_share * edge(near.face) ||
-                         is_outside(scene_.surface, scene_.nodes, near.face, near.closest);
+    const bool above = is_outside(scene_.surface, scene_.nodes, near.face, near.closest);
+    const bool outside = above || near.distance <= touching_share * edge(near.face);
     if (first == i) near.inside = !outside;
     if (repeated(i)) return;
-    const Vector3d push = way_out(near, outside);
-    const double gap = (outside ? near.distance : -near.distance) - touching(near.face);
+    // However shallow, an overlap keeps its sign: taken for a gap, it would be closed, which makes it twice
+    // as deep.
+    const Vector3d push = way_out(near, above);
+    const double gap = (above ? near.distance : -near.distance) - touching(near.face);
     if (!outside) {
       if (!piece_.near.face[first].inside || near.distance > scene_.candidates.depth_share * edge(near.face))
         return;
       if ((self || first != i) && !was_tracked(near.face, push, gap)) return;
     }
-    if (!self && judge_feature(near, outside, push)) return;
+    if (!self && judge_feature(near, above, push)) return;
     if (may_stop(near, push, gap, outside, !self && first == i)) add(near, push, gap);
   }
 
   // \returns false where faces of the body do not meet convexly at the closest point.
-  bool judge_feature(const NearFace& near, bool outside, const Vector3d& push) {
+  bool judge_feature(const NearFace& near, bool above, const Vector3d& push) {
     const bool straight =
-        outside && near.closest.feature != Feature::interior && near.distance > hair_share * edge(near.face);
+        above && near.closest.feature != Feature::interior && near.distance > hair_share * edge(near.face);
     const auto separation =
         separate_at_feature(at_feature(near), straight ? push : Vector3d(Vector3d::Zero()));
     if (!separation) return false;

@@ -11,8 +11,8 @@ namespace brio {
 struct ContactOptions {
   /// Coulomb coefficient; none unless asked for.
   double friction = 0;
-  /// Sweeps over the constraints of a step: one is usable, five leave a residual below 1e-3 of an edge, ten
-  /// verify.
+  /// Sweeps back over the constraints of a step, and as many forth: one is usable, five leave a residual
+  /// below 1e-3 of an edge, ten verify.
   int passes = 5;
   SearchStrategy search = SearchStrategy::automatic;
   /// Length by which capture boxes are grown so that the search can be skipped, over the mean edge of the
@@ -24,7 +24,8 @@ struct ContactOptions {
   /// Let sharp edges of solids and free edges of shells meet each other; without it crossed edges sink in as
   /// far as their nodes are apart.
   bool edges = true;
-  /// Share of an old overlap that a step may remove ...
+  /// Share of an old overlap of a tenth of the smallest edge that a step may remove, of shallower ones the
+  /// less the shallower they are, ...
   double overlap_recovery = 0.1;
   /// ... and the most it may remove, over the smallest edge: about 0.001 of the speed of sound, so that no
   /// overlap, whatever its depth, turns into a kick.
@@ -43,7 +44,7 @@ struct ContactOptions {
     return std::tuple{
         optional("friction", &ContactOptions::friction, non_negative, "Coulomb coefficient, -"),
         optional("passes", &ContactOptions::passes, at_least_one,
-                 "sweeps over the contact constraints of a step, -"),
+                 "sweeps back over the contact constraints of a step, and as many forth, -"),
         optional("search", &ContactOptions::search, any_number,
                  "how candidates are found; the pairs are the same"),
         optional("reach_buffer", &ContactOptions::reach_buffer, positive,
@@ -53,7 +54,8 @@ struct ContactOptions {
         optional("edges", &ContactOptions::edges, any_number,
                  "let sharp edges of solids and free edges of shells meet each other"),
         optional("overlap_recovery", &ContactOptions::overlap_recovery, fraction,
-                 "share of an old overlap removed in a step, -"),
+                 "share of an old overlap of a tenth of the smallest edge removed in a step, in proportion "
+                 "less of shallower ones, -"),
         optional("overlap_recovery_cap", &ContactOptions::overlap_recovery_cap, non_negative,
                  "most overlap removed in a step, in smallest edges, -"),
         optional("shell_thickness_scale", &ContactOptions::shell_thickness_scale,

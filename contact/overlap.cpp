@@ -127,7 +127,9 @@ void move_apart(ContactScene& scene, Nodes& nodes) {
   whole.passes = sweeps_a_round;
   whole.overlap_recovery = 1;
   whole.overlap_recovery_cap = std::numeric_limits<double>::max();
-  solve(scene.solver, whole, scene.candidates.smallest_edge, 1, scene.contacts, scene.motion);
+  Solver solver;
+  solver.deep_share = 0;
+  solve(solver, whole, scene.candidates.smallest_edge, 1, scene.contacts, scene.motion);
   for (std::size_t s = 0; s < surface.slaves(); ++s)
     for (int axis = 0; axis < 3; ++axis)
       nodes.record[static_cast<std::size_t>(surface.node[s])].position[axis] +=

@@ -12,9 +12,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// The sweeps end early once no relative velocity changes by more than this share of the smallest edge a
-/// step.
-constexpr double converged_share = 1e-6;
+/// The sweeps end early once none changes a relative velocity by more than this share of the largest that an
+/// impulse stands for.
+constexpr double converged_share = 1e-4;
 /// All nodes are held where only rounding of a weight moves the contact: below this share of what its
 /// lightest node alone would move.
 constexpr double held_share = 1e-20;
@@ -61,13 +61,16 @@ void span_plane(const Vector3d& normal, Vector3d (&tangent)[2]) {
   tangent[1] = normal.cross(tangent[0]);
 }
 
-// A contact under load is opened the slower the more it carries beyond what a node gains at the fastest
-// recovery: pinched between bodies that cannot give way, it would otherwise be opened with any force.
-double target_velocity(const ContactOptions& options, const Contact& contact, double normal_mass,
+// Shallow overlaps are opened the slower the shallower they are: where impulses lag behind what the sweeps
+// have yet to find, opening in proportion to depth integrates the overlap, which feeds slow vibrations of
+// what rests. A contact under load is opened the slower the more it carries beyond what a node gains at the
+// fastest recovery: pinched between bodies that cannot give way, it would otherwise be opened with any force.
+double target_velocity(const ContactOptions& options, const Contact& contact, double deep, double normal_mass,
                        double smallest_edge, double dt) {
   if (contact.gap >= 0) return -contact.gap / dt;
   const double fastest = options.overlap_recovery_cap * smallest_edge / dt;
-  const double unloaded = std::min(options.overlap_recovery * -contact.gap / dt, fastest);
+  const double share = options.overlap_recovery * (-contact.gap < deep ? -contact.gap / deep : 1);
+  const double unloaded = std::min(share * -contact.gap / dt, fastest);
   const double gain = normal_mass * fastest;
   return contact.impulse > gain ? unloaded * (gain / contact.impulse) : unloaded;
 }
@@ -136,7 +139,8 @@ void solve_for(Solver& solver, const ContactOptions& options, double smallest_ed
     Contact& contact = contacts[i];
     ContactFrame& frame = solver.frame[i];
     frame.normal_mass = effective_mass(contact, contact.normal, motion);
-    frame.target = target_velocity(options, contact, frame.normal_mass, smallest_edge, dt);
+    frame.target = target_velocity(options, contact, solver.deep_share * smallest_edge, frame.normal_mass,
+                                   smallest_edge, dt);
     if (frame.normal_mass == 0) {
       contact.impulse = 0;
       contact.friction.setZero();
@@ -148,19 +152,28 @@ void solve_for(Solver& solver, const ContactOptions& options, double smallest_ed
   }
   for (const Contact& contact : contacts)
     if (contact.impulse > 0) apply(contact, contact.impulse * contact.normal + contact.friction, motion);
+  double largest = 0;
+  const auto visit = [&](std::size_t i, bool back) {
+    const ContactFrame& frame = solver.frame[i];
+    if (frame.normal_mass == 0) return;
+    Contact& contact = contacts[i];
+    double change = back ? 0 : push(contact, frame, motion);
+    if (with_friction)
+      change = std::max(change, rub(contact, frame, contact.friction_coefficient * contact.impulse, motion));
+    if (back) change = std::max(change, push(contact, frame, motion));
+    solver.residual = std::max(solver.residual, change);
+    largest = std::max(largest, contact.impulse / frame.normal_mass);
+  };
   while (solver.passes_done < options.passes && !contacts.empty()) {
     ++solver.passes_done;
+    solver.residual = largest = 0;
+    for (std::size_t i = contacts.size(); i-- > 0;) visit(i, true);
+    if (solver.residual <= converged_share * largest) break;
+  }
+  // As many forward: the last of them leaves friction within its cone.
+  for (int pass = 0; pass < solver.passes_done; ++pass) {
     solver.residual = 0;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const ContactFrame& frame = solver.frame[i];
-      if (frame.normal_mass == 0) continue;
-      solver.residual = std::max(solver.residual, push(contacts[i], frame, motion));
-      if (with_friction)
-        solver.residual =
-            std::max(solver.residual,
-                     rub(contacts[i], frame, contacts[i].friction_coefficient * contacts[i].impulse, motion));
-    }
-    if (solver.residual * dt <= converged_share * smallest_edge) break;
+    for (std::size_t i = 0; i < contacts.size(); ++i) visit(i, false);
   }
 }
 

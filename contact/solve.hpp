@@ -7,6 +7,11 @@
 /// impulse within the disk of radius friction coefficient times the normal impulse (Coulomb), sticking where
 /// it can. Impulses on the node and on the corners are equal and opposite and act along the line through both
 /// at the beginning of the step, so linear and angular momentum are kept to rounding.
+///
+/// Sweeps are few and start from the impulses of the last step, so impulses lag behind what they should be. A
+/// number of sweeps backwards and as many forwards change impulses by a symmetric matrix times what is
+/// missing: then the lag only takes energy from bodies that rest on each other. With forward sweeps alone the
+/// matrix is not symmetric, and they shake themselves.
 
 #include <span>
 #include <vector>
@@ -32,6 +37,8 @@ struct ContactFrame {
 
 struct Solver {
   std::vector<ContactFrame> frame;
+  /// Overlaps of this share of the smallest edge and more are opened by the full share of the options.
+  double deep_share = 0.1;
   int passes_done = 0;  ///< in the last solve
   double residual = 0;  ///< largest change of a relative velocity in the last pass of the last solve
 };

@@ -61,22 +61,22 @@ Vector centre_of(const Model& model, std::size_t part) {
 struct Slide {
   double distance = 0;  ///< along the initial velocity
   double aside = 0;     ///< across it
-  double drift = 0;     ///< of the mean place, from 1.2..1.8 times the time to stop to 1.8..2.4 times
+  double drift = 0;     ///< of the mean place, from 1.8..2.4 times the time to stop to 2.4..3 times
 };
 
 // Slides until well after the block stands.
 Slide slide(Deck deck, const Triple& velocity, double friction) {
   const double speed = std::hypot(velocity[0], velocity[1]);
   const double stop = speed / (friction * weight);
-  deck.time.end = 2.4 * stop;
+  deck.time.end = 3 * stop;
   Model model = build_model(deck);
   ThreadTeam team(1);
   const Vector start = centre_of(model, 0);
   std::array<Vector, 2> rest{};  // means, since the block goes on shaking about its place
   std::array<double, 2> steps{};
   run(model, deck, team, [&](Model& m) {
-    if (m.times.time < 1.2 * stop) return;
-    const std::size_t half = m.times.time < 1.8 * stop ? 0 : 1;
+    if (m.times.time < 1.8 * stop) return;
+    const std::size_t half = m.times.time < 2.4 * stop ? 0 : 1;
     const Vector centre = centre_of(m, 0);
     for (std::size_t axis = 0; axis < 3; ++axis) rest[half][axis] += centre[axis];
     ++steps[half];

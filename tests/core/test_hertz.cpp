@@ -1,0 +1,168 @@
+// Elastic balls of steel that hit a rigid wall and each other: force and duration after Hertz. Waves cross a
+// ball a dozen times while it touches, so that it is nearly at rest in itself.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "tests/core/graded_ball.hpp"
+#include "tests/core/scene.hpp"
+
+namespace brio {
+namespace {
+
+using namespace test;
+
+constexpr double radius = 0.01, young = 207e9, poisson = 0.3, density = 7800, closing = 1;
+constexpr double ball_mass = 4.0 / 3 * std::numbers::pi * radius * radius * radius * density;
+constexpr double plane_modulus = young / (1 - poisson * poisson);
+
+/// Johnson (1985), Contact mechanics, section 11.4(a).
+struct Hertz {
+  double force, duration;
+};
+Hertz hertz(double mass, double curvature_radius, double modulus) {
+  const double k = 4.0 / 3 * modulus * std::sqrt(curvature_radius);
+  const double approach = std::pow(1.25 * mass * closing * closing / k, 0.4);
+  return {k * std::pow(approach, 1.5), 2.9432 * approach / closing};
+}
+
+struct Blow {
+  double force = 0, duration = 0;
+  double restitution = 0;  ///< relative velocity after over that before
+  double momentum = 0;     ///< error along the line of impact, over that of the first ball
+  double added = 0;        ///< most that contact has added, over the energy
+  double books = 0;        ///< largest error of the energy
+};
+
+void add_ball(Deck& deck, std::vector<Mesh>& meshes, std::string name, Mesh mesh, double velocity) {
+  deck.parts.push_back({name, SphereMesh{}, {}, hex8(), "steel"});
+  deck.boundary_conditions.push_back(fix(name + ".xmin", {0}));
+  deck.boundary_conditions.push_back(fix(name + ".ymin", {1}));
+  deck.initial_conditions.push_back(moving(name, {0, 0, velocity}));
+  meshes.push_back(std::move(mesh));
+}
+
+Deck steel() {
+  Deck deck;
+  Elastic law = elastic(poisson);
+  law.youngs_modulus = young;
+  law.density = density;
+  deck.materials = {{"steel", law}};
+  deck.time.end = 80e-6;
+  return deck;
+}
+
+// The force on the first ball is its gain of momentum, mean over a microsecond.
+Blow strike(const Deck& deck, const std::vector<Mesh>& meshes) {
+  Model model = build(deck, meshes);
+  ThreadTeam team(1);
+  Blow blow;
+  constexpr double window = 1e-6;
+  const double before = mean_velocity(model, 0, 2);
+  double last = before, window_velocity = before, window_begin = 0, first_touch = -1, last_touch = 0;
+  run(model, deck, team, [&](Model& m) {
+    const double velocity = mean_velocity(m, 0, 2);
+    if (std::abs(velocity - last) > 1e-9) {
+      if (first_touch < 0) first_touch = m.times.time;
+      last_touch = m.times.time;
+    }
+    last = velocity;
+    if (m.times.time - window_begin < window) return;
+    const double impulse = 4 * m.parts[0].mass * (velocity - window_velocity);
+    blow.force = std::max(blow.force, std::abs(impulse) / (m.times.time - window_begin));
+    window_begin = m.times.time;
+    window_velocity = velocity;
+  });
+  blow.duration = last_touch - first_touch;
+  const double other = model.parts.size() == 2 ? mean_velocity(model, 1, 2) : 0;
+  blow.restitution = (last - other) / closing;
+  if (model.parts.size() == 2) {
+    const double first = model.parts[0].mass * before;
+    blow.momentum = (model.parts[0].mass * last + model.parts[1].mass * other - first -
+                     model.parts[1].mass * 0.5 * closing) /
+                    first;
+  }
+  blow.added = model.energy.contact_added_max / model.energy.kinetic_start;
+  blow.books = model.energy.error_max;
+  return blow;
+}
+
+Blow on_wall(int across) {
+  Deck deck = steel();
+  std::vector<Mesh> meshes;
+  add_ball(deck, meshes, "ball", quarter_of_graded_ball(radius, across, 0.1), -closing);
+  RigidWall floor;
+  floor.point = {0, 0, -radius};
+  floor.normal = {0, 0, 1};
+  deck.boundary_conditions.push_back(floor);
+  return strike(deck, meshes);
+}
+
+/// The lower ball has as many elements across as `lower` says, and is turned upside down about the line x =
+/// y.
+Blow on_each_other(int upper, int lower) {
+  Deck deck = steel();
+  deck.contact.emplace();
+  std::vector<Mesh> meshes;
+  add_ball(deck, meshes, "upper", quarter_of_graded_ball(radius, upper, 0.1), -0.5 * closing);
+  add_ball(deck, meshes, "lower", quarter_of_graded_ball(radius, lower, 0.1), 0.5 * closing);
+  for (auto& p : meshes[0].position) p[2] += radius;
+  for (auto& p : meshes[1].position) p = {p[1], p[0], -p[2] - radius};
+  std::swap(meshes[1].node_sets["xmin"], meshes[1].node_sets["ymin"]);
+  return strike(deck, meshes);
+}
+
+void report(const char* name, int across, const Blow& blow, const Hertz& exact) {
+  std::printf(
+      "%s, %d elements across: force %.1f N (%+.1f %%), duration %.2f us (%+.1f %%), restitution %.4f, added "
+      "%.0e, energy %.0e, momentum %.0e\n",
+      name, across, blow.force, 100 * (blow.force / exact.force - 1), 1e6 * blow.duration,
+      100 * (blow.duration / exact.duration - 1), blow.restitution, blow.added, blow.books, blow.momentum);
+}
+
+void expect_hertz(const Blow& blow, const Hertz& exact, double tolerance) {
+  EXPECT_NEAR(blow.force, exact.force, tolerance * exact.force);
+  EXPECT_NEAR(blow.duration, exact.duration, tolerance * exact.duration);
+  EXPECT_GT(blow.restitution, 0.99);
+  EXPECT_LE(blow.restitution, 1.0);
+  EXPECT_LE(blow.added, 1e-3);
+  EXPECT_LE(blow.books, 1e-3);
+  EXPECT_LE(std::abs(blow.momentum), 1e-12);
+}
+
+const Hertz wall = hertz(ball_mass, radius, plane_modulus);
+const Hertz balls = hertz(ball_mass / 2, radius / 2, plane_modulus / 2);
+
+TEST(HertzSlow, BallOnARigidWall) {
+  EXPECT_NEAR(wall.force, 2287.7, 0.1);
+  EXPECT_NEAR(wall.duration, 52.54e-6, 1e-8);
+  for (int across : {12, 16, 20, 24}) {
+    const Blow blow = on_wall(across);
+    report("wall", across, blow, wall);
+    expect_hertz(blow, wall, 0.05);
+  }
+}
+
+TEST(HertzSlow, TwoBallsOfOneMesh) {
+  EXPECT_NEAR(balls.force, 995.8, 0.1);
+  EXPECT_NEAR(balls.duration, 60.36e-6, 1e-8);
+  for (int across : {16, 20, 24}) {
+    const Blow blow = on_each_other(across, across);
+    report("balls", across, blow, balls);
+    expect_hertz(blow, balls, 0.05);
+  }
+}
+
+TEST(HertzSlow, TwoBallsOfDifferentMeshes) {
+  for (int across : {16, 20}) {
+    const Blow blow = on_each_other(across, across + 4);
+    report("different balls", across, blow, balls);
+    expect_hertz(blow, balls, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace brio

@@ -19,13 +19,17 @@ std::string element_name(const Model& model, std::size_t block, std::size_t elem
   return "element " + std::to_string(element) + " of part '" + part.name + "'";
 }
 
+bool has_loads(const Model& model) { return !model.loads.empty() || !model.rigid.empty(); }
+
 void apply_loads(Model& model) {
+  if (!has_loads(model)) return;
   const StageTimer timer(model.stages, Stage::loads);
   for (ActiveLoad& load : model.loads) apply(load, model.times.time, model.nodes);
   gather_loads(model.rigid, model.loads, model.times.time, model.nodes);
 }
 
 double load_work(Model& model) {
+  if (!has_loads(model)) return 0;
   const StageTimer timer(model.stages, Stage::loads);
   double sum = model.times.mean() * weight_power(model.rigid);
   for (const ActiveLoad& load : model.loads) sum += model.times.mean() * power(load, model.nodes);
@@ -33,6 +37,7 @@ double load_work(Model& model) {
 }
 
 void book_load_impulses(Model& model) {
+  if (!has_loads(model)) return;
   const StageTimer timer(model.stages, Stage::loads);
   const auto add = [&](Impulse impulse) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -348,7 +348,8 @@ Summary observe_end(Model& model) {
     ties.released = model.ties.released;
   }
   for (std::size_t stage = 0; stage < stage_names.size(); ++stage)
-    summary.wall_s.by_stage[std::string(stage_names[stage])] = model.stages.seconds[stage];
+    if (model.stages.seconds[stage] > 0)
+      summary.wall_s.by_stage[std::string(stage_names[stage])] = model.stages.seconds[stage];
   summary.active_features = active_features(model);
   return summary;
 }

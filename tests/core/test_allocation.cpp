@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/contact/allocation_count.hpp"
 #include "tests/core/scene.hpp"
 
@@ -69,10 +72,54 @@ Deck can_under_covered_block() {
   return deck;
 }
 
+Part thrown_beam(std::string name, Triple start, Triple end) {
+  Beam2 beam;
+  beam.section = CircleSection{.radius = 0.05};
+  return {std::move(name), LineMesh{start, end, 4}, {}, beam, "material"};
+}
+
+// What meets along lines, under gravity: on the edge of a block and the rim of a sheet that stand still, a
+// beam slides and another rests, and on the two lie a sheet's rim, a block's edge and a ball of particles.
+Deck lines_on_lines(double speed) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  Part edge = box("edge", {2, 0.5, 0.5}, {4, 1, 1}, {0, 0, 0}, hex8());
+  edge.placement = {.rotate = Rotation{{1, 0, 0}, 45}, .translate = {0, -0.4, -std::sqrt(0.125)}};
+  Shell4 shell;
+  shell.thickness = 0.05;
+  const auto sheet = [&](std::string name, Triple size, Rotation turn, Triple centre) {
+    PlateMesh mesh;
+    mesh.size = {size[0], size[1]};
+    mesh.elements = {4, 2};
+    return Part{std::move(name), mesh, {.rotate = turn, .translate = centre}, shell, "material"};
+  };
+  Part block = box("block", {0.3, 0.3, 0.3}, {1, 1, 1}, {0, 0, 0}, hex8());
+  block.placement = {.rotate = Rotation{{0, 1, 0}, 45}, .translate = {0.1, 0, 0.1 + std::sqrt(0.045)}};
+  ParticleMesh ball;
+  ball.sphere = ParticleSphere{0.12, 0.06};
+  deck.parts = {edge,
+                sheet("rim", {2, 0.5, 0}, Rotation{{1, 0, 0}, 90}, {0, 0.4, -0.275}),
+                thrown_beam("sliding", {0.1, -0.7, 0.05}, {0.1, 0.7, 0.05}),
+                thrown_beam("resting", {-0.5, -0.7, 0.05}, {-0.5, 0.7, 0.05}),
+                sheet("standing", {0.3, 0.3, 0}, Rotation{{1, 0, 0}, 90}, {-0.5, 0, 0.275}),
+                block,
+                {"ball", ball, {.rotate = {}, .translate = {-0.5, 0.25, 0.23}}, Particle{}, "material"}};
+  deck.boundary_conditions = {fix("edge", {0, 1, 2}), fix("rim", {0, 1, 2, 3, 4, 5})};
+  deck.initial_conditions = {moving("sliding", {speed, 0, -1}), moving("block", {speed, 0, -1})};
+  Gravity gravity;
+  gravity.acceleration = {0, 0, -100};
+  deck.loads = {gravity};
+  deck.contact.emplace();
+  deck.contact->options.friction = 0.2;
+  deck.time.end = 1;
+  return deck;
+}
+
 struct Counted {
   std::size_t allocations = 0;
   int searches = 0;
   int active = 0;  ///< contacts with an impulse, over all counted steps
+  int lines = 0;   ///< of these, of lines
 };
 
 // The scene runs once, so that every buffer has seen what the scene holds, and again from the start, counted
@@ -101,6 +148,9 @@ Counted count(const Deck& deck, int threads, int steps) {
     for (const ContactScene& scene : model.contacts) {
       counted.searches += scene.step.searched ? 1 : 0;
       counted.active += scene.step.active;
+      counted.lines += static_cast<int>(
+          std::count_if(scene.contacts.begin(), scene.contacts.end(),
+                        [](const Contact& contact) { return contact.of_lines() && contact.impulse > 0; }));
     }
   }
   counted.allocations = allocations.count();
@@ -138,6 +188,15 @@ TEST(StepAllocation, NoneWhereHeldNodesAreInContact) {
     EXPECT_GT(counted.searches, 1);
     EXPECT_GT(counted.active, 200);
   }
+}
+
+TEST(StepAllocation, NoneWhereLinesRestAndSlideOnLines) {
+  for (int threads : {1, 2})
+    for (double speed : {0.0, 15.0}) {
+      const Counted counted = count(lines_on_lines(speed), threads, 400);
+      EXPECT_EQ(counted.allocations, 0u) << threads << ' ' << speed;
+      EXPECT_GT(counted.lines, 400);
+    }
 }
 
 TEST(StepAllocation, CounterSeesWhatIsAllocated) {

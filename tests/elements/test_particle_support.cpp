@@ -27,9 +27,7 @@ SymmetricTensor<double> moments(double a, double b, double c) {
   const Tensor<double> q = turn();
   return symmetric(q * full(SymmetricTensor<double>{a, b, c, 0, 0, 0}) * transposed(q));
 }
-SymmetricTensor<double> rate_of_strain(const Tensor<double>& l) {
-  return symmetric_part(l);
-}
+SymmetricTensor<double> rate_of_strain(const Tensor<double>& l) { return symmetric_part(l); }
 /// The sum of s v x^T of a linear field.
 Tensor<double> sum_of(const Tensor<double>& gradient, const SymmetricTensor<double>& m) {
   return gradient * full(m);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/audit.hpp"
 #include "src/motion.hpp"
@@ -241,8 +242,22 @@ void stop_at_walls(Model& model) {
   }
 }
 
+// That of all nodes if they moved by the rounding of the largest coordinate in a step: what is less than this
+// is not motion. A scene at rest has nothing else in its books until its loads begin.
+double energy_of_rounding(const Model& model) {
+  double mass = 0, largest = 0;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    mass += model.nodes.mass[i];
+    for (int axis = 0; axis < 3; ++axis)
+      largest = std::max(largest, std::abs(model.nodes.record[i].position[axis]));
+  }
+  const double speed = std::numeric_limits<double>::epsilon() * largest / model.times.next;
+  return 0.5 * mass * speed * speed;
+}
+
 void check_books(Model& model, double energy_error_limit) {
   EnergyBook& energy = model.energy;
+  if (model.step == 0) energy.reference = energy_of_rounding(model);
   energy.reference =
       std::max({energy.reference, energy.kinetic_start, std::abs(energy.sum()), energy.internal});
   energy.contact_added_max = std::max(energy.contact_added_max, energy.contact.at_step());

@@ -46,7 +46,7 @@ struct EnergyBook {
   Work external;       ///< loads, supports, moving walls
   Work contact;        ///< normal impulses of contact and walls; negative: taken out of motion
   Work friction;
-  double reference = 0;          ///< largest sum of energies so far
+  double reference = 0;          ///< largest sum of energies so far, or what rounding makes if that is more
   double contact_added_max = 0;  ///< largest work of contact so far; what a faithful contact keeps near 0
   double error_max = 0;
 

@@ -59,7 +59,7 @@ Outcome swing(const Deck& deck) {
 
 const std::vector<std::vector<int>> meshes{{1, 1, 1, 1, 1}, {2, 3, 2, 3, 2}, {3, 2, 3, 2, 3}};
 
-TEST(NewtonsCradle, LastOfFiveBarsLeavesWithTheSpeedAndTheMoreSoTheFinerTheMesh) {
+TEST(NewtonsCradleSlow, LastOfFiveBarsLeavesWithTheSpeedAndTheMoreSoTheFinerTheMesh) {
   for (bool viscous : {true, false})
     for (const std::vector<int>& across : meshes) {
       SCOPED_TRACE(testing::Message() << across[0] << ' ' << across[1] << " across, viscous " << viscous);
@@ -81,7 +81,7 @@ TEST(NewtonsCradle, LastOfFiveBarsLeavesWithTheSpeedAndTheMoreSoTheFinerTheMesh)
 }
 
 // Four impacts one after another, each of which loses what two bars lose.
-TEST(NewtonsCradle, PassesTheSpeedOnOverGaps) {
+TEST(NewtonsCradleSlow, PassesTheSpeedOnOverGaps) {
   for (bool viscous : {true, false}) {
     Deck deck = cradle(20, meshes[1], viscous ? hex8() : inviscid_hex8(), 0.01);
     deck.time.end = 0.05;

@@ -225,7 +225,7 @@ void expect_held(const Deck& deck, double spin, double squeeze) {
   }
 }
 
-TEST(Ties, HoldForAHundredThousandSteps) {
+TEST(TiesSlow, HoldForAHundredThousandSteps) {
   Deck deck = two_boxes({1, 1, 1}, {2, 2, 1}, 0.05);
   deck.time.end = 45;
   expect_held(deck, 50, 1);
@@ -344,7 +344,7 @@ double swinging(int shells, int beams) {
   return swings / (crossings.back() - crossings.front()) / frequency;
 }
 
-TEST(Ties, StiffenedPanelSwingsAsOneBeam) {
+TEST(TiesSlow, StiffenedPanelSwingsAsOneBeam) {
   EXPECT_NEAR(swinging(16, 16), 1, 0.01);
   EXPECT_NEAR(swinging(16, 24), 1, 0.01);
   EXPECT_NEAR(swinging(32, 24), 1, 0.01);

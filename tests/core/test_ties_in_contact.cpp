@@ -61,7 +61,7 @@ TEST(TiesInContact, ShellOnASolidDoesNotMeetIt) {
   }
 }
 
-TEST(TiesInContact, StiffenersDoNotMeetThePanelThatHoldsThem) {
+TEST(TiesInContactSlow, StiffenersDoNotMeetThePanelThatHoldsThem) {
   for (const double height : {0.03, 0.02, 0.0}) {
     Deck deck = stiffened_panel(height);
     expect_no_contact(deck, 2);

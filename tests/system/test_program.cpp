@@ -261,6 +261,17 @@ TEST_F(ProgramSlow, ScattersBricksAndMissesNoContact) {
   EXPECT_GT(found["energy"]["contact"].get<double>(), 0) << "contact adds no energy";
 }
 
+// Bodies that overlap by rounding and have no load yet: there is nothing but rounding in the books.
+TEST_F(ProgramSlow, BeginsAtRest) {
+  const Ending ending =
+      brio("run '" BRIO_SOURCE_DIR "/inputs/resting_stack.yaml' --output rest --set time.end=0.02");
+  ASSERT_EQ(ending.exit_code, 0) << ending.faults;
+  const nlohmann::json found = nlohmann::json::parse(read("rest/resting_stack.summary.json"));
+  EXPECT_EQ(found["contact"]["bodies"], 10);
+  EXPECT_GT(found["steps"], 500);
+  EXPECT_LT(std::abs(found["energy"]["error_relative"].get<double>()), 1e-3);
+}
+
 TEST_F(ProgramSlow, CatchesATubeInANetOfBeams) {
   const Ending ending =
       brio("run '" BRIO_SOURCE_DIR "/inputs/net.yaml' --output net --set contact.audit=true");

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "contact/face_geometry.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -13,12 +15,6 @@ namespace {
 
 using Rows = const AlignedBuffer<NodeVector>&;
 
-Vector3d position_of(const Nodes& nodes, int node) {
-  return Vector3d(nodes.record[static_cast<std::size_t>(node)].position);
-}
-Vector3d velocity_of(const Nodes& nodes, int node) {
-  return Vector3d(nodes.record[static_cast<std::size_t>(node)].velocity);
-}
 Vector3d row(Rows rows, int node) { return Vector3d(rows[static_cast<std::size_t>(node)].component); }
 
 void add(AlignedBuffer<NodeVector>& rows, int node, const Vector3d& value) {
@@ -151,11 +147,11 @@ NodeMotion motion_of(std::span<const int> concerned, const Nodes& nodes) {
   NodeMotion sum;
   for (int entry : concerned) {
     const auto node = static_cast<std::size_t>(entry);
-    const Vector3d v = velocity_of(nodes, entry);
+    const Vector3d v = brio::velocity(nodes, entry);
     const Vector3d linear = nodes.mass[node] * v;
     sum.energy += 0.5 * v.dot(linear);
     sum.linear += linear;
-    sum.angular += position_of(nodes, entry).cross(linear);
+    sum.angular += position(nodes, entry).cross(linear);
     if (!nodes.has_rotations()) continue;
     const Vector3d rate = row(nodes.angular_velocity, entry);
     const Vector3d spin = nodes.rotational_inertia[node] * rate;
@@ -168,8 +164,8 @@ NodeMotion motion_of(std::span<const int> concerned, const Nodes& nodes) {
 }  // namespace
 
 FaceVertices corners_of(const Tie& tie, const Nodes& nodes) {
-  return {position_of(nodes, tie.corner[0]), position_of(nodes, tie.corner[1]),
-          position_of(nodes, tie.corner[2]), position_of(nodes, tie.corner[3])};
+  return {position(nodes, tie.corner[0]), position(nodes, tie.corner[1]), position(nodes, tie.corner[2]),
+          position(nodes, tie.corner[3])};
 }
 
 void number(Ties& ties, std::size_t node_count) {
@@ -226,7 +222,7 @@ void gather_forces(const Ties& ties, Nodes& nodes) {
 
 Vector3d held_velocity(const Tie& tie, const Nodes& nodes, double step) {
   Vector3d velocity = Vector3d::Zero();
-  for (std::size_t k = 0; k < 4; ++k) velocity += tie.weight[k] * velocity_of(nodes, tie.corner[k]);
+  for (std::size_t k = 0; k < 4; ++k) velocity += tie.weight[k] * brio::velocity(nodes, tie.corner[k]);
   if (tie.turning) {
     const Vector3d rate = mean_angular_velocity(tie, nodes);
     if (!tie.has_arm()) return velocity;
@@ -236,7 +232,7 @@ Vector3d held_velocity(const Tie& tie, const Nodes& nodes, double step) {
   if (tie.gap == 0) return velocity;
   const FaceVertices now = corners_of(tie, nodes);
   FaceVertices rate;
-  for (std::size_t k = 0; k < 4; ++k) rate[k] = velocity_of(nodes, tie.corner[k]);
+  for (std::size_t k = 0; k < 4; ++k) rate[k] = brio::velocity(nodes, tie.corner[k]);
   if (step == 0) return velocity + tie.gap * normal_rate(tie, now, rate);
   FaceVertices then = now;
   for (std::size_t k = 0; k < 4; ++k) then[k] += step * rate[k];

@@ -20,24 +20,10 @@ constexpr int width = lane_count<double>;
 /// fourth power of the ratio of kernels (Gray, Monaghan & Swift 2001).
 Number repulsion_share(Number kernel_ratio) { return square(square(kernel_ratio)); }
 
-/// Adjacent lanes, then adjacent sums: in a fixed order.
-double sum_of(Number a) {
-  const Row4 half =
-      __builtin_shufflevector(a.v, a.v, 0, 1, 2, 3) + __builtin_shufflevector(a.v, a.v, 4, 5, 6, 7);
-  return (half[0] + half[2]) + (half[1] + half[3]);
-}
-struct Vector8 {
-  Number x, y, z;
-  friend Vector8 operator-(const Vector8& a, const Vector8& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Vector8 operator*(Number s, const Vector8& a) { return {s * a.x, s * a.y, s * a.z}; }
-  Vector8& operator+=(const Vector8& a) {
-    x += a.x, y += a.y, z += a.z;
-    return *this;
-  }
-  Row4 sum() const { return Row4{sum_of(x), sum_of(y), sum_of(z), 0}; }
-};
-Number dot(const Vector8& a, const Vector8& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+using PairVector = Vector3<Number>;
 
+double sum_of(Number a) { return sum(a, width); }
+Row4 sum_of(const PairVector& a) { return Row4{sum_of(a.x), sum_of(a.y), sum_of(a.z), 0}; }
 double largest(Number a) {
   double most = a[0];
   for (int lane = 1; lane < width; ++lane) most = std::max(most, a[lane]);
@@ -74,7 +60,7 @@ struct NeighbourPack {
   std::size_t bytes() const { return static_cast<std::size_t>(count) * sizeof(double); }
   /// Rows of a record a particle.
   template <class Record>
-  Vector8 gather(const double* first_row, const Record*) const {
+  PairVector gather(const double* first_row, const Record*) const {
     const WideVector<double> rows = gather_rows<double>(first_row, sizeof(Record) / sizeof(double), index);
     return {Number(rows.x[0]), Number(rows.y[0]), Number(rows.z[0])};
   }
@@ -82,13 +68,13 @@ struct NeighbourPack {
 
 /// Pair vectors and relative velocities.
 struct PairMotion {
-  Vector8 x, v;
+  PairVector x, v;
 
   PairMotion(const NodeRecord* record, std::size_t i, const NeighbourPack& pack) {
     const double* x0 = record[i].position;
     const double* v0 = record[i].velocity;
-    x = pack.gather(record->position, record) - Vector8{x0[0], x0[1], x0[2]};
-    v = pack.gather(record->velocity, record) - Vector8{v0[0], v0[1], v0[2]};
+    x = pack.gather(record->position, record) - PairVector{x0[0], x0[1], x0[2]};
+    v = pack.gather(record->velocity, record) - PairVector{v0[0], v0[1], v0[2]};
   }
 };
 
@@ -101,7 +87,7 @@ struct MomentSums {
       for (Number& entry : row) entry = Number(0.0);
     for (Number& entry : moments) entry = Number(0.0);
   }
-  void add(Number s, const Vector8& x, const Vector8& v) {
+  void add(Number s, const PairVector& x, const PairVector& v) {
     const Number sx[3] = {s * x.x, s * x.y, s * x.z};
     for (int c = 0; c < 3; ++c) {
       velocity[0][c] += sx[c] * v.x;
@@ -142,7 +128,7 @@ OwnSums weigh(ParticleCloud& cloud, const Nodes& nodes, std::size_t i, double st
     const PairMotion pair(record, i, pack);
     const Number inverse_length = 2.0 / (own_length + pack.gather(cloud.smoothing_length.data()));
     const Number volumes = where(pack.is_pair, own_volume * pack.gather(cloud.volume.data()), none);
-    const Vector8 x_middle = pair.x - Number(0.5 * step) * pair.v;
+    const PairVector x_middle = pair.x - Number(0.5 * step) * pair.v;
     middle.add(volumes * kernel_weight(dot(x_middle, x_middle), inverse_length), x_middle, pair.v);
     const Number s = volumes * kernel_weight(dot(pair.x, pair.x), inverse_length);
     pack.store_weights(s, cloud, i, begin);
@@ -175,16 +161,16 @@ void store_lane(const SymmetricTensor<double>& a, std::size_t lane, double (&row
 
 /// Columns of A or of residual gradients, of a particle and its neighbours together.
 struct SummedColumns {
-  Vector8 column[3];
+  PairVector column[3];
 
   SummedColumns(const ParticleForce* force, std::size_t i, const NeighbourPack& pack) {
     for (int c = 0; c < 3; ++c) {
       const double* own = force[i].column[c];
-      const Vector8 other = pack.gather(force->column[c], force);
+      const PairVector other = pack.gather(force->column[c], force);
       column[c] = {own[0] + other.x, own[1] + other.y, own[2] + other.z};
     }
   }
-  Vector8 operator*(const Vector8& x) const {
+  PairVector operator*(const PairVector& x) const {
     const auto [a, b, c] = column;
     return {a.x * x.x + b.x * x.y + c.x * x.z, a.y * x.x + b.y * x.y + c.y * x.z,
             a.z * x.x + b.z * x.y + c.z * x.z};
@@ -282,12 +268,12 @@ double add_pair_forces_now(ParticleCloud& cloud, Nodes& nodes, const int* node, 
     const auto i = static_cast<std::size_t>(node[lane] - cloud.first_node);
     const Number own_length(cloud.smoothing_length[i]), none(0.0), one(1.0);
     const double own_viscosity = cloud.residual[i].column[0][3];
-    Vector8 stress{none, none, none}, other{none, none, none};
+    PairVector stress{none, none, none}, other{none, none, none};
     for (int begin = 0; begin < cloud.count[i]; begin += width) {
       const NeighbourPack pack(cloud, i, begin);
       const Number s = pack.weights(cloud, i, begin);
       const PairMotion pair(record, i, pack);
-      const Vector8 stress_force = s * (SummedColumns(cloud.force.data(), i, pack) * pair.x);
+      const PairVector stress_force = s * (SummedColumns(cloud.force.data(), i, pack) * pair.x);
       Number viscosity(own_viscosity);
       for (int k = 0; k < width; ++k)
         viscosity.set(k,
@@ -301,12 +287,12 @@ double add_pair_forces_now(ParticleCloud& cloud, Nodes& nodes, const int* node, 
       const Number length = 0.5 * (own_length + pack.gather(cloud.smoothing_length.data()));
       const Number share = repulsion_share(inverse_shape_at_start * kernel_shape(sqrt(squared) / length));
       const Number push = repulsion * min(share, one) * max(tension, 0.0);
-      const Vector8 residual_force =
+      const PairVector residual_force =
           s * (viscosity * pair.v - SummedColumns(cloud.residual.data(), i, pack) * pair.x) - push * pair.x;
-      stress += stress_force;
-      other += residual_force;
+      stress = stress + stress_force;
+      other = other + residual_force;
     }
-    const Row4 force = stress.sum(), other_force = other.sum();
+    const Row4 force = sum_of(stress), other_force = sum_of(other);
     NodeVector& last = cloud.pair_force[i];
     const Row4 mean = 0.5 * (load_row(last.component) + other_force);
     const double* v = record[i].velocity;

@@ -7,6 +7,7 @@
 #include "contact/face_geometry.hpp"
 #include "contact/global_search.hpp"
 #include "src/build.hpp"
+#include "src/part_index.hpp"
 
 namespace brio {
 
@@ -20,12 +21,6 @@ constexpr double beyond_weight = 2;
 constexpr double held_weight = 1e-9;
 /// Initial velocities of a node and its face may differ by this share of the fastest corner: rounding.
 constexpr double same_velocity = 1e-9;
-
-std::size_t part_number(const Deck& deck, const std::string& name) {
-  for (std::size_t p = 0; p < deck.parts.size(); ++p)
-    if (deck.parts[p].name == name) return p;
-  throw BuildError("no part is named '" + name + "'");
-}
 
 std::string at(const Nodes& nodes, int node) {
   const Vector3d x = position(nodes, node);
@@ -130,8 +125,7 @@ class Tying {
 
   void add(const TieToSurface& entry) {
     if (index_of_.empty()) index_of_.assign(model_.nodes.size(), -1);
-    const Holder holder =
-        holder_of(part_number(deck_, entry.names[1]), deck_, meshes_, connectivity_, model_);
+    const Holder holder = holder_of(part_index(entry.names[1], deck_), deck_, meshes_, connectivity_, model_);
     NodeSelection named;
     named.set = entry.names[0];
     std::vector<int> slaves = select_nodes(named, deck_, meshes_, model_);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "src/breakdown.hpp"
+#include "src/part_index.hpp"
 
 namespace brio {
 
@@ -59,12 +60,6 @@ class Cells {
   std::vector<std::pair<Cell, std::size_t>> entries_;
 };
 
-std::size_t part_number(const Deck& deck, const std::string& name) {
-  for (std::size_t p = 0; p < deck.parts.size(); ++p)
-    if (deck.parts[p].name == name) return p;
-  throw BuildError("no part is named '" + name + "'");
-}
-
 std::size_t root(const std::vector<std::size_t>& same_as, std::size_t node) {
   while (same_as[node] != node) node = same_as[node];
   return node;
@@ -72,8 +67,8 @@ std::size_t root(const std::vector<std::size_t>& same_as, std::size_t node) {
 
 MergedParts merge(const Merge& entry, const Deck& deck, std::span<const Mesh> meshes,
                   std::span<const std::size_t> offset, std::vector<std::size_t>& same_as) {
-  const std::size_t first = part_number(deck, entry.parts[0]);
-  const std::size_t second = part_number(deck, entry.parts[1]);
+  const std::size_t first = part_index(entry.parts[0], deck);
+  const std::size_t second = part_index(entry.parts[1], deck);
   const std::vector<Point>& fixed = meshes[first].position;
   const std::vector<Point>& moved = meshes[second].position;
   const Cells cells(fixed, entry.tolerance);

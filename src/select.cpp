@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "src/build.hpp"
+#include "src/part_index.hpp"
 
 namespace brio {
 
@@ -24,13 +25,13 @@ bool inside(const SphereRegion& sphere, const Vector& x) {
   return distance <= sphere.radius * sphere.radius;
 }
 
+}  // namespace
+
 std::size_t part_index(const std::string& name, const Deck& deck) {
   for (std::size_t p = 0; p < deck.parts.size(); ++p)
     if (deck.parts[p].name == name) return p;
   throw BuildError("no part is named '" + name + "'");
 }
-
-}  // namespace
 
 std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std::span<const Mesh> meshes,
                               const Model& model) {

@@ -1,0 +1,14 @@
+#pragma once
+/// Parts by their names.
+
+#include <cstddef>
+#include <string>
+
+#include "src/deck.hpp"
+
+namespace brio {
+
+/// \throws BuildError where no part has the name.
+std::size_t part_index(const std::string& name, const Deck& deck);
+
+}  // namespace brio

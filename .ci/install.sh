@@ -4,7 +4,7 @@
 set -euo pipefail
 
 build="g++ cmake ninja-build libeigen3-dev libhdf5-dev libyaml-cpp-dev nlohmann-json3-dev libfmt-dev libcli11-dev"
-test="libgtest-dev libgmp-dev libboost-dev clang-format clang-tidy python3 python3-jsonschema python3-yaml python3-h5py locales-all"
+test="libgtest-dev libgmp-dev libboost-dev clang-format clang-tidy python3 python3-jsonschema python3-yaml python3-h5py locales-all gnuplot-nox"
 paraview="paraview python3-paraview xvfb xauth"
 
 packages=""

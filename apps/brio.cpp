@@ -70,6 +70,21 @@ void add_check_command(CLI::App& program) {
   command->callback([arguments] { brio::check(arguments->deck, arguments->overrides); });
 }
 
+void add_study_command(CLI::App& program, int& exit_code) {
+  auto arguments = std::make_shared<brio::StudyArguments>();
+  brio::StudyOptions& options = arguments->options;
+  CLI::App* command =
+      program.add_subcommand("study", "Run one deck over a table of settings; cost against error");
+  command->add_option("study", options.study, "YAML study")->required();
+  command->add_option("--output", options.output, "folder of the study; default NAME.study here");
+  command->add_option("--jobs", options.jobs, "runs side by side; default one a processor")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--again", options.again, "make runs again that are there");
+  command->add_flag("--quiet", arguments->quiet, "print no progress");
+  options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  command->callback([arguments, &exit_code] { exit_code = brio::study(*arguments); });
+}
+
 void add_info_command(CLI::App& program) {
   auto path = std::make_shared<std::filesystem::path>();
   CLI::App* command = program.add_subcommand("info", "Say what is in a result");
@@ -94,6 +109,7 @@ int main(int argument_count, char** arguments) {
   program.require_subcommand(1);
   add_run_command(program, exit_code);
   add_check_command(program);
+  add_study_command(program, exit_code);
   add_info_command(program);
   add_schema_command(program);
   for (CLI::App* command : program.get_subcommands({}))

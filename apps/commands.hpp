@@ -9,6 +9,7 @@
 
 #include "contact/overlap.hpp"
 #include "io/run_deck.hpp"
+#include "io/run_study.hpp"
 
 namespace brio {
 
@@ -28,6 +29,12 @@ struct RunArguments {
 };
 /// \return the exit code.
 int run(RunArguments& arguments);
+struct StudyArguments {
+  StudyOptions options;
+  bool quiet = false;
+};
+/// \return the exit code.
+int study(StudyArguments& arguments);
 void check(const std::filesystem::path& deck, const std::vector<std::string>& overrides);
 void print_info(const std::filesystem::path& result);
 void print_schema(bool markdown);

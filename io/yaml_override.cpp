@@ -150,6 +150,12 @@ std::shared_ptr<const YamlNode> override_value(const std::shared_ptr<const YamlN
   return overridden(root, parse_override(setting), 0);
 }
 
+std::string write_flow_yaml(const YamlNode& node) {
+  std::string out;
+  write_flow(node, out);
+  return out;
+}
+
 std::string write_yaml(const YamlNode& root) {
   std::string out;
   if (root.is_map() && !root.entries.empty()) {

@@ -56,5 +56,7 @@ std::shared_ptr<const YamlNode> override_value(const std::shared_ptr<const YamlN
 
 /// The tree as YAML that reads back the same.
 std::string write_yaml(const YamlNode& root);
+/// The same on one line.
+std::string write_flow_yaml(const YamlNode& node);
 
 }  // namespace brio

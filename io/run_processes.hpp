@@ -1,0 +1,34 @@
+#pragma once
+/// Runs of the program as processes of their own, several side by side.
+
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace brio {
+
+/// A command and where its complaints go.
+struct Command {
+  std::vector<std::string> arguments;  ///< the program first
+  std::filesystem::path faults;        ///< file for its error stream; what it prints is dropped
+};
+
+struct Ended {
+  std::size_t command = 0;  ///< its place in the list
+  int exit_code = 0;        ///< 128 + signal where it was killed
+  double processor_s = 0;   ///< user and system
+  double wall_s = 0;
+  double peak_memory_mb = 0;
+};
+
+/// Starts the commands in their order, at most `jobs` at once, and none beside others that memory would not
+/// hold, judged by the largest that has ended. With a stop set, none is started any more.
+/// \param ended called as each ends
+/// \throws std::system_error where the system starts no process.
+void run_processes(const std::vector<Command>& commands, int jobs, const std::atomic<int>* stop,
+                   const std::function<void(const Ended&)>& ended);
+
+}  // namespace brio

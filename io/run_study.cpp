@@ -1,0 +1,220 @@
+#include "io/run_study.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/file_error.hpp"
+#include "io/measure_quantity.hpp"
+#include "io/read_result.hpp"
+#include "io/read_study.hpp"
+#include "io/run_processes.hpp"
+#include "io/text_file.hpp"
+#include "src/pareto.hpp"
+
+namespace brio {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+std::string contents(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// FNV-1a, 64 bits.
+std::uint64_t fingerprint(std::string_view text, std::uint64_t hash = 0xcbf29ce484222325U) {
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash;
+}
+
+class StudyInRun {
+ public:
+  explicit StudyInRun(const StudyOptions& options)
+      : options_(options), checked_(read_study(options.study.string())) {
+    folder_ = options.output.empty() ? fs::path(options.study.stem().string() + ".study") : options.output;
+    program_print_ = fingerprint(contents(options.program));
+    table_.study = checked_.study;
+    for (const StudyRun& run : checked_.runs) {
+      StudyRow& row = table_.rows.emplace_back();
+      row.run = run;
+      row.figures.assign(checked_.study.quantities.size(), nothing);
+    }
+  }
+
+  StudyOutcome outcome() {
+    make_runs();
+    for (StudyRow& row : table_.rows) measure(row);
+    judge();
+    return {std::move(table_), folder_, complete_};
+  }
+
+ private:
+  fs::path folder_of(std::size_t run) const { return folder_ / "runs" / table_.rows[run].run.name; }
+  fs::path result_of(std::size_t run) const {
+    return folder_of(run) / (fs::path(checked_.deck).stem().string() + ".vtkhdf");
+  }
+  std::string key(std::size_t run) const {
+    const std::string settings =
+        fmt::format("{} {} {}", checked_.texts[run], checked_.study.threads, checked_.study.repeats);
+    return fmt::format("{:016x}", fingerprint(settings, program_print_));
+  }
+
+  bool take_earlier(std::size_t run) {
+    if (options_.again) return false;
+    std::ifstream text(folder_of(run) / "run.json");
+    const nlohmann::json record = nlohmann::json::parse(text, nullptr, false);
+    if (!record.is_object() || record.value("key", "") != key(run)) return false;
+    StudyRow& row = table_.rows[run];
+    row.exit_code = record.value("exit_code", 0);
+    row.message = record.value("message", "");
+    row.processor_s = record.value("processor_s", 0.0);
+    row.wall_s = record.value("wall_s", 0.0);
+    row.peak_memory_mb = record.value("peak_memory_mb", 0.0);
+    row.reused = true;
+    return true;
+  }
+
+  void remember(std::size_t run) {
+    const StudyRow& row = table_.rows[run];
+    const nlohmann::ordered_json record{{"run", row.run.name},
+                                        {"overrides", row.run.overrides},
+                                        {"exit_code", row.exit_code},
+                                        {"message", row.message},
+                                        {"processor_s", row.processor_s},
+                                        {"wall_s", row.wall_s},
+                                        {"peak_memory_mb", row.peak_memory_mb},
+                                        {"key", key(run)}};
+    replace_text_file(folder_of(run) / "run.json", {record.dump(1), "\n"});
+  }
+
+  Command command(std::size_t run) const {
+    Command result;
+    result.faults = folder_of(run) / "faults.txt";
+    result.arguments = {options_.program.string(),
+                        "run",
+                        checked_.deck,
+                        "--output",
+                        folder_of(run).string(),
+                        "--threads",
+                        std::to_string(checked_.study.threads),
+                        "--quiet"};
+    for (const std::string& setting : table_.rows[run].run.overrides)
+      result.arguments.insert(result.arguments.end(), {"--set", setting});
+    return result;
+  }
+
+  // The reference first: it is as a rule the longest.
+  std::vector<std::size_t> order() const {
+    std::vector<std::size_t> result;
+    const std::optional<std::size_t> reference = reference_run(checked_.study, checked_.runs);
+    if (reference) result.push_back(*reference);
+    for (std::size_t i = 0; i < table_.rows.size(); ++i)
+      if (i != reference) result.push_back(i);
+    return result;
+  }
+
+  void take(std::size_t run, const Ended& end) {
+    StudyRow& row = table_.rows[run];
+    const bool first = row.processor_s == 0;
+    row.exit_code = end.exit_code;
+    row.processor_s = first ? end.processor_s : std::min(row.processor_s, end.processor_s);
+    row.wall_s = first ? end.wall_s : std::min(row.wall_s, end.wall_s);
+    row.peak_memory_mb = std::max(row.peak_memory_mb, end.peak_memory_mb);
+    if (end.exit_code == 0) return;
+    row.message = contents(folder_of(run) / "faults.txt");
+    while (!row.message.empty() && std::isspace(static_cast<unsigned char>(row.message.back())))
+      row.message.pop_back();
+    row.message.erase(0, row.message.rfind('\n') + 1);
+  }
+
+  // A run that was stopped, or that the file system failed, is not remembered: it is made again next time.
+  static bool is_final(int exit_code) { return exit_code == 0 || exit_code == 3; }
+
+  void make_runs() {
+    const auto begin = std::chrono::steady_clock::now();
+    std::vector<std::size_t> run_of_command;
+    std::vector<Command> commands;
+    for (const std::size_t run : order()) {
+      if (take_earlier(run)) continue;
+      std::error_code fault;
+      fs::create_directories(folder_of(run), fault);
+      if (fault) throw FileError(folder_of(run), "cannot make the folder: " + fault.message());
+      fs::remove(folder_of(run) / "run.json", fault);
+      for (int i = 0; i < checked_.study.repeats; ++i) {
+        run_of_command.push_back(run);
+        commands.push_back(command(run));
+      }
+    }
+    std::vector<int> left(table_.rows.size(), checked_.study.repeats);
+    std::size_t done = 0;
+    // Repeats of a run write the same folder: one after the other.
+    const int jobs = checked_.study.repeats > 1 ? 1 : options_.jobs;
+    run_processes(commands, jobs, options_.stop, [&](const Ended& end) {
+      const std::size_t run = run_of_command[end.command];
+      take(run, end);
+      if (!is_final(end.exit_code)) complete_ = false;
+      if (--left[run] == 0 && is_final(end.exit_code)) remember(run);
+      ++done;
+      const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      if (options_.progress)
+        options_.progress({done, commands.size(), elapsed,
+                           elapsed / static_cast<double>(done) * static_cast<double>(commands.size() - done),
+                           table_.rows[run]});
+    });
+    if (done < commands.size()) complete_ = false;
+  }
+
+  void measure(StudyRow& row) {
+    const auto run = static_cast<std::size_t>(&row - table_.rows.data());
+    if (row.exit_code != 0 || !fs::exists(result_of(run))) return;
+    row.figures = measure_quantities(checked_.study.quantities, result_of(run), checked_.parts);
+    row.steps = read_summary(result_of(run)).at("steps").get<double>();
+  }
+
+  void judge() {
+    const Study& study = checked_.study;
+    const std::optional<std::size_t> reference = reference_run(study, checked_.runs);
+    for (std::size_t q = 0; q < study.quantities.size(); ++q)
+      table_.references.push_back(
+          study.quantities[q].reference.value_or(reference ? table_.rows[*reference].figures[q] : nothing));
+    std::vector<CostAndError> all;
+    for (StudyRow& row : table_.rows) {
+      row.is_reference = reference && &row == &table_.rows[*reference];
+      double square = 0;
+      for (std::size_t q = 0; q < study.quantities.size(); ++q) {
+        const double scale = study.quantities[q].scale.value_or(std::abs(table_.references[q]));
+        row.errors.push_back(std::abs(row.figures[q] - table_.references[q]) / scale);
+        square += row.errors.back() * row.errors.back();
+      }
+      row.error = std::sqrt(square / static_cast<double>(study.quantities.size()));
+      all.push_back({row.exit_code == 0 ? row.processor_s : nothing, row.error});
+    }
+    const std::vector<bool> front = pareto_front(all);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      table_.rows[i].on_front = front[i];
+      // What is held against itself has no error to compare.
+      table_.rows[i].beats_default = !table_.rows[i].is_reference && beats(all[i], all[0], beating_share);
+    }
+  }
+
+  const StudyOptions& options_;
+  CheckedStudy checked_;
+  StudyTable table_;
+  fs::path folder_;
+  std::uint64_t program_print_ = 0;
+  bool complete_ = true;
+};
+
+}  // namespace
+
+StudyOutcome run_study(const StudyOptions& options) { return StudyInRun(options).outcome(); }
+
+}  // namespace brio

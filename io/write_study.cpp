@@ -1,0 +1,92 @@
+#include "io/write_study.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/text_file.hpp"
+
+namespace brio {
+
+namespace {
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : std::string("-");
+}
+std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.5g}", value) : "-"; }
+
+// A field of a CSV file; quoted where it must be.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string csv(const StudyTable& table) {
+  std::string text = "run,knob,setting,exit_code,processor_s,wall_s,peak_memory_mb,steps,error";
+  for (const Quantity& quantity : table.study.quantities)
+    text += fmt::format(",{0},{0}_error", field(quantity.name));
+  text += ",on_front,beats_default\n";
+  for (const StudyRow& row : table.rows) {
+    text += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.0f},{:.6g}", field(row.run.name),
+                        field(row.run.knob), field(row.run.label), row.exit_code, row.processor_s, row.wall_s,
+                        row.peak_memory_mb, row.steps, row.error);
+    for (std::size_t q = 0; q < row.figures.size(); ++q)
+      text += fmt::format(",{:.9g},{:.6g}", row.figures[q], row.errors[q]);
+    text += fmt::format(",{:d},{:d}\n", row.on_front, row.beats_default);
+  }
+  return text;
+}
+
+std::string remarks(const StudyRow& row) {
+  std::string text;
+  if (row.exit_code != 0) text = fmt::format("ended with {}: {}", row.exit_code, row.message);
+  if (row.is_reference) text += "reference";
+  if (row.on_front && !row.is_reference) text += "front";
+  if (row.beats_default) text += "; beats the default";
+  return text;
+}
+
+std::string verdict(const StudyTable& table) {
+  std::string better;
+  for (const StudyRow& row : table.rows)
+    if (row.beats_default) better += fmt::format("{}`{}`", better.empty() ? "" : ", ", row.run.name);
+  if (!better.empty())
+    return fmt::format("Cheaper and more accurate than the default, both by more than {:.0f} %: {}.\n",
+                       100 * beating_share, better);
+  return fmt::format(
+      "No setting is cheaper and more accurate than the default, both by more than {:.0f} %.\n",
+      100 * beating_share);
+}
+
+}  // namespace
+
+std::string study_text(const StudyTable& table) {
+  std::string text;
+  if (!table.study.title.empty()) text += table.study.title + "\n\n";
+  text += "| run | processor s | MB | steps | error |";
+  for (const Quantity& quantity : table.study.quantities) text += fmt::format(" {} |", quantity.name);
+  text += " |\n| --- | --- | --- | --- | --- |";
+  for (std::size_t q = 0; q <= table.study.quantities.size(); ++q) text += " --- |";
+  text += "\n| reference | | | | |";
+  for (const double reference : table.references) text += fmt::format(" {} |", figure(reference));
+  text += " |\n";
+  for (const StudyRow& row : table.rows) {
+    text += fmt::format("| {} | {:.3g} | {:.0f} | {:.0f} | {} |", row.run.name, row.processor_s,
+                        row.peak_memory_mb, row.steps, percent(row.error));
+    for (std::size_t q = 0; q < row.figures.size(); ++q)
+      text += fmt::format(" {} ({}) |", figure(row.figures[q]), percent(row.errors[q]));
+    text += fmt::format(" {} |\n", remarks(row));
+  }
+  text += "\nError: root mean square of those of the quantities, which stand in brackets.\n" + verdict(table);
+  return text;
+}
+
+void write_study_table(const StudyTable& table, const std::filesystem::path& folder,
+                       const std::string& name) {
+  replace_text_file(folder / (name + ".csv"), {csv(table)});
+  replace_text_file(folder / (name + ".md"), {study_text(table)});
+}
+
+}  // namespace brio

@@ -43,31 +43,41 @@ void add_overrides(CLI::App* command, std::vector<std::string>& overrides) {
       ->allow_extra_args(false);
 }
 
+void add_threads(CLI::App* command, int& threads) {
+  command->add_option("--threads", threads, "number of threads; default all processors")
+      ->check(CLI::Range(1, 1024));
+  threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 void add_run_command(CLI::App& program, int& exit_code) {
   auto arguments = std::make_shared<brio::RunArguments>();
   brio::RunOptions& options = arguments->options;
   CLI::App* command = program.add_subcommand("run", "Run a deck and write its results");
   command->add_option("deck", options.deck, "YAML deck")->required();
   command->add_option("--output", options.output, "result folder; default NAME.results here");
-  command->add_option("--threads", options.threads, "number of threads; default all processors")
-      ->check(CLI::Range(1, 1024));
+  add_threads(command, options.threads);
   add_overrides(command, options.overrides);
   command->add_flag("--quiet", arguments->quiet, "print nothing but faults");
   command->add_flag("--json", arguments->json, "print the summary as JSON");
-  options.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   command->callback([arguments, &exit_code] { exit_code = brio::run(*arguments); });
 }
 
 void add_check_command(CLI::App& program) {
-  struct Arguments {
-    std::filesystem::path deck;
-    std::vector<std::string> overrides;
-  };
-  auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = program.add_subcommand("check", "Read a deck, build its scene and say what it is");
-  command->add_option("deck", arguments->deck, "YAML deck")->required();
-  add_overrides(command, arguments->overrides);
-  command->callback([arguments] { brio::check(arguments->deck, arguments->overrides); });
+  auto arguments = std::make_shared<brio::ForecastOptions>();
+  brio::ForecastOptions& options = *arguments;
+  CLI::App* command = program.add_subcommand(
+      "check", "Read a deck, build its scene, say what it is and what a run of it would take");
+  command->add_option("deck", options.deck, "YAML deck")->required();
+  add_threads(command, options.threads);
+  command
+      ->add_option_function<double>(
+          "--pilot", [&options](double seconds) { options.pilot_s = seconds; },
+          "foresee how the step falls by coarser scenes, which are run for about so many seconds; default 10")
+      ->check(CLI::PositiveNumber)
+      ->expected(0, 1)
+      ->default_str("10");
+  add_overrides(command, options.overrides);
+  command->callback([arguments] { brio::check(*arguments); });
 }
 
 void add_study_command(CLI::App& program, int& exit_code) {

@@ -40,6 +40,50 @@ std::size_t state_bytes(const Model& model) {
   return bytes;
 }
 
+std::string duration(double seconds) {
+  if (seconds < 600) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 36000) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+void print_steps(const Forecast& forecast) {
+  const StepForecast& steps = forecast.steps;
+  if (steps.exact) {
+    fmt::print("  steps      {:.0f}, all of them marched\n", steps.steps);
+  } else if (forecast.pilot_factors.empty()) {
+    fmt::print(
+        "  steps      {:.0f} if the step stays as it is; a scene that is crushed takes more: --pilot tells\n",
+        steps.steps);
+  } else {
+    fmt::print(
+        "  steps      {:.0f}, between {:.0f} and {:.0f}, as told by a pilot with elements {:g} times as "
+        "long\n",
+        steps.steps, steps.least, steps.most, forecast.pilot_factors.back());
+  }
+  if (!forecast.pilot_fault.empty()) fmt::print("             of the pilots: {}\n", forecast.pilot_fault);
+}
+
+void print_forecast(const Forecast& forecast, int threads) {
+  const March& march = forecast.march;
+  fmt::print("\nforecast for {} thread{}, from {} steps to time {:.4g}, marched in {:.2f} s:\n", threads,
+             threads == 1 ? "" : "s", march.steps.size(), march.time, march.wall_seconds);
+  if (!march.breakdown.empty()) fmt::print("  breakdown  {}\n", march.breakdown);
+  print_steps(forecast);
+  fmt::print("  wall time  {}: {} to build, {} for steps, {} for output", duration(forecast.seconds()),
+             duration(forecast.build_seconds), duration(forecast.steps.seconds),
+             duration(forecast.output.seconds()));
+  if (march.waiting() > 1.1)
+    fmt::print("; with the machine as busy as now {}", duration(forecast.seconds() * march.waiting()));
+  fmt::print("\n  memory     {:.1f} MB at its peak\n", forecast.peak_memory_mb);
+  if (!forecast.output_fault.empty()) {
+    fmt::print("  results    not measured: {}\n", forecast.output_fault);
+    return;
+  }
+  fmt::print("  results    {:.1f} MB: {:.0f} dumps of {:.2f} MB, {:.0f} rows of history\n",
+             forecast.result_bytes * 1e-6, forecast.output.dumps, forecast.output.dump_bytes * 1e-6,
+             forecast.output.rows);
+}
+
 }  // namespace
 
 void print_overlaps(std::span<const InitialOverlap> overlaps) {
@@ -50,11 +94,10 @@ void print_overlaps(std::span<const InitialOverlap> overlaps) {
         overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
 }
 
-void check(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  Model model;
-  const Deck deck = load_deck(path, overrides, model);
-  ThreadTeam team(1);
-  update_velocities(model, deck.numerics.energy_error_limit, team);
+void check(const ForecastOptions& options) {
+  ScenePrepared scene = prepare_scene(options);
+  const Deck& deck = scene.deck;
+  const Model& model = scene.model;
 
   if (!deck.title.empty()) fmt::print("{}\n\n", deck.title);
   print_parts(deck, model);
@@ -83,6 +126,7 @@ void check(const std::filesystem::path& path, const std::vector<std::string>& ov
   for (const std::string& feature : active_features(model)) fmt::print(" {}", feature);
   fmt::print("\n");
   print_overlaps(model.initial_overlaps);
+  print_forecast(forecast(options, scene), options.threads);
 }
 
 }  // namespace brio

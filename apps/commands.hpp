@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/overlap.hpp"
+#include "io/forecast_deck.hpp"
 #include "io/run_deck.hpp"
 #include "io/run_study.hpp"
 
@@ -35,7 +36,7 @@ struct StudyArguments {
 };
 /// \return the exit code.
 int study(StudyArguments& arguments);
-void check(const std::filesystem::path& deck, const std::vector<std::string>& overrides);
+void check(const ForecastOptions& options);
 void print_info(const std::filesystem::path& result);
 void print_schema(bool markdown);
 

@@ -70,10 +70,8 @@ class Output {
         writer_(writer),
         observer_(model),
         history_(history_columns(model)),
-        field_schedule_(deck.output.fields_.times.empty()
-                            ? OutputSchedule::every(deck.output.fields_.every.value_or(deck.time.end / 20))
-                            : OutputSchedule::at(deck.output.fields_.times)),
-        history_schedule_(OutputSchedule::every(deck.output.history.every.value_or(deck.time.end / 1000))) {}
+        field_schedule_(field_schedule(deck)),
+        history_schedule_(history_schedule(deck)) {}
 
   void write_what_is_due(bool last, ThreadTeam& team) {
     const bool row_due = history_schedule_.due(model_.times.time);
@@ -130,16 +128,20 @@ std::string march(const Deck& deck, const RunOptions& options, Model& model, Out
 
 }  // namespace
 
-Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, Model& model) {
-  Deck deck = read_deck(path, overrides);
+Model build_scene(const Deck& deck) {
   std::vector<Mesh> meshes;
   meshes.reserve(deck.parts.size());
   for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
   try {
-    model = build(deck, meshes);
+    return build(deck, meshes);
   } catch (const BuildError& fault) {
-    throw DeckError((fault.place.empty() ? path.string() : fault.place) + ": " + fault.what());
+    throw DeckError((fault.place.empty() ? deck.file : fault.place) + ": " + fault.what());
   }
+}
+
+Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, Model& model) {
+  Deck deck = read_deck(path, overrides);
+  model = build_scene(deck);
   return deck;
 }
 

@@ -43,6 +43,9 @@ struct RunOutcome {
   std::filesystem::path vtkhdf, xdmf, summary_file;
 };
 
+/// Parts of a deck meshed and the scene put together. \throws DeckError
+Model build_scene(const Deck& deck);
+
 /// A deck read, its parts meshed and the scene put together. \throws DeckError
 Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, Model& model);
 

@@ -1,0 +1,43 @@
+#pragma once
+/// How many steps a run takes and how long they last, from the first of them, which were marched.
+///
+/// Where the step stays as it is, so do number and cost. A scene that is crushed loses step, and nothing in
+/// its first steps says how much. A pilot does: the same deck, coarsely meshed, marched to its end. Its step
+/// falls at much the same times, but less, the coarser it is. With r the first step over the step of a time,
+///
+///     log r(t) = share * log r_pilot(t),
+///
+/// with the share that fits best over the time that both were marched, shifted to where the march ended; and
+/// time per step grows as that of the pilot grows. Where elements were deleted, those that set the step may
+/// be gone at any time: then the share is 1, and half of the shift is kept, between all and nothing of it.
+
+#include <span>
+
+#include "src/march.hpp"
+
+namespace brio {
+
+struct StepForecast {
+  double steps = 0;
+  double least = 0,
+         most = 0;           ///< of all readings of the finest two pilots; without a pilot, most is 0
+  double seconds = 0;        ///< of all steps, as a march counts them
+  double share_of_fall = 1;  ///< of the finest pilot's fall
+  bool exact = false;        ///< the march came to the end
+};
+
+/// \param pilots that came to their ends; the finest last. Without them the step stays as it is.
+StepForecast forecast_steps(const March& own, std::span<const March> pilots, double end);
+
+/// How a pilot is read.
+struct Reading {
+  double share = 1;  ///< of its fall
+  double shift = 1;  ///< share of the difference, where the march ended, that stays
+};
+/// The same, of a single pilot that is read in one way.
+StepForecast forecast_steps(const March& own, const March& pilot, Reading reading, double end);
+
+/// The share of a pilot's fall that fits a march best; 1 where the pilot's step has not fallen yet.
+double share_of_fall(const March& own, const March& pilot);
+
+}  // namespace brio

@@ -1,0 +1,170 @@
+// Steps that are foretold from the first of them, and what pilots say of a step that falls.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/coarser.hpp"
+#include "src/forecast.hpp"
+#include "src/memory.hpp"
+#include "src/output_schedule.hpp"
+#include "tests/core/scene.hpp"
+
+namespace brio {
+namespace {
+
+using namespace test;
+
+// Two bars that meet and part; their step hardly changes.
+Deck bars() {
+  Deck deck;
+  deck.materials = {{"material", elastic()}};
+  deck.parts = {box("left", {1, 0.1, 0.1}, {10, 1, 1}, {-0.5, 0, 0}, hex8()),
+                box("right", {1, 0.1, 0.1}, {10, 1, 1}, {0.5, 0, 0}, hex8())};
+  deck.initial_conditions = {moving("left", {1, 0, 0}), moving("right", {-1, 0, 0})};
+  deck.contact.emplace();
+  deck.time.end = 0.02;
+  return deck;
+}
+
+Model started(const Deck& deck, ThreadTeam& team) {
+  Model model = build_model(deck);
+  update_velocities(model, deck.numerics.energy_error_limit, team);
+  return model;
+}
+
+TEST(Forecast, StepsAsTheyAreAreForetoldFromTheFirst) {
+  const Deck deck = bars();
+  ThreadTeam team(1);
+  Model whole = build_model(deck);
+  run(whole, deck, team);
+  Model model = started(deck, team);
+  March few;
+  march(few, model, 0.1, 0, team);
+  ASSERT_EQ(few.steps.size(), 1u);
+  const StepForecast forecast = forecast_steps(few, {}, deck.time.end);
+  EXPECT_FALSE(forecast.exact);
+  EXPECT_EQ(forecast.most, 0);
+  EXPECT_NEAR(forecast.steps, static_cast<double>(whole.step), 0.05 * static_cast<double>(whole.step));
+}
+
+TEST(Forecast, AMarchToTheEndIsTheRun) {
+  const Deck deck = bars();
+  ThreadTeam team(1);
+  Model whole = build_model(deck);
+  run(whole, deck, team);
+  Model model = started(deck, team);
+  March all;
+  march(all, model, 0.1, 0, team);
+  march(all, model, 0.1, 1e9, team);
+  EXPECT_TRUE(all.reached_end);
+  EXPECT_EQ(all.steps.size(), static_cast<std::size_t>(whole.step));
+  const StepForecast forecast = forecast_steps(all, {}, deck.time.end);
+  EXPECT_TRUE(forecast.exact);
+  EXPECT_EQ(forecast.steps, static_cast<double>(whole.step));
+  for (std::size_t i = 0; i < whole.nodes.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(model.nodes.record[i].position[axis], whole.nodes.record[i].position[axis]);
+  march(all, model, 0.1, 1e9, team);
+  EXPECT_EQ(all.steps.size(), static_cast<std::size_t>(whole.step));
+}
+
+TEST(Forecast, ABreakdownEndsAMarchAndIsNamed) {
+  Deck deck = bars();
+  ThreadTeam team(1);
+  Model model = started(deck, team);
+  March broken;
+  march(broken, model, 1e-300, 1e9, team);
+  EXPECT_FALSE(broken.reached_end);
+  EXPECT_NE(broken.breakdown.find("energy"), std::string::npos) << broken.breakdown;
+}
+
+// A march whose step falls as exp(-depth * ramp), the ramp rising from 0 to 1 by the middle of the time.
+March falling(double first, double depth, double until, double seconds) {
+  March march;
+  while (march.time < until) {
+    const double size = first * std::exp(-depth * std::min(1.0, 2 * march.time));
+    march.steps.push_back({march.time, size, seconds * (1 + march.time), 0});
+    march.time += size;
+  }
+  march.reached_end = until >= 1;
+  return march;
+}
+
+TEST(Forecast, APilotsFallIsTakenOverByItsShare) {
+  const March pilot = falling(1e-3, 0.5, 1, 1e-6);
+  const March own = falling(4e-4, 1.2, 0.2, 1e-5);
+  const March truth = falling(4e-4, 1.2, 1, 1e-5);
+  EXPECT_NEAR(share_of_fall(own, pilot), 2.4, 0.02);
+  const StepForecast forecast = forecast_steps(own, std::span(&pilot, 1), 1);
+  EXPECT_NEAR(forecast.steps, static_cast<double>(truth.steps.size()), 0.01 * forecast.steps);
+  EXPECT_NEAR(forecast.seconds, truth.seconds(), 0.03 * truth.seconds());
+  EXPECT_LT(forecast.least, 0.8 * forecast.steps);
+  EXPECT_GE(forecast.most, forecast.steps);
+  EXPECT_LT(forecast_steps(own, {}, 1).steps, 0.6 * forecast.steps);
+}
+
+TEST(Forecast, APilotWhoseStepStaysChangesNothing) {
+  const March pilot = falling(1e-3, 0, 1, 1e-6);
+  const March own = falling(4e-4, 0, 0.2, 1e-5);
+  EXPECT_EQ(share_of_fall(own, pilot), 1);
+  const double steps = forecast_steps(own, {}, 1).steps;
+  EXPECT_NEAR(forecast_steps(own, std::span(&pilot, 1), 1).steps, steps, 1e-6 * steps);
+}
+
+TEST(Forecast, WhereElementsAreDeletedTheStepMayComeBack) {
+  March pilot = falling(1e-3, 0.5, 1, 1e-6);
+  const March own = falling(4e-4, 1.2, 0.6, 1e-5);
+  const double without = forecast_steps(own, std::span(&pilot, 1), 1).steps;
+  pilot.steps.back().deleted = 1;
+  const StepForecast forecast = forecast_steps(own, std::span(&pilot, 1), 1);
+  EXPECT_NEAR(forecast.most, without, 1e-9 * without);
+  EXPECT_LT(forecast.steps, forecast.most);
+  EXPECT_GT(forecast.steps, forecast.least);
+}
+
+TEST(Coarser, ElementsBecomeLongerAndShapesStay) {
+  Deck deck;
+  deck.materials = {{"material", elastic()}};
+  RodMesh rod{.radius = 1, .length = 5, .elements = {12, 60}};
+  ParticleMesh thin, thick;
+  thin.box = {{1, 1, 0.2}, 0.1};
+  thick.box = {{1, 1, 1}, 0.1};
+  deck.parts = {box("slab", {8, 8, 1}, {8, 8, 1}, {0, 0, 0}, hex8()),
+                {"rod", rod, {}, hex8(), "material"},
+                {"thin", thin, {}, Particle{}, "material"},
+                {"thick", thick, {}, Particle{}, "material"}};
+  const Deck coarse = coarser(deck, 2);
+  EXPECT_EQ(std::get<BoxMesh>(coarse.parts[0].mesh).elements, (std::array<int, 3>{4, 4, 1}));
+  EXPECT_EQ(std::get<BoxMesh>(coarse.parts[0].mesh).size, (Triple{8, 8, 1}));
+  EXPECT_EQ(std::get<RodMesh>(coarse.parts[1].mesh).elements, (std::array<int, 2>{6, 30}));
+  EXPECT_EQ(std::get<ParticleMesh>(coarse.parts[2].mesh).box->spacing, 0.1);
+  EXPECT_EQ(std::get<ParticleMesh>(coarse.parts[3].mesh).box->spacing, 0.2);
+}
+
+TEST(OutputSchedule, CountsHowOftenItIsDue) {
+  const auto stepped = [](OutputSchedule schedule, double end) {
+    double count = 0;
+    constexpr int steps = 10007;
+    for (int i = 0; i <= steps; ++i) count += schedule.due(end * i / steps) || i == steps;
+    return count;
+  };
+  for (const double interval : {0.1, 0.3, 0.25, 1.0, 7.0})
+    EXPECT_EQ(OutputSchedule::every(interval).count(1), stepped(OutputSchedule::every(interval), 1))
+        << interval;
+  for (const std::vector<double>& times : {std::vector{0.0, 0.5}, {0.2, 0.1, 0.2, 1.0}, {2.0}})
+    EXPECT_EQ(OutputSchedule::at(times).count(1), stepped(OutputSchedule::at(times), 1));
+}
+
+TEST(Memory, OfAnObjectIsThatOfACopy) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "the sanitizer has an allocator of its own";
+#endif
+  const std::vector<double> list(100000);
+  const std::size_t bytes = bytes_held(list);
+  EXPECT_GE(bytes, 800000u);
+  EXPECT_LT(bytes, 820000u);
+}
+
+}  // namespace
+}  // namespace brio

@@ -63,8 +63,12 @@ void add_run_command(CLI::App& program, int& exit_code) {
 }
 
 void add_check_command(CLI::App& program) {
-  auto arguments = std::make_shared<brio::ForecastOptions>();
-  brio::ForecastOptions& options = *arguments;
+  struct Arguments {
+    brio::ForecastOptions options;
+    bool json = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  brio::ForecastOptions& options = arguments->options;
   CLI::App* command = program.add_subcommand(
       "check", "Read a deck, build its scene, say what it is and what a run of it would take");
   command->add_option("deck", options.deck, "YAML deck")->required();
@@ -77,7 +81,8 @@ void add_check_command(CLI::App& program) {
       ->expected(0, 1)
       ->default_str("10");
   add_overrides(command, options.overrides);
-  command->callback([arguments] { brio::check(*arguments); });
+  command->add_flag("--json", arguments->json, "print all of it as JSON");
+  command->callback([arguments] { brio::check(arguments->options, arguments->json); });
 }
 
 void add_study_command(CLI::App& program, int& exit_code) {

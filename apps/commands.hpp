@@ -36,7 +36,7 @@ struct StudyArguments {
 };
 /// \return the exit code.
 int study(StudyArguments& arguments);
-void check(const ForecastOptions& options);
+void check(const ForecastOptions& options, bool json);
 void print_info(const std::filesystem::path& result);
 void print_schema(bool markdown);
 

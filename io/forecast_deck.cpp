@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "io/deck_error.hpp"
 #include "io/file_error.hpp"
@@ -76,9 +77,9 @@ std::vector<March> march_pilots(const ForecastOptions& options, const Deck& deck
 
 ScenePrepared prepare_scene(const ForecastOptions& options) {
   ScenePrepared scene;
-  const auto start = Clock::now();
+  const std::clock_t start = std::clock();
   scene.deck = load_deck(options.deck, options.overrides, scene.model);
-  scene.seconds = seconds_since(start);
+  scene.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   ThreadTeam team(options.threads);
   update_velocities(scene.model, scene.deck.numerics.energy_error_limit, team);
   return scene;

@@ -42,7 +42,7 @@ struct ScenePrepared {
   MemoryWatch memory;  ///< first: it watches the rest
   Deck deck;
   Model model;
-  double seconds = 0;  ///< wall time of building
+  double seconds = 0;  ///< of the processor, to build it
 };
 
 /// \throws DeckError, and Breakdown where the first step cannot be made

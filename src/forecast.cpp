@@ -7,6 +7,12 @@ namespace brio {
 
 namespace {
 
+// A pilot whose step has fallen by less than this says nothing of its share.
+constexpr double least_fall = 0.03;
+// Of pilots with elements two or three times as long, where no share can be fitted: measured on crushed cans,
+// cut pipes, pierced plates and struck rods, between 1 and 2.
+constexpr double typical_share = 1.5;
+
 // The last two steps of a run share what is left and say nothing of the bound.
 std::span<const MarchedStep> telling(const March& march) {
   std::span<const MarchedStep> steps = march.steps;
@@ -47,9 +53,7 @@ StepForecast as_it_is(const March& own, double end) {
 
 }  // namespace
 
-double share_of_fall(const March& own, const March& pilot) {
-  // A pilot whose step has fallen by less than this says nothing.
-  constexpr double least_fall = 0.03;
+std::optional<double> share_of_fall(const March& own, const March& pilot) {
   double both = 0, square = 0, largest = 0;
   for (const MarchedStep& step : telling(own)) {
     const double of_pilot = fall(pilot, step.time);
@@ -57,7 +61,8 @@ double share_of_fall(const March& own, const March& pilot) {
     square += step.size * of_pilot * of_pilot;
     largest = std::max(largest, of_pilot);
   }
-  return largest > least_fall ? std::clamp(both / square, 0.5, 3.0) : 1;
+  if (largest < least_fall) return {};
+  return std::clamp(both / square, 0.5, 3.0);
 }
 
 StepForecast forecast_steps(const March& own, const March& pilot, Reading reading, double end) {
@@ -88,10 +93,11 @@ StepForecast forecast_steps(const March& own, std::span<const March> pilots, dou
   double least = HUGE_VAL, most = 0;
   for (const March& pilot : pilots.last(std::min(asked, pilots.size()))) {
     const bool eroded = pilot.steps.back().deleted > 0;
-    const double share = share_of_fall(own, pilot);
-    const Reading best = eroded ? Reading{1, 0.5} : Reading{share, 1};
-    const Reading other = eroded ? Reading{1, 0} : Reading{1, 1};
-    for (const Reading& reading : {Reading{1, 1}, other, best}) {
+    const std::optional<double> share = share_of_fall(own, pilot);
+    std::vector<Reading> readings{{1, 1}};
+    if (eroded || !share) readings.insert(readings.end(), {{1, 0}, {2, 1}});
+    readings.push_back({eroded ? typical_share : share.value_or(typical_share), eroded ? 0.5 : 1});
+    for (const Reading& reading : readings) {
       forecast = forecast_steps(own, pilot, reading, end);
       least = std::min(least, forecast.steps);
       most = std::max(most, forecast.steps);

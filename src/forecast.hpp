@@ -11,6 +11,7 @@
 /// time per step grows as that of the pilot grows. Where elements were deleted, those that set the step may
 /// be gone at any time: then the share is 1, and half of the shift is kept, between all and nothing of it.
 
+#include <optional>
 #include <span>
 
 #include "src/march.hpp"
@@ -37,7 +38,7 @@ struct Reading {
 /// The same, of a single pilot that is read in one way.
 StepForecast forecast_steps(const March& own, const March& pilot, Reading reading, double end);
 
-/// The share of a pilot's fall that fits a march best; 1 where the pilot's step has not fallen yet.
-double share_of_fall(const March& own, const March& pilot);
+/// The share of a pilot's fall that fits a march best; nothing where the pilot's step has not fallen yet.
+std::optional<double> share_of_fall(const March& own, const March& pilot);
 
 }  // namespace brio

@@ -95,7 +95,7 @@ TEST(Forecast, APilotsFallIsTakenOverByItsShare) {
   const March pilot = falling(1e-3, 0.5, 1, 1e-6);
   const March own = falling(4e-4, 1.2, 0.2, 1e-5);
   const March truth = falling(4e-4, 1.2, 1, 1e-5);
-  EXPECT_NEAR(share_of_fall(own, pilot), 2.4, 0.02);
+  EXPECT_NEAR(share_of_fall(own, pilot).value(), 2.4, 0.02);
   const StepForecast forecast = forecast_steps(own, std::span(&pilot, 1), 1);
   EXPECT_NEAR(forecast.steps, static_cast<double>(truth.steps.size()), 0.01 * forecast.steps);
   EXPECT_NEAR(forecast.seconds, truth.seconds(), 0.03 * truth.seconds());
@@ -107,7 +107,7 @@ TEST(Forecast, APilotsFallIsTakenOverByItsShare) {
 TEST(Forecast, APilotWhoseStepStaysChangesNothing) {
   const March pilot = falling(1e-3, 0, 1, 1e-6);
   const March own = falling(4e-4, 0, 0.2, 1e-5);
-  EXPECT_EQ(share_of_fall(own, pilot), 1);
+  EXPECT_FALSE(share_of_fall(own, pilot).has_value());
   const double steps = forecast_steps(own, {}, 1).steps;
   EXPECT_NEAR(forecast_steps(own, std::span(&pilot, 1), 1).steps, steps, 1e-6 * steps);
 }
@@ -115,10 +115,8 @@ TEST(Forecast, APilotWhoseStepStaysChangesNothing) {
 TEST(Forecast, WhereElementsAreDeletedTheStepMayComeBack) {
   March pilot = falling(1e-3, 0.5, 1, 1e-6);
   const March own = falling(4e-4, 1.2, 0.6, 1e-5);
-  const double without = forecast_steps(own, std::span(&pilot, 1), 1).steps;
   pilot.steps.back().deleted = 1;
   const StepForecast forecast = forecast_steps(own, std::span(&pilot, 1), 1);
-  EXPECT_NEAR(forecast.most, without, 1e-9 * without);
   EXPECT_LT(forecast.steps, forecast.most);
   EXPECT_GT(forecast.steps, forecast.least);
 }

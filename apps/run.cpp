@@ -67,6 +67,9 @@ void print_outcome(const RunOutcome& outcome) {
   if (deleted > 0)
     fmt::print("deleted: {} elements, energy {:.4g}; free nodes: mass {:.4g} flying, {:.4g} dropped\n",
                deleted, energy.deleted, summary.mass.debris, summary.mass.deleted);
+  if (summary.mass_scaling)
+    fmt::print("mass added to small elements: {:.4g}, {:.3g} % of the mass\n", summary.mass_scaling->added,
+               100 * summary.mass_scaling->share);
   fmt::print("wall time by stage:");
   for (const auto& [stage, seconds] : summary.wall_s.by_stage)
     if (seconds > 0) fmt::print(" {} {:.2f} s", stage, seconds);

@@ -85,6 +85,12 @@ struct Beam2Kernel : Beam2 {
     return {share, bends() ? T(gyration_square()) * share : T(0.0)};
   }
 
+  /// Rotational inertia over mass.
+  template <class Header>
+  double gyration_of(const Header&) const {
+    return bends() ? gyration_square() : 0;
+  }
+
   template <class T, class Law>
   BRIO_INLINE Increment<T> force(const RotatingNodalMotion<T, 2>& motion, T step, const Law& law,
                                  Header<T, Law>& header, Point<T, Law>* point,

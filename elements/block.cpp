@@ -48,6 +48,17 @@ Block make_block(std::string part, const Element& element, const Material& mater
   return block;
 }
 
+bool can_be_scaled(const Element& element) {
+  return !std::holds_alternative<Rigid>(element) && !std::holds_alternative<Particle>(element);
+}
+
+void scale_to(double stable_step, Block& block) {
+  block.scaled_step = stable_step;
+  const std::size_t places = block.pack_count * static_cast<std::size_t>(block.lanes);
+  block.scaled = AlignedBuffer<int>(places);
+  block.mass_gain = AlignedBuffer<double>(places);
+}
+
 HeldEnergy held_energy(const Block& block, std::size_t element) {
   const auto width = static_cast<std::size_t>(block.lanes);
   const double* pack = block.held.data() + element / width * 2 * width;

@@ -55,6 +55,7 @@ struct SweepResult {
   double stable_step = 0;            ///< smallest over the chunk; not positive: an element has broken down
   std::size_t critical_element = 0;  ///< index within the block of the element that sets it
   std::size_t lost = 0;              ///< elements to be deleted, listed in Block::lost
+  std::size_t scaled = 0;            ///< elements that got mass, listed in Block::scaled
 };
 
 struct Block;
@@ -67,6 +68,8 @@ struct BlockKernel {
   void (*initialize)(Block&, Nodes&);
   ElementSample (*sample)(const Block&, const Nodes&, std::size_t element);
   double (*mass)(const Block&, std::size_t element);
+  /// Rotational inertia of a node over its mass, of the element's share of both; 0 where nodes do not turn.
+  double (*gyration)(const Block&, std::size_t element);
   /// Second part of the sweep, when all first parts are done: forces between elements, added to nodes.force
   /// of a chunk's own nodes. Null for elements that act on their own nodes alone.
   /// \returns work since the last step that no first part has booked.
@@ -95,6 +98,11 @@ struct Block {
   AlignedBuffer<double> held;  ///< energy received: [pack][internal, hourglass][lane]
   AlignedBuffer<int> lost;     ///< by chunk from its first place on: places that the last sweep gave up
 
+  /// Stable step up to which elements get mass; 0: none gets any, and the two arrays are empty.
+  double scaled_step = 0;
+  AlignedBuffer<int> scaled;  ///< by chunk from its first place on: places that the last sweep gave mass
+  AlignedBuffer<double> mass_gain;  ///< [place]: mass that the last sweep gave the listed
+
   int node(std::size_t e, int corner) const {
     const auto width = static_cast<std::size_t>(lanes);
     const auto corners = static_cast<std::size_t>(nodes_per_element(element));
@@ -110,6 +118,11 @@ bool accepts(const Element& element, const Material& material);
 /// \throws std::invalid_argument if the law does not fit the element.
 Block make_block(std::string part, const Element& element, const Material& material, Precision precision,
                  std::span<const int> connectivity, const std::optional<Deletion>& deletion = {});
+
+/// True of elements whose mass can be scaled: all that are swept but particles, whose mass is their density.
+bool can_be_scaled(const Element& element);
+/// From now on elements of the block get mass where their stable step is below this. \pre can_be_scaled
+void scale_to(double stable_step, Block& block);
 
 /// Energy that an element has received. \pre block.loses_elements
 struct HeldEnergy {

@@ -202,8 +202,12 @@ struct ParticleKernels {
   template <class Law>
   static void set(Block& block) {
     block.pack_bytes = PackLayout<ParticleKernel, Law, double>::bytes({});
-    block.kernel = {sweep_particles<Law>, initialize_particles<Law>, sample_particle<Law>,
-                    mass_of_element<ParticleKernel, Law, double>, exchange_pair_forces};
+    block.kernel = {sweep_particles<Law>,
+                    initialize_particles<Law>,
+                    sample_particle<Law>,
+                    mass_of_element<ParticleKernel, Law, double>,
+                    nullptr,
+                    exchange_pair_forces};
     block.loses_elements = can_fail<Law> || block.deletion.names_a_criterion();
   }
 };

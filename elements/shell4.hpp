@@ -102,6 +102,12 @@ struct Shell4 {
     return {share, share * gyration};
   }
 
+  /// Rotational inertia over mass.
+  template <class Header>
+  double gyration_of(const Header& header) const {
+    return 1 / header.inverse_gyration;
+  }
+
   template <class T, class Law>
   BRIO_INLINE Increment<T> force(const RotatingNodalMotion<T, 4>& motion, T step, const Law& law,
                                  Header<T, Law>& header, Point<T, Law>* point,

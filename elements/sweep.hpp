@@ -32,6 +32,7 @@
 #include "elements/block.hpp"
 #include "elements/gather.hpp"
 #include "elements/lose.hpp"
+#include "elements/scale_mass.hpp"
 #include "src/base/fetch_ahead.hpp"
 
 namespace brio {
@@ -244,6 +245,8 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
       }
       hold<Real>(increment, block.held.data() + pack * 2 * width);
     }
+    if (block.scaled_step > 0)
+      scale_mass<Real>(block, chunk, pack, count, Layout::header(block, pack), increment.stable_step, result);
     if (count == width) {
       scatter<Kind, Real>(nodes, connectivity, forces);
     } else {
@@ -368,10 +371,23 @@ double mass_of_element(const Block& block, std::size_t e) {
 }
 
 template <class Kind, class Law, Floating Real>
+double gyration_of_element(const Block& block, std::size_t e) {
+  if constexpr (Kind::rotations) {
+    typename Kind::template Header<double, Law> header;
+    copy_lane<decltype(header), Real>(block.state.data() + (e / lane_count<Real>)*block.pack_bytes,
+                                      static_cast<int>(e % lane_count<Real>), &header);
+    return kernel_of<Kind>(block.element).gyration_of(header);
+  } else {
+    return 0;
+  }
+}
+
+template <class Kind, class Law, Floating Real>
 void set_kernel(Block& block) {
   block.pack_bytes = PackLayout<Kind, Law, Real>::bytes(kernel_of<Kind>(block.element));
-  block.kernel = {sweep_chunk<Kind, Law, Real>, initialize_block<Kind, Law, Real>,
-                  sample_element<Kind, Law, Real>, mass_of_element<Kind, Law, Real>, nullptr};
+  block.kernel = {sweep_chunk<Kind, Law, Real>,         initialize_block<Kind, Law, Real>,
+                  sample_element<Kind, Law, Real>,      mass_of_element<Kind, Law, Real>,
+                  gyration_of_element<Kind, Law, Real>, nullptr};
   block.loses_elements = can_fail<Law> || block.deletion.names_a_criterion();
 }
 

@@ -69,24 +69,29 @@ Mesh mesh_of(const PlateMesh& plate) {
 
 Mesh mesh_of(const CylinderMesh& cylinder) {
   const auto [around, along] = cylinder.elements;
+  const int row = cylinder.arc ? around + 1 : around;  // of nodes
+  const double turn = cylinder.arc ? *cylinder.arc / 180 * std::numbers::pi : 2 * std::numbers::pi;
   Mesh mesh;
   mesh.nodes_per_element = 4;
   for (int k = 0; k <= along; ++k)
-    for (int j = 0; j < around; ++j) {
-      const double angle = 2 * std::numbers::pi * j / around;
+    for (int j = 0; j < row; ++j) {
+      const double angle = turn * j / around;
       mesh.position.push_back({cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle),
                                cylinder.height * k / along});
     }
   for (int k = 0; k < along; ++k)
     for (int j = 0; j < around; ++j) {
-      const int next = (j + 1) % around;
-      for (const int node :
-           {j + around * k, next + around * k, next + around * (k + 1), j + around * (k + 1)})
+      const int next = (j + 1) % row;
+      for (const int node : {j + row * k, next + row * k, next + row * (k + 1), j + row * (k + 1)})
         mesh.connectivity.push_back(node);
     }
-  for (int j = 0; j < around; ++j) {
+  for (int j = 0; j < row; ++j) {
     mesh.node_sets["bottom"].push_back(j);
-    mesh.node_sets["top"].push_back(j + around * along);
+    mesh.node_sets["top"].push_back(j + row * along);
+  }
+  for (int k = 0; cylinder.arc && k <= along; ++k) {
+    mesh.node_sets["start"].push_back(row * k);
+    mesh.node_sets["end"].push_back(row * k + around);
   }
   mesh.node_sets["all"] = every_node(mesh);
   mesh.side_sets["all"] = every_shell(mesh);
@@ -176,7 +181,10 @@ Names node_names(const BoxMesh&) {
   return {"all", "bottom", "top", "xmax", "xmin", "ymax", "ymin", "zmax", "zmin"};
 }
 Names node_names(const PlateMesh&) { return {"all", "boundary", "xmax", "xmin", "ymax", "ymin"}; }
-Names node_names(const CylinderMesh&) { return {"all", "bottom", "top"}; }
+Names node_names(const CylinderMesh& cylinder) {
+  if (cylinder.arc) return {"all", "bottom", "end", "start", "top"};
+  return {"all", "bottom", "top"};
+}
 Names node_names(const TubeMesh&) { return {"all", "bottom", "inside", "outside", "top"}; }
 Names node_names(const RodMesh&) { return {"all", "bottom", "outside", "top"}; }
 Names node_names(const WedgeMesh& wedge) {

@@ -147,8 +147,8 @@ void read_value(const YamlNode& node, const Slot& slot, Curve& curve) {
 void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition) {
   read_fields(node, slot, condition, {"part", "set"});
   read_where(node, slot, "an initial condition", condition.where);
-  if (node.find("velocity") == nullptr && node.find("spin") == nullptr)
-    throw DeckError(node.place, "nothing is given at the start; accepted: velocity, spin");
+  if (node.find("velocity") == nullptr && node.find("spin") == nullptr && node.find("radial") == nullptr)
+    throw DeckError(node.place, "nothing is given at the start; accepted: velocity, spin, radial");
 }
 
 void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition) {

@@ -16,6 +16,20 @@ static void read_value(const YamlNode& node, const Slot& slot, Settings& setting
     settings.overrides.push_back(entry.key + "=" + write_flow_yaml(*entry.value));
 }
 
+// Names of settings become names of folders, and tell of values: dots are welcome.
+static void read_value(const YamlNode& node, const Slot& slot, NamedSettings& settings) {
+  require_map(node, slot);
+  for (const YamlEntry& entry : node.entries) {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+    if (entry.key.empty() || entry.key.find_first_not_of(letters) != std::string::npos)
+      throw DeckError(
+          entry.place,
+          "'" + entry.key + "' is not a name of a setting; letters, digits, '_', '-' and '.' are accepted");
+    settings.emplace_back(entry.key, Settings{});
+    read_value(*entry.value, {entry.key, any_number, slot.known}, settings.back().second);
+  }
+}
+
 namespace {
 
 void check_settings(const YamlNode& knobs) {

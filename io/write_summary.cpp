@@ -74,6 +74,10 @@ std::string summary_json(const Summary& summary) {
             {"threads", summary.threads},
             {"active_features", summary.active_features}};
   if (summary.ties) json["ties"] = {{"nodes", summary.ties->nodes}, {"released", summary.ties->released}};
+  if (summary.mass_scaling)
+    json["mass_scaling"] = {{"added", summary.mass_scaling->added},
+                            {"share", summary.mass_scaling->share},
+                            {"parts", summary.mass_scaling->parts}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -101,6 +101,12 @@ void sweep_elements(Model& model, ThreadTeam& team) {
                     std::to_string(model.times.time));
 }
 
+void add_mass(Model& model) {
+  if (!model.added_mass) return;
+  hand_out(*model.added_mass, model.schedule, model.sweep_results, model.blocks, model.parts, model.nodes,
+           model.energy, model.momentum, model.step == 0);
+}
+
 // A step that follows the stable step through every vibration is in time with that vibration and feeds it
 // (Skeel 1993, Variable step size destabilizes the Stoermer/leapfrog/Verlet method): it comes down at once,
 // but goes up only by what the least bound of a whole window leaves, and only where that is worth it.
@@ -297,6 +303,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   }
   apply_loads(model);
   sweep_elements(model, team);
+  add_mass(model);
   erode_elements(model, team);
   gather_tied_forces(model);
   choose_step(model);

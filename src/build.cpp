@@ -127,6 +127,18 @@ void lump_masses(std::span<const Mesh> meshes, Model& model) {
   }
 }
 
+Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record) {
+  Vector arm{};
+  for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - radial.point[i];
+  const double along = dot(arm, radial.axis) / dot(radial.axis, radial.axis);
+  for (std::size_t i = 0; i < 3; ++i) arm[i] -= along * radial.axis[i];
+  const double distance = std::sqrt(dot(arm, arm));
+  if (!(distance > 0))
+    throw BuildError("a node on the axis of 'radial' in initial_conditions has no direction to move in");
+  for (double& component : arm) component *= radial.speed / distance;
+  return arm;
+}
+
 void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   for (const InitialCondition& condition : deck.initial_conditions) {
     std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
@@ -143,6 +155,7 @@ void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, Mode
           for (std::size_t i = 0; i < 3; ++i)
             model.nodes.angular_velocity[node].component[i] = condition.spin->angular_velocity[i];
       }
+      if (condition.radial) add_to(velocity, radial_velocity(*condition.radial, record));
       for (std::size_t i = 0; i < 3; ++i) record.velocity[i] = velocity[i];
     }
   }
@@ -348,6 +361,8 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   if (can_erode(model.blocks)) model.erosion = make_erosion(model.blocks, model.nodes.size());
   model.kinetic_sums.resize(range_count(model.nodes));
   model.control.settings = deck.time;
+  if (deck.time.mass_scaling)
+    model.added_mass = make_mass_scaling(deck.time, deck, model.blocks, model.parts);
   set_initial_velocities(deck, meshes, model);
   start_ties(model);
   start_rigid_bodies(deck, meshes, model);

@@ -114,6 +114,10 @@ void start_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& m
     std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
     for (const std::size_t b : take_rigid(nodes, model)) {
       motion[b].velocity = Vector3d(condition.velocity.data());
+      if (condition.radial)
+        throw BuildError(
+            "'radial' in initial_conditions names nodes of a rigid part, which moves as a whole; "
+            "accepted for it: velocity, spin");
       if (!condition.spin) continue;
       motion[b].angular_velocity = Vector3d(condition.spin->angular_velocity.data());
       motion[b].velocity += motion[b].angular_velocity.cross(model.rigid.body[b].centre -

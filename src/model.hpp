@@ -15,6 +15,7 @@
 #include "src/erosion.hpp"
 #include "src/ledger.hpp"
 #include "src/loads.hpp"
+#include "src/mass_scaling.hpp"
 #include "src/merge.hpp"
 #include "src/motion.hpp"
 #include "src/particles.hpp"
@@ -62,6 +63,8 @@ struct Model {
 
   std::optional<Erosion> erosion;                 ///< if elements can be deleted
   std::optional<SurfaceNumbers> surface_numbers;  ///< if elements can be deleted and the deck names contact
+
+  std::optional<AddedMass> added_mass;  ///< if the deck asks for mass scaling
 
   EnergyBook energy;
   MomentumBook momentum;

@@ -243,6 +243,7 @@ std::vector<std::string> history_columns(const Model& model) {
   for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p)
     for (const char* axis : {".velocity_x", ".velocity_y", ".velocity_z"})
       columns.push_back(model.parts[p].name + axis);
+  if (model.added_mass) columns.emplace_back("added_mass");
   return columns;
 }
 
@@ -265,6 +266,7 @@ void observe_history(Model& model, std::vector<double>& row) {
     const Vector velocity = mean_velocity(model.parts[p], model.nodes, model.rigid, model.ties.moved_mass);
     row.insert(row.end(), velocity.begin(), velocity.end());
   }
+  if (model.added_mass) row.push_back(model.added_mass->total());
 }
 
 std::vector<std::string> active_features(const Model& model) {
@@ -286,6 +288,7 @@ std::vector<std::string> active_features(const Model& model) {
     if (scene.lines && !scene.lines->candidates.line.empty()) features.insert("line_contact");
   if (can_be_damaged(model)) features.insert("failure");
   if (model.erosion) features.insert("deletion");
+  if (model.added_mass) features.insert("mass_scaling");
   return {features.begin(), features.end()};
 }
 
@@ -308,6 +311,7 @@ Summary observe_end(Model& model) {
     if (model.erosion) count_of(element, summary.deleted) += model.erosion->deleted_count[part.block];
   }
   summary.mass.intact = summary.mass.start;
+  if (model.added_mass) summary.mass.intact += model.added_mass->total();
   if (model.erosion) {
     const MassBalance balance = mass_balance(*model.erosion, model.nodes);
     summary.mass.intact = rigid_mass + balance.intact;
@@ -341,6 +345,13 @@ Summary observe_end(Model& model) {
     summary.contact.lines = static_cast<std::int64_t>(lines.line.size());
     summary.contact.line_comparisons = static_cast<std::int64_t>(lines.counts.comparisons);
     summary.contact.line_candidate_pairs = static_cast<std::int64_t>(lines.counts.candidate_pairs);
+  }
+  if (model.added_mass) {
+    const AddedMass& mass = *model.added_mass;
+    Summary::MassScaling& scaling = summary.mass_scaling.emplace();
+    scaling = {.added = mass.total(), .share = mass.share(), .parts = {}};
+    for (std::size_t p = 0; p < model.parts.size(); ++p)
+      if (mass.added[p] > 0) scaling.parts[model.parts[p].name] = mass.added[p];
   }
   if (!model.ties.found.empty()) {
     Summary::TieCounts& ties = summary.ties.emplace();

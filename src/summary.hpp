@@ -45,6 +45,10 @@ struct Summary {
     std::int64_t nodes = 0;     ///< held at the start
     std::int64_t released = 0;  ///< of these, because elements were deleted
   };
+  struct MassScaling {
+    double added = 0, share = 0;  ///< share: over the mass of all elements at the start
+    std::map<std::string, double> parts;
+  };
   struct WallTimes {
     double total = 0;  ///< seconds
     std::map<std::string, double> by_stage;
@@ -64,7 +68,8 @@ struct Summary {
   Masses mass;
   Momenta momentum;
   ContactCounts contact;
-  std::optional<TieCounts> ties;  ///< where the deck ties something
+  std::optional<TieCounts> ties;            ///< where the deck ties something
+  std::optional<MassScaling> mass_scaling;  ///< where the deck asks for it
   WallTimes wall_s;
   double element_updates_per_s = 0;
   double peak_memory_mb = 0;

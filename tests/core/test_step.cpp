@@ -213,6 +213,28 @@ TEST(Step, ConstantStepAboveTheStableOneIsRefused) {
   EXPECT_THROW(run(model, deck, team), Breakdown);
 }
 
+TEST(Step, RadialVelocityPointsAwayFromItsAxis) {
+  Deck deck;
+  deck.materials = {{"material", elastic()}};
+  deck.parts = {box("bar", {1, 1, 2}, {3, 3, 2}, {0.25, -0.5, 0}, hex8())};
+  InitialCondition burst;
+  burst.where.set = "bar";
+  burst.velocity = {0, 0, 3};
+  burst.radial = RadialVelocity{{0.25, -0.5, 7}, {0, 0, -2}, -10};
+  deck.initial_conditions = {burst};
+  deck.time.end = 1;
+  const Model model = build_model(deck);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const NodeRecord& node = model.nodes.record[i];
+    const double x = node.position[0] - 0.25, y = node.position[1] + 0.5, r = std::hypot(x, y);
+    EXPECT_NEAR(node.velocity[0], -10 * x / r, 1e-14);
+    EXPECT_NEAR(node.velocity[1], -10 * y / r, 1e-14);
+    EXPECT_EQ(node.velocity[2], 3);
+  }
+  std::get<BoxMesh>(deck.parts[0].mesh).elements = {2, 2, 2};
+  EXPECT_THROW(build_model(deck), BuildError) << "a node on the axis";
+}
+
 TEST(Step, InvertedElementStopsTheRunAndIsNamed) {
   Deck deck = bar(4, 0, hex8());
   deck.time.end = 1e-3;

@@ -178,6 +178,31 @@ TEST(GenerateMesh, PlateIsFlatAndLooksUp) {
   }
 }
 
+TEST(GenerateMesh, ArcOfACylinderBeginsAtTheXAxis) {
+  CylinderMesh panel{2, 3, {6, 4}};
+  panel.arc = 120;
+  const Mesh mesh = mesh_of(panel);
+  EXPECT_EQ(mesh.position.size(), 7u * 5u);
+  EXPECT_EQ(mesh.connectivity.size(), 4u * 6u * 4u);
+  EXPECT_EQ(mesh.node_sets.at("start").size(), 5u);
+  for (const int node : mesh.node_sets.at("start"))
+    EXPECT_EQ(mesh.position[static_cast<std::size_t>(node)][1], 0);
+  for (const int node : mesh.node_sets.at("end")) {
+    const Triple& x = mesh.position[static_cast<std::size_t>(node)];
+    EXPECT_NEAR(x[0], 2 * std::cos(2 * std::numbers::pi / 3), 1e-14);
+    EXPECT_NEAR(x[1], 2 * std::sin(2 * std::numbers::pi / 3), 1e-14);
+  }
+  EXPECT_EQ(mesh.node_sets.at("top").size(), 7u);
+  EXPECT_EQ(node_set_names(panel), (std::vector<std::string_view>{"all", "bottom", "end", "start", "top"}));
+  // As a closed one winds, so that normals point outwards.
+  const auto corner = [&](std::size_t k) {
+    return mesh.position[static_cast<std::size_t>(mesh.connectivity[k])];
+  };
+  const Triple a = corner(0), b = corner(1), d = corner(3);
+  const double outwards = (b[1] - a[1]) * (d[2] - a[2]) * a[0] - (b[0] - a[0]) * (d[2] - a[2]) * a[1];
+  EXPECT_GT(outwards, 0);
+}
+
 TEST(GenerateMesh, CylinderIsClosedAroundAndOpenAtItsEnds) {
   const int around = 96, along = 60;
   const Mesh can = mesh_of(CylinderMesh{5.125, 15, {around, along}});

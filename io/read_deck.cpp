@@ -1,5 +1,6 @@
 #include "io/read_deck.hpp"
 
+#include "io/preset.hpp"
 #include "io/read_fields.hpp"
 #include "io/yaml_source.hpp"
 
@@ -28,12 +29,14 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
   if (!root->is_map())
     throw DeckError(root->place, "the deck is " + describe(*root) + "; a map of keys is expected");
   for (const std::string& setting : overrides) root = override_value(root, setting);
+  const std::shared_ptr<const YamlNode> as_said = root;
+  root = with_preset(root);
   Deck deck;
   deck.file = name;
   const KnownNames known(deck);
   read_fields(*root, Slot{"deck", any_number, known}, deck);
   check_precision(deck, *root);
-  deck.text = overrides.empty() ? text : write_yaml(*root);
+  deck.text = overrides.empty() && root == as_said ? text : write_yaml(*root);
   return deck;
 }
 

@@ -64,7 +64,6 @@ std::string verdict(const StudyTable& table) {
 
 std::string study_text(const StudyTable& table) {
   std::string text;
-  if (!table.study.title.empty()) text += table.study.title + "\n\n";
   text += "| run | processor s | MB | steps | error |";
   for (const Quantity& quantity : table.study.quantities) text += fmt::format(" {} |", quantity.name);
   text += " |\n| --- | --- | --- | --- | --- |";
@@ -86,7 +85,11 @@ std::string study_text(const StudyTable& table) {
 void write_study_table(const StudyTable& table, const std::filesystem::path& folder,
                        const std::string& name) {
   replace_text_file(folder / (name + ".csv"), {csv(table)});
-  replace_text_file(folder / (name + ".md"), {study_text(table)});
+  const std::string title = table.study.title.empty() ? name : table.study.title;
+  const std::string pictures =
+      fmt::format("![cost against error]({0}.front.svg)\n\n![each knob alone]({0}.knobs.svg)\n\n", name);
+  const std::string advice = table.study.advice.empty() ? "" : table.study.advice + "\n\n";
+  replace_text_file(folder / (name + ".md"), {"## ", title, "\n\n", advice, pictures, study_text(table)});
 }
 
 }  // namespace brio

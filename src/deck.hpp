@@ -381,11 +381,20 @@ struct OutputSection {
   }
 };
 
+/// Values for what a deck leaves open, as measured (docs/tradeoffs.md).
+enum class Preset { fast, balanced, accurate };
+constexpr std::array<NamedValue<Preset>, 3> named_values(Preset) {
+  return {{{"fast", Preset::fast}, {"balanced", Preset::balanced}, {"accurate", Preset::accurate}}};
+}
+
 struct NumericsSection {
+  Preset preset = Preset::balanced;
   Precision precision = Precision::double_precision;
   double energy_error_limit = 0.1;
   static constexpr auto fields() {
     return std::tuple{
+        optional("preset", &NumericsSection::preset, any_number,
+                 "settings for what the deck leaves open; balanced: the defaults of this reference"),
         optional("precision", &NumericsSection::precision, any_number, "of element and material kernels"),
         optional("energy_error_limit", &NumericsSection::energy_error_limit, positive,
                  "relative energy error at which the run stops with exit code 3, -")};

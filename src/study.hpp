@@ -106,6 +106,7 @@ using NamedSettings = std::vector<std::pair<std::string, Settings>>;
 
 struct Study {
   std::string title;
+  std::string advice;
   std::string deck;
   Settings set;
   std::vector<Quantity> quantities;
@@ -118,6 +119,7 @@ struct Study {
   static constexpr auto fields() {
     return std::tuple{
         optional("title", &Study::title, any_number, "one line, for people"),
+        optional("advice", &Study::advice, any_number, "what follows from the table, for people"),
         required("deck", &Study::deck, any_number, "the deck, from the folder of the study"),
         optional("set", &Study::set, any_number, "overrides of the deck, for all runs: KEY.PATH: VALUE"),
         required("quantities", &Study::quantities, any_number, "what is looked at in each result"),

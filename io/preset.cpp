@@ -1,0 +1,105 @@
+#include "io/preset.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace brio {
+
+namespace {
+
+using NodePointer = std::shared_ptr<const YamlNode>;
+
+struct Setting {
+  std::string_view path;
+  std::string_view value;
+};
+struct ElementSetting {
+  std::string_view type, key, value;
+};
+struct PresetValues {
+  std::string_view name;
+  std::span<const Setting> settings;
+  std::span<const ElementSetting> elements;
+};
+
+// What each of these costs and buys: docs/tradeoffs.md.
+constexpr Setting fast_settings[] = {
+    {"numerics.precision", "float"}, {"contact.passes", "2"}, {"time.step_scale", "0.95"}};
+constexpr ElementSetting fast_elements[] = {{"hex8", "objective_rate", "jaumann"},
+                                            {"shell4", "thickness_points", "3"}};
+constexpr Setting accurate_settings[] = {{"contact.passes", "10"}, {"time.step_scale", "0.7"}};
+constexpr ElementSetting accurate_elements[] = {{"shell4", "thickness_points", "7"},
+                                                {"shell4", "warping_projection", "true"}};
+constexpr PresetValues presets[] = {{"fast", fast_settings, fast_elements},
+                                    {"accurate", accurate_settings, accurate_elements}};
+
+const YamlNode* at(const YamlNode& root, std::string_view path) {
+  const std::size_t dot = path.find('.');
+  const YamlEntry* entry = root.is_map() ? root.find(path.substr(0, dot)) : nullptr;
+  if (entry == nullptr) return nullptr;
+  return dot == std::string_view::npos ? entry->value.get() : at(*entry->value, path.substr(dot + 1));
+}
+
+// Name of an element's kind, given as a word or as the `type` of a map.
+std::string_view type_of(const YamlNode& element) {
+  if (element.is_scalar()) return element.text;
+  const YamlNode* type = at(element, "type");
+  return type != nullptr && type->is_scalar() ? std::string_view(type->text) : std::string_view();
+}
+
+bool has_particles(const YamlNode& parts) {
+  return std::any_of(parts.entries.begin(), parts.entries.end(), [](const YamlEntry& part) {
+    const YamlNode* element = at(*part.value, "element");
+    return element != nullptr && type_of(*element) == "particle";
+  });
+}
+
+std::string joined(std::string_view path, std::string_view value) {
+  return std::string(path) + "=" + std::string(value);
+}
+
+NodePointer with_element_setting(const NodePointer& root, const YamlEntry& part,
+                                 const ElementSetting& setting) {
+  const YamlNode* element = at(*part.value, "element");
+  if (element == nullptr || type_of(*element) != setting.type) return root;
+  const std::string path = "parts." + part.key + ".element";
+  if (element->is_scalar())
+    return override_value(root, path + "={type: " + element->text + ", " + std::string(setting.key) + ": " +
+                                    std::string(setting.value) + "}");
+  if (at(*element, setting.key) != nullptr) return root;
+  return override_value(root, joined(path + "." + std::string(setting.key), setting.value));
+}
+
+NodePointer with_setting(const NodePointer& root, const Setting& setting) {
+  const std::string_view section = setting.path.substr(0, setting.path.find('.'));
+  const YamlNode* there = at(*root, section);
+  // A preset switches nothing on; and particles are computed in double alone.
+  if (there == nullptr || !there->is_map() || at(*root, setting.path) != nullptr) return root;
+  const YamlNode* parts = at(*root, "parts");
+  if (setting.path == "numerics.precision" && parts != nullptr && parts->is_map() && has_particles(*parts))
+    return root;
+  if (setting.path == "time.step_scale" && at(*root, "time.step") != nullptr) return root;
+  return override_value(root, joined(setting.path, setting.value));
+}
+
+}  // namespace
+
+NodePointer with_preset(const NodePointer& root) {
+  const YamlNode* name = at(*root, "numerics.preset");
+  if (name == nullptr || !name->is_scalar()) return root;
+  const auto preset = std::find_if(std::begin(presets), std::end(presets),
+                                   [&](const PresetValues& values) { return values.name == name->text; });
+  if (preset == std::end(presets)) return root;
+  NodePointer result = root;
+  for (const Setting& setting : preset->settings) result = with_setting(result, setting);
+  const YamlNode* parts = at(*root, "parts");
+  if (parts == nullptr || !parts->is_map()) return result;
+  for (const ElementSetting& setting : preset->elements) {
+    const NodePointer before = result;
+    for (const YamlEntry& part : at(*before, "parts")->entries)
+      result = with_element_setting(result, part, setting);
+  }
+  return result;
+}
+
+}  // namespace brio

@@ -56,6 +56,15 @@ void check_references(const CheckedStudy& checked, const YamlNode& root) {
                           "the name of a reference run");
 }
 
+void check_refined(const CheckedStudy& checked, const YamlNode& root) {
+  const std::string& refined = checked.study.refined;
+  std::vector<std::string_view> names;
+  for (const auto& [knob, settings] : checked.study.knobs) names.push_back(knob);
+  if (refined.empty() || std::find(names.begin(), names.end(), refined) != names.end()) return;
+  throw DeckError(root.find("refined")->value->place,
+                  "no knob is called '" + refined + "'; " + accepted_words(refined, names));
+}
+
 void check_scales(const CheckedStudy& checked, const YamlNode& root) {
   for (const Quantity& quantity : checked.study.quantities)
     if (quantity.reference == 0.0 && !quantity.scale)
@@ -106,6 +115,7 @@ CheckedStudy read_study(const std::string& path) {
   }
   check_references(checked, *root);
   check_scales(checked, *root);
+  check_refined(checked, *root);
   read_decks(checked);
   check_parts(checked, *root);
   return checked;

@@ -1,8 +1,10 @@
 #include "io/write_study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+#include <vector>
 
 #include "io/text_file.hpp"
 
@@ -39,13 +41,33 @@ std::string csv(const StudyTable& table) {
   return text;
 }
 
-std::string remarks(const StudyRow& row) {
-  std::string text;
-  if (row.exit_code != 0) text = fmt::format("ended with {}: {}", row.exit_code, row.message);
-  if (row.is_reference) text += "reference";
-  if (row.on_front && !row.is_reference) text += "front";
-  if (row.beats_default) text += "; beats the default";
-  return text;
+std::string remarks(const StudyTable& table, const StudyRow& row) {
+  std::vector<std::string> remarks;
+  if (row.exit_code != 0) remarks.push_back(fmt::format("ended with {}: {}", row.exit_code, row.message));
+  if (row.is_reference) remarks.emplace_back("reference");
+  if (row.on_front && !row.is_reference) remarks.emplace_back("front");
+  if (row.beats_default) remarks.emplace_back("beats the default");
+  for (std::size_t q = 0; q < row.errors.size(); ++q) {
+    const Quantity& quantity = table.study.quantities[q];
+    if (quantity.tolerance && row.errors[q] > *quantity.tolerance)
+      remarks.push_back(fmt::format("{} beyond {}", quantity.name, percent(*quantity.tolerance)));
+  }
+  return fmt::format("{}", fmt::join(remarks, "; "));
+}
+
+// Of each quantity, from each mesh to the next one of half the size.
+std::string orders(const StudyTable& table) {
+  if (table.study.refined.empty()) return {};
+  std::vector<const StudyRow*> meshes;
+  for (const StudyRow& row : table.rows)
+    if (row.run.knob == table.study.refined) meshes.push_back(&row);
+  std::string text = "\nOrder of convergence, from each mesh to the next:";
+  for (std::size_t q = 0; q < table.study.quantities.size(); ++q) {
+    text += fmt::format("{} {}", q == 0 ? "" : ";", table.study.quantities[q].name);
+    for (std::size_t i = 0; i + 1 < meshes.size(); ++i)
+      text += fmt::format(" {:.2f}", std::log2(meshes[i]->errors[q] / meshes[i + 1]->errors[q]));
+  }
+  return text + ".\n";
 }
 
 std::string verdict(const StudyTable& table) {
@@ -76,9 +98,10 @@ std::string study_text(const StudyTable& table) {
                         row.peak_memory_mb, row.steps, percent(row.error));
     for (std::size_t q = 0; q < row.figures.size(); ++q)
       text += fmt::format(" {} ({}) |", figure(row.figures[q]), percent(row.errors[q]));
-    text += fmt::format(" {} |\n", remarks(row));
+    text += fmt::format(" {} |\n", remarks(table, row));
   }
-  text += "\nError: root mean square of those of the quantities, which stand in brackets.\n" + verdict(table);
+  text += "\nError: root mean square of those of the quantities, which stand in brackets.\n" +
+          verdict(table) + orders(table);
   return text;
 }
 

@@ -52,7 +52,8 @@ struct Quantity {
   std::optional<double> rate_over;
   bool whole_run = false;
   double factor = 1;
-  std::optional<double> reference, scale;
+  std::optional<double> reference, scale, tolerance;
+  std::string source;
 
   static constexpr auto fields() {
     return std::tuple{
@@ -79,7 +80,9 @@ struct Quantity {
         optional("factor", &Quantity::factor, any_number, "multiplies the figure, such as 0.5 or -1"),
         optional("reference", &Quantity::reference, any_number,
                  "what it should be: exact or published; default: that of the reference run"),
-        optional("scale", &Quantity::scale, positive, "errors are over this; default: over the reference")};
+        optional("scale", &Quantity::scale, positive, "errors are over this; default: over the reference"),
+        optional("tolerance", &Quantity::tolerance, positive, "error up to which a run passes, -"),
+        optional("source", &Quantity::source, any_number, "where the reference is from, for people")};
   }
   constexpr std::string_view fault() const {
     if (int{history.has_value()} + int{field.has_value()} + int{summary.has_value()} != 1)
@@ -113,6 +116,7 @@ struct Study {
   std::string reference;
   std::vector<std::pair<std::string, NamedSettings>> knobs;
   std::vector<std::vector<std::string>> combinations;
+  std::string refined;
   int threads = 1;
   int repeats = 1;
 
@@ -129,6 +133,9 @@ struct Study {
                  "a map of knobs, each a map of settings, each a map of overrides of the deck"),
         optional("combinations", &Study::combinations, any_number,
                  "lists of KNOB.SETTING that are run together"),
+        optional(
+            "refined", &Study::refined, any_number,
+            "a knob whose settings halve the mesh size one after the other: orders of convergence are told"),
         optional("threads", &Study::threads, at_least_one, "of each run"),
         optional("repeats", &Study::repeats, at_least_one, "of each run; the cheapest counts")};
   }

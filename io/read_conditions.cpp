@@ -172,6 +172,11 @@ void read_value(const YamlNode& node, const Slot& slot, Load& load) {
   throw DeckError(node.place, "nothing is said about the load; " + accepted_words("", names_of(load)));
 }
 
+void read_value(const YamlNode& node, const Slot& slot, Probe& probe) {
+  read_fields(node, slot, probe);
+  if (probe.part) slot.known.part(*node.find("part")->value, *probe.part);
+}
+
 namespace {
 
 void read_connection(const YamlNode& node, const Slot& slot, Merge& merge) {

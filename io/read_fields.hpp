@@ -64,6 +64,7 @@ void read_value(const YamlNode& node, const Slot& slot, Load& load);
 void read_value(const YamlNode& node, const Slot& slot, Connection& connection);
 void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair);
 void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact);
+void read_value(const YamlNode& node, const Slot& slot, Probe& probe);
 
 /// \throws DeckError "KEY is ...; WANTED is expected".
 [[noreturn]] void refuse(const YamlNode& node, const Slot& slot, const std::string& wanted);

@@ -368,6 +368,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   start_rigid_bodies(deck, meshes, model);
   load(deck, meshes, model);
   open_books(model);
+  model.probes = place_probes(deck, model.parts, model.nodes);
   return model;
 }
 

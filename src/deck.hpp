@@ -364,11 +364,27 @@ struct FieldOutput {
     return every && !times.empty() ? "both 'every' and 'times' are given; one of them is accepted" : "";
   }
 };
+/// A node that is watched at every row of the history.
+struct Probe {
+  std::string name;
+  Triple point{};
+  std::optional<std::string> part;
+  static constexpr auto fields() {
+    return std::tuple{
+        required("point", &Probe::point, any_number, "the node that is nearest to it at the start"),
+        optional("part", &Probe::part, any_number, "of this part only; default: of all")};
+  }
+};
+
 struct HistoryOutput {
   std::optional<double> every;
+  std::vector<Probe> probes;
   static constexpr auto fields() {
-    return std::tuple{optional("every", &HistoryOutput::every, positive,
-                               "time between rows; default: a thousandth of the end time")};
+    return std::tuple{
+        optional("every", &HistoryOutput::every, positive,
+                 "time between rows; default: a thousandth of the end time"),
+        optional("probes", &HistoryOutput::probes, any_number,
+                 "a map of names to nodes whose displacement and velocity are written as well")};
   }
 };
 struct OutputSection {

@@ -19,6 +19,7 @@
 #include "src/merge.hpp"
 #include "src/motion.hpp"
 #include "src/particles.hpp"
+#include "src/probes.hpp"
 #include "src/rigid.hpp"
 #include "src/schedule.hpp"
 #include "src/stage_times.hpp"
@@ -68,6 +69,7 @@ struct Model {
 
   EnergyBook energy;
   MomentumBook momentum;
+  std::vector<ProbeInRun> probes;           ///< one a probe of the deck
   std::vector<KineticEnergy> kinetic_sums;  ///< one a range of nodes
   StageTimes stages;
 };

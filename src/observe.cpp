@@ -244,6 +244,7 @@ std::vector<std::string> history_columns(const Model& model) {
     for (const char* axis : {".velocity_x", ".velocity_y", ".velocity_z"})
       columns.push_back(model.parts[p].name + axis);
   if (model.added_mass) columns.emplace_back("added_mass");
+  add_columns(model.probes, columns);
   return columns;
 }
 
@@ -267,6 +268,7 @@ void observe_history(Model& model, std::vector<double>& row) {
     row.insert(row.end(), velocity.begin(), velocity.end());
   }
   if (model.added_mass) row.push_back(model.added_mass->total());
+  add_values(model.probes, model.nodes, row);
 }
 
 std::vector<std::string> active_features(const Model& model) {

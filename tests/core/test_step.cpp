@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
+#include "src/observe.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -211,6 +213,32 @@ TEST(Step, ConstantStepAboveTheStableOneIsRefused) {
   Model model = build_model(deck);
   ThreadTeam team(1);
   EXPECT_THROW(run(model, deck, team), Breakdown);
+}
+
+TEST(Step, ProbesWatchTheNodesThatAreNearest) {
+  Deck deck;
+  deck.materials = {{"material", elastic()}};
+  deck.parts = {box("still", {1, 1, 1}, {2, 2, 2}, {0, 0, 0}, hex8()),
+                box("flying", {1, 1, 1}, {2, 2, 2}, {1.2, 0, 0}, hex8())};
+  deck.initial_conditions = {moving("flying", {3, -4, 5})};
+  deck.time.end = 0.125;
+  // 0.6 lies between the two: the nearer one is that of the part on its right.
+  deck.output.history.probes = {{"any", {0.61, 0.1, 0.1}, {}}, {"left", {0.61, 0.1, 0.1}, "still"}};
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  run(model, deck, team);
+  const std::vector<std::string> columns = history_columns(model);
+  std::vector<double> row;
+  observe_history(model, row);
+  ASSERT_EQ(row.size(), columns.size());
+  const auto value = [&](const std::string& column) {
+    return row[static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin())];
+  };
+  EXPECT_NEAR(value("any.displacement_x"), 0.375, 1e-12);
+  EXPECT_NEAR(value("any.displacement_z"), 0.625, 1e-12);
+  EXPECT_NEAR(value("any.velocity_y"), -4, 1e-12);
+  EXPECT_EQ(value("left.displacement_x"), 0);
+  EXPECT_EQ(value("left.velocity_z"), 0);
 }
 
 TEST(Step, RadialVelocityPointsAwayFromItsAxis) {

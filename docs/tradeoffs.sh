@@ -5,14 +5,15 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 .ci/install.sh study
-folder=build/studies
+brio=${BRIO:-build/release/brio}
+folder=${STUDIES:-build/studies}
 pictures=docs/pictures/studies
 mkdir -p "$folder" "$pictures"
 page="$folder/tradeoffs.md"
 cat docs/tradeoffs_begin.md > "$page"
 for study in inputs/studies/*.yaml; do
   name=$(basename "$study" .yaml)
-  build/release/brio study "$study" --output "$folder/$name.study" "$@"
+  "$brio" study "$study" --output "$folder/$name.study" "$@"
   cp "$folder/$name.study/$name".{front,knobs}.svg "$pictures"
   { echo; sed "s|](\($name\.\)|](pictures/studies/\1|" "$folder/$name.study/$name.md"; } >> "$page"
 done

@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Writes docs/features.md: what each feature costs in scenes that name it, and that it costs nothing in the others.
+
+Ten scenes are run, shortened, twice: with the program as it is, for memory and time, and with one that counts which
+lines of the sources run (built in build/coverage, which takes some minutes).
+
+Usage: docs/features.py [--program build/release/brio] [--coverage BUILD-FOLDER]
+"""
+
+import argparse
+import gzip
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+from fnmatch import fnmatch
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+# Deck, end time of the shortened run, further overrides.
+SCENES = {
+    "bars": ("bar_impact.yaml", 3e-3, []),
+    "Taylor bar": ("taylor_bar.yaml", 2e-5, []),
+    "panel": ("panel_impulse.yaml", 1e-3, []),
+    "can": ("can_buckling.yaml", 3e-4, []),
+    "can, mass scaled": ("can_buckling.yaml", 3e-4, ["time.mass_scaling.step=1.1e-6"]),
+    "plate, ball": ("plate_perforation.yaml", 2e-5, []),
+    "pipe": ("pipe_cutting.yaml", 1e-4, []),
+    "bricks": ("brick_stack.yaml", 1e-3, []),
+    "net": ("net.yaml", 3e-3, []),
+    "rings": ("rubber_rings.yaml", 1e-3, []),
+}
+
+# Feature: sources that serve nothing else, stages of the time by stage, features that `check` tells the memory of.
+FEATURES = {
+    "solids": (["elements/hex8*.hpp", "elements/hourglass.hpp", "elements/mean_gradient.hpp"], [], ["hex8", "hex8_full"]),
+    "shells": (["elements/shell*.hpp", "elements/through_thickness.hpp"], [], ["shell4", "rotations of nodes"]),
+    "beams": (["elements/beam*"], [], ["beam2"]),
+    "particles": (["elements/particle*", "src/particles.cpp", "io/particle_mesh.cpp"], [], ["particle"]),
+    "rigid parts": (["src/rigid.cpp", "src/build_rigid.cpp", "src/mass_properties.cpp", "contact/rigid_contact.cpp"],
+                    ["rigid"], ["rigid bodies"]),
+    "contact": (["contact/s*.cpp", "contact/detect.cpp", "contact/candidates.cpp", "contact/velocity_check.cpp",
+                 "contact/near_faces.cpp", "contact/travel.cpp", "contact/tree_search.cpp"],
+                ["contact", "contact_search"], ["contact"]),
+    "contact of lines": (["contact/line*.cpp", "contact/edge_check.cpp", "contact/closest_segments.cpp"],
+                         ["contact_lines"], ["contact of lines"]),
+    "failure and deletion": (["src/erosion.cpp", "contact/erosion.cpp", "materials/failing.hpp", "elements/lose.hpp"],
+                             ["erosion"], ["deletion"]),
+    "ties": (["contact/tie*.cpp", "src/build_ties.cpp", "src/tied_wall.cpp", "src/release_ties.cpp"], ["ties"], ["ties"]),
+    "merged nodes": (["src/merge.cpp"], [], ["merged nodes"]),
+    "rigid walls": (["src/rigid_wall.cpp"], [], ["rigid walls"]),
+    "prescribed motion": (["src/constraints.cpp"], ["constraints"], ["prescribed motion"]),
+    "loads": (["src/loads.cpp"], ["loads"], ["loads"]),
+    "mass scaling": (["src/mass_scaling.cpp", "elements/scale_mass.hpp"], [], ["mass scaling"]),
+}
+
+
+def command(program, verb, scene, *more):
+    deck, end, overrides = SCENES[scene]
+    settings = [f"time.end={end:g}", *overrides]
+    words = [str(program), verb, str(ROOT / "inputs" / deck), "--threads", "1", *more]
+    return words + [word for setting in settings for word in ("--set", setting)]
+
+
+def memory_and_time(program, scene):
+    checked = json.loads(subprocess.run(command(program, "check", scene, "--json"), check=True,
+                                        capture_output=True).stdout)
+    with tempfile.TemporaryDirectory() as folder:
+        ended = json.loads(subprocess.run(command(program, "run", scene, "--quiet", "--json", "--output", folder),
+                                          check=True, capture_output=True).stdout)
+    return {entry["name"]: entry.get("bytes", 0) for entry in checked["built"]}, ended["wall_s"]["by_stage"]
+
+
+def lines_run(build, scene):
+    """Of each source, [lines that ran, lines there are], over all objects that hold some of it."""
+    seen = {}
+    with tempfile.TemporaryDirectory() as counts, tempfile.TemporaryDirectory() as folder:
+        environment = dict(os.environ, GCOV_PREFIX=counts)
+        subprocess.run(command(build / "brio", "run", scene, "--quiet", "--output", folder), check=True,
+                       capture_output=True, env=environment)
+        for data in Path(counts).rglob("*.gcda"):
+            notes = Path("/") / data.relative_to(counts).with_suffix(".gcno")
+            shutil.copy(notes, data.with_suffix(".gcno"))
+            subprocess.run(["gcov", "--json-format", data.name], cwd=data.parent, capture_output=True, check=True)
+            for report in data.parent.glob("*.gcov.json.gz"):
+                for source in json.loads(gzip.open(report).read())["files"]:
+                    path = os.path.relpath(os.path.join(ROOT, source["file"]), ROOT)
+                    lines = seen.setdefault(path, {})
+                    for line in source["lines"]:
+                        # What makes tables before main() runs is there whatever the scene is.
+                        name = line.get("function_name", "")
+                        if name.startswith("_GLOBAL__sub") or name.startswith("_Z41__static"):
+                            continue
+                        lines[line["line_number"]] = lines.get(line["line_number"], 0) + line["count"]
+                report.unlink()
+    return {path: (sum(1 for n in lines.values() if n > 0), len(lines)) for path, lines in seen.items()}
+
+
+def lines_of(feature, run):
+    ran, there = 0, 0
+    for path, (some, all_of_them) in run.items():
+        if any(fnmatch(path, pattern) for pattern in FEATURES[feature][0]):
+            ran, there = ran + some, there + all_of_them
+    return ran, there
+
+
+def table(title, cell):
+    text = f"\n## {title}\n\n| | " + " | ".join(SCENES) + " |\n| --- |" + " --- |" * len(SCENES) + "\n"
+    for feature in FEATURES:
+        text += f"| {feature} | " + " | ".join(cell(feature, scene) for scene in SCENES) + " |\n"
+    return text
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--program", type=Path, default=ROOT / "build/release/brio")
+    arguments.add_argument("--coverage", type=Path, default=ROOT / "build/coverage")
+    chosen = arguments.parse_args()
+    if not (chosen.coverage / "brio").exists():
+        subprocess.run(["cmake", "-S", ROOT, "-B", chosen.coverage, "-G", "Ninja", "-DBRIO_TESTS=OFF", "-DBRIO_BENCH=OFF",
+                        "-DCMAKE_CXX_FLAGS=--coverage", "-DCMAKE_CXX_FLAGS_RELEASE=-O1"], check=True)
+        subprocess.run(["cmake", "--build", chosen.coverage, "--target", "brio"], check=True)
+
+    memory, stages, lines = {}, {}, {}
+    for scene in SCENES:
+        memory[scene], stages[scene] = memory_and_time(chosen.program, scene)
+        lines[scene] = lines_run(chosen.coverage, scene)
+        print(scene, flush=True)
+
+    def kilobytes(feature, scene):
+        held = [memory[scene][name] for name in FEATURES[feature][2] if name in memory[scene]]
+        return f"{sum(held) / 1e3:.4g}" if held else "-"
+
+    def share(feature, scene):
+        seconds = sum(stages[scene].get(stage, 0) for stage in FEATURES[feature][1])
+        return f"{100 * seconds / sum(stages[scene].values()):.2g} %" if seconds > 0 else "-"
+
+    def ran(feature, scene):
+        some, all_of_them = lines_of(feature, lines[scene])
+        return f"{some} of {all_of_them}" if some else "-"
+
+    begin = (ROOT / "docs/features_begin.md").read_text()
+    (ROOT / "docs/features.md").write_text(
+        begin + table("Memory, kB", kilobytes) + table("Share of the time", share) + table("Lines that run", ran))
+
+
+if __name__ == "__main__":
+    main()

@@ -109,10 +109,12 @@ void add_info_command(CLI::App& program) {
 
 void add_schema_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "schema", "print the JSON schema of the deck, for completion and checking in editors");
+      "schema", "print the JSON schema of decks, for completion and checking in editors");
   auto markdown = std::make_shared<bool>(false);
-  command->add_flag("--markdown", *markdown, "print the reference of the deck for people instead");
-  command->callback([markdown] { brio::print_schema(*markdown); });
+  command->add_flag("--markdown", *markdown, "print the reference for people instead");
+  auto of_study = std::make_shared<bool>(false);
+  command->add_flag("--study", *of_study, "of studies instead of decks");
+  command->callback([of_study, markdown] { brio::print_schema(*of_study, *markdown); });
 }
 
 }  // namespace

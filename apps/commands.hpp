@@ -38,6 +38,6 @@ struct StudyArguments {
 int study(StudyArguments& arguments);
 void check(const ForecastOptions& options, bool json);
 void print_info(const std::filesystem::path& result);
-void print_schema(bool markdown);
+void print_schema(bool of_study, bool markdown);
 
 }  // namespace brio

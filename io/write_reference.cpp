@@ -10,6 +10,18 @@ namespace {
 
 using Schema = nlohmann::ordered_json;
 
+constexpr std::string_view study_introduction = R"(# What a study may say
+
+<!-- Written by `brio schema --study --markdown`; do not edit. -->
+
+A study is a YAML file: `brio study STUDY` runs one deck over a table of settings and tells what each costs and how far off it
+is. Its keys and what they take are listed here. `brio schema --study` prints the same as JSON schema.
+
+- Runs are called `default` (the deck as it is), `KNOB.SETTING`, and, of combinations, `KNOB.SETTING+KNOB.SETTING`.
+- A setting is a map of overrides of the deck, as `--set` takes them: `{time.step_scale: 0.6, contact.friction: 0}`.
+- What has been run with the same program, deck and settings is not run again.
+)";
+
 constexpr std::string_view introduction = R"(# What a deck may say
 
 <!-- Written by `brio schema --markdown`; do not edit. -->
@@ -109,8 +121,13 @@ void write_schema(const std::string& path, const Schema& schema, int level, std:
 /// Tables of the maps that stand inside a map.
 void write_inner(const std::string& path, const Schema& object, int level, std::string& out) {
   for (const auto& [key, property] : object["properties"].items()) {
-    const bool is_map = property.value("type", "") == "object" && property.contains("properties");
-    if (is_map) write_schema(path.empty() ? key : path + "." + key, property, level, out);
+    if (property.value("type", "") != "object") continue;
+    const std::string inner = path.empty() ? key : path + "." + key;
+    if (property.contains("properties")) write_schema(inner, property, level, out);
+    const bool is_named =
+        property.contains("additionalProperties") && property["additionalProperties"].is_object();
+    if (is_named && property["additionalProperties"].contains("properties"))
+      write_schema(inner + ".NAME", property["additionalProperties"], level, out);
   }
 }
 
@@ -156,10 +173,12 @@ void write_schema(const std::string& path, const Schema& schema, int level, std:
 
 }  // namespace
 
-std::string deck_reference() {
-  const Schema schema = Schema::parse(deck_schema());
-  std::string out(introduction);
-  out += "\n## The keys of a deck\n";
+namespace {
+
+std::string reference(std::string_view beginning, const std::string& title, const std::string& schema_text) {
+  const Schema schema = Schema::parse(schema_text);
+  std::string out(beginning);
+  out += "\n## " + title + "\n";
   write_table(schema, out);
   for (const auto& [key, property] : schema["properties"].items()) {
     if (property.value("type", "") == "object" && property.contains("properties"))
@@ -172,8 +191,16 @@ std::string deck_reference() {
       write_schema(key + (named ? ".NAME" : ""), one, 2, out);
     }
   }
-  for (const auto& [name, definition] : schema["definitions"].items()) write_schema(name, definition, 2, out);
+  if (schema.contains("definitions"))
+    for (const auto& [name, definition] : schema["definitions"].items())
+      write_schema(name, definition, 2, out);
   return out;
 }
+
+}  // namespace
+
+std::string deck_reference() { return reference(introduction, "The keys of a deck", deck_schema()); }
+
+std::string study_reference() { return reference(study_introduction, "The keys of a study", study_schema()); }
 
 }  // namespace brio

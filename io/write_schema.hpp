@@ -1,5 +1,5 @@
 #pragma once
-/// What a deck may say, from the same tables that read it.
+/// What a deck, and a study, may say, from the same tables that read it.
 
 #include <string>
 
@@ -8,7 +8,10 @@ namespace brio {
 /// JSON schema (draft 7) of the deck, for completion and checking in editors.
 std::string deck_schema();
 
+std::string study_schema();
+
 /// The printed reference, in Markdown.
 std::string deck_reference();
+std::string study_reference();
 
 }  // namespace brio

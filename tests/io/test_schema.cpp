@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "io/read_deck.hpp"
+#include "io/read_study.hpp"
 #include "io/write_schema.hpp"
 #include "tests/io/deck_text.hpp"
 
@@ -30,21 +31,27 @@ TEST(Schema, HoldsRangesAndDefaultsOfTheTables) {
   EXPECT_EQ(schema.at("required"), (nlohmann::json{"materials", "parts", "time"}));
 }
 
-TEST(Schema, CommittedReferenceIsUpToDate) {
-  std::ifstream file(BRIO_SOURCE_DIR "/docs/deck.md");
-  std::istringstream reference(deck_reference());
+void expect_committed(const std::string& name, const std::string& text, const std::string& command) {
+  std::ifstream file(BRIO_SOURCE_DIR "/docs/" + name);
+  std::istringstream reference(text);
   std::string committed, expected;
   while (std::getline(reference, expected)) {
     std::getline(file, committed);
-    ASSERT_EQ(committed, expected) << "write it anew: brio schema --markdown > docs/deck.md";
+    ASSERT_EQ(committed, expected) << "write it anew: " << command << " > docs/" << name;
   }
   EXPECT_FALSE(std::getline(file, committed)) << committed;
 }
 
+TEST(Schema, CommittedReferencesAreUpToDate) {
+  expect_committed("deck.md", deck_reference(), "brio schema --markdown");
+  expect_committed("study.md", study_reference(), "brio schema --study --markdown");
+}
+
 /// What validate_decks.py says of each deck; nothing if Python lacks a package.
-std::map<std::string, std::string> verdicts(const std::vector<std::string>& decks) {
+std::map<std::string, std::string> verdicts(const std::vector<std::string>& decks,
+                                            const std::string& schema_text = deck_schema()) {
   const fs::path schema = fs::temp_directory_path() / ("brio_schema_" + std::to_string(::getpid()) + ".json");
-  std::ofstream(schema) << deck_schema();
+  std::ofstream(schema) << schema_text;
   std::string command =
       BRIO_PYTHON " '" BRIO_SOURCE_DIR "/tests/io/validate_decks.py' '" + schema.string() + "'";
   for (const std::string& deck : decks) command += " '" + deck + "'";
@@ -75,6 +82,23 @@ TEST(Schema, AcceptsTheDecksThatComeWithBrio) {
   fs::remove(plain);
   ASSERT_FALSE(said.empty()) << BRIO_PYTHON " lacks jsonschema or yaml (python3-jsonschema, python3-yaml)";
   for (const std::string& deck : decks) EXPECT_EQ(said.at(deck), "good") << deck;
+}
+
+std::vector<std::string> shipped_studies() {
+  std::vector<std::string> studies;
+  for (const auto& entry : fs::directory_iterator(BRIO_SOURCE_DIR "/inputs/studies"))
+    if (entry.path().extension() == ".yaml") studies.push_back(entry.path().string());
+  return studies;
+}
+
+TEST(Schema, AcceptsTheStudiesThatComeWithBrio) {
+  const std::vector<std::string> studies = shipped_studies();
+  ASSERT_GE(studies.size(), 8u);
+  const auto said = verdicts(studies, study_schema());
+  for (const std::string& study : studies) {
+    EXPECT_EQ(said.at(study), "good") << study;
+    EXPECT_NO_THROW(read_study(study)) << study;
+  }
 }
 
 TEST(Schema, RefusesBadDecks) {

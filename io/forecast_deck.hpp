@@ -15,8 +15,8 @@ struct ForecastOptions {
   std::filesystem::path deck;
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE
   int threads = 1;
-  double march_s = 1;  ///< wall time for steps of the scene itself
-  double pilot_s = 0;  ///< more of it, a half for more steps, a half for pilots; 0: none
+  double march_s = 1;  ///< of the work_clock, for steps of the scene itself
+  double pilot_s = 0;  ///< more of it, up to a half for pilots, the rest for more steps; 0: none
 };
 
 struct Forecast {

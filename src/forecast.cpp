@@ -9,9 +9,8 @@ namespace {
 
 // A pilot whose step has fallen by less than this says nothing of its share.
 constexpr double least_fall = 0.03;
-// Of pilots with elements two or three times as long, where no share can be fitted: measured on crushed cans,
-// cut pipes, pierced plates and struck rods, between 1 and 2.
-constexpr double typical_share = 1.5;
+// Exponents of the trend of the falls of pilots, see the header.
+constexpr double usual_exponent = 0.75, largest_exponent = 1.25;
 
 // The last two steps of a run share what is left and say nothing of the bound.
 std::span<const MarchedStep> telling(const March& march) {
@@ -62,7 +61,7 @@ std::optional<double> share_of_fall(const March& own, const March& pilot) {
     largest = std::max(largest, of_pilot);
   }
   if (largest < least_fall) return {};
-  return std::clamp(both / square, 0.5, 3.0);
+  return std::clamp(both / square, 0.5, 2.5);
 }
 
 StepForecast forecast_steps(const March& own, const March& pilot, Reading reading, double end) {
@@ -86,25 +85,43 @@ StepForecast forecast_steps(const March& own, const March& pilot, Reading readin
   return forecast;
 }
 
-StepForecast forecast_steps(const March& own, std::span<const March> pilots, double end) {
-  if (pilots.empty() || own.reached_end) return as_it_is(own, end);
-  constexpr std::size_t asked = 2;  // coarser ones say too little
-  StepForecast forecast;
-  double least = HUGE_VAL, most = 0;
-  for (const March& pilot : pilots.last(std::min(asked, pilots.size()))) {
-    const bool eroded = pilot.steps.back().deleted > 0;
-    const std::optional<double> share = share_of_fall(own, pilot);
-    std::vector<Reading> readings{{1, 1}};
-    if (eroded || !share) readings.insert(readings.end(), {{1, 0}, {2, 1}});
-    readings.push_back({eroded ? typical_share : share.value_or(typical_share), eroded ? 0.5 : 1});
-    for (const Reading& reading : readings) {
-      forecast = forecast_steps(own, pilot, reading, end);
-      least = std::min(least, forecast.steps);
-      most = std::max(most, forecast.steps);
-    }
+double share_by_trend(std::span<const Pilot> pilots) {
+  const auto mean_fall = [](const March& pilot) {
+    double sum = 0;
+    for (const MarchedStep& step : telling(pilot)) sum += step.size * fall(pilot, step.time);
+    return sum / pilot.time;
+  };
+  const Pilot& finest = pilots.back();
+  double exponent = usual_exponent;
+  if (pilots.size() > 1) {
+    const Pilot& other = pilots[pilots.size() - 2];
+    const double coarse = mean_fall(other.march), fine = mean_fall(finest.march);
+    if (coarse > least_fall && fine > least_fall)
+      exponent =
+          std::clamp(std::log(fine / coarse) / std::log(other.factor / finest.factor), 0.0, largest_exponent);
   }
-  forecast.least = least;
-  forecast.most = most;
+  return std::pow(finest.factor, exponent);
+}
+
+StepForecast forecast_steps(const March& own, std::span<const Pilot> pilots, double end) {
+  const StepForecast stays = as_it_is(own, end);
+  if (pilots.empty() || own.reached_end) return stays;
+  const March& pilot = pilots.back().march;
+  const bool eroded = pilot.steps.back().deleted > 0;
+  const double by_trend = share_by_trend(pilots);
+  const double fitted = share_of_fall(own, pilot).value_or(by_trend);
+  const Reading best = eroded ? Reading{by_trend, 0} : Reading{fitted, 1};
+  StepForecast forecast = forecast_steps(own, pilot, best, end);
+  double least = std::min(forecast.steps, stays.steps), most = std::max(forecast.steps, stays.steps);
+  for (const Reading& reading : {Reading{1, eroded ? 0.0 : 1.0}, Reading{fitted, 1}, Reading{by_trend, 1}}) {
+    const double steps = forecast_steps(own, pilot, reading, end).steps;
+    least = std::min(least, steps);
+    most = std::max(most, steps);
+  }
+  // Readings may agree and be wrong: steps that are still to come are known to a tenth at best.
+  const auto marched = static_cast<double>(own.steps.size());
+  forecast.least = marched + 0.9 * (least - marched);
+  forecast.most = marched + 1.1 * (most - marched);
   return forecast;
 }
 

@@ -8,8 +8,10 @@
 ///     log r(t) = share * log r_pilot(t),
 ///
 /// with the share that fits best over the time that both were marched, shifted to where the march ended; and
-/// time per step grows as that of the pilot grows. Where elements were deleted, those that set the step may
-/// be gone at any time: then the share is 1, and half of the shift is kept, between all and nothing of it.
+/// time per step grows as that of the pilot grows. Where nothing can be fitted, or where elements were
+/// deleted, so that those that have set the step may be gone at any time, the share follows from how the
+/// falls of two pilots differ: log r grows as a power of the number of elements along an edge (measured: 0 to
+/// 0.4 for struck rods, 0.75 for plates and pipes that tear, 1 for walls that fold).
 
 #include <optional>
 #include <span>
@@ -20,15 +22,20 @@ namespace brio {
 
 struct StepForecast {
   double steps = 0;
-  double least = 0,
-         most = 0;           ///< of all readings of the finest two pilots; without a pilot, most is 0
+  /// Of all readings of the pilots, and a tenth more; without a pilot, `most` is 0.
+  double least = 0, most = 0;
   double seconds = 0;        ///< of all steps, as a march counts them
   double share_of_fall = 1;  ///< of the finest pilot's fall
   bool exact = false;        ///< the march came to the end
 };
 
-/// \param pilots that came to their ends; the finest last. Without them the step stays as it is.
-StepForecast forecast_steps(const March& own, std::span<const March> pilots, double end);
+struct Pilot {
+  double factor = 2;  ///< by which its elements are longer
+  March march;        ///< to the end
+};
+
+/// \param pilots the finest last. Without them the step stays as it is.
+StepForecast forecast_steps(const March& own, std::span<const Pilot> pilots, double end);
 
 /// How a pilot is read.
 struct Reading {
@@ -40,5 +47,8 @@ StepForecast forecast_steps(const March& own, const March& pilot, Reading readin
 
 /// The share of a pilot's fall that fits a march best; nothing where the pilot's step has not fallen yet.
 std::optional<double> share_of_fall(const March& own, const March& pilot);
+
+/// The share of the finest pilot's fall that the trend of the finest two, or of one a usual trend, leads to.
+double share_by_trend(std::span<const Pilot> pilots);
 
 }  // namespace brio

@@ -13,9 +13,12 @@ namespace {
 double wall_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-double processor_now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
+
+double work_clock(int threads) {
+  return threads == 1 ? static_cast<double>(std::clock()) / CLOCKS_PER_SEC : wall_now();
+}
 
 double March::seconds() const {
   double sum = 0;
@@ -29,10 +32,10 @@ double March::waiting() const {
 }
 
 void march(March& march, Model& model, double energy_error_limit, double budget_s, ThreadTeam& team) {
-  const auto now = team.size() == 1 ? processor_now : wall_now;
   const double end = model.control.settings.end;
   const double start = wall_now();
-  double last = now();
+  const double begin = work_clock(team.size());
+  double last = begin;
   march.time = model.times.time;
   march.reached_end = march.time >= end;
   bool goes_on = true;  // at least one step
@@ -44,13 +47,13 @@ void march(March& march, Model& model, double energy_error_limit, double budget_
     } catch (const Breakdown& breakdown) {
       march.breakdown = breakdown.what();
     }
-    const double time = now();
+    const double time = work_clock(team.size());
     const std::int64_t deleted = model.erosion ? model.erosion->total_deleted() : 0;
     march.steps.push_back({march.time, size, time - last, deleted});
     last = time;
     march.time = model.times.time;
     march.reached_end = march.breakdown.empty() && march.time >= end;
-    goes_on = wall_now() - start < budget_s;
+    goes_on = time - begin < budget_s;
   }
   march.wall_seconds += wall_now() - start;
 }

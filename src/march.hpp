@@ -12,7 +12,7 @@ namespace brio {
 struct MarchedStep {
   double time;           ///< at its beginning
   double size;           ///< of the step
-  double seconds;        ///< that it took: of the processor with one thread, else of the wall
+  double seconds;        ///< that it took, by the work_clock
   std::int64_t deleted;  ///< elements, so far
 };
 
@@ -28,9 +28,12 @@ struct March {
   double waiting() const;
 };
 
-/// Steps until the end time, a breakdown, or as long as the budget of wall time lasts; at least one
-/// is appended, unless the end is reached. On entry and
-/// on return velocities have been updated, so that fields may be looked at.
+/// Seconds of a clock: of the processor with one thread, so that others who use the machine do not count,
+/// else of the wall.
+double work_clock(int threads);
+
+/// Steps until the end time, a breakdown, or as long as the budget lasts; at least one is appended, unless
+/// the end is reached. On entry and on return velocities have been updated, so that fields may be looked at.
 void march(March& march, Model& model, double energy_error_limit, double budget_s, ThreadTeam& team);
 
 /// Mean of the steps from a time on; the first few, in which memory is touched for the first time, are left

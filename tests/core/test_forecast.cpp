@@ -92,10 +92,10 @@ March falling(double first, double depth, double until, double seconds) {
 }
 
 TEST(Forecast, APilotsFallIsTakenOverByItsShare) {
-  const March pilot = falling(1e-3, 0.5, 1, 1e-6);
+  const Pilot pilot{2, falling(1e-3, 0.5, 1, 1e-6)};
   const March own = falling(4e-4, 1.2, 0.2, 1e-5);
   const March truth = falling(4e-4, 1.2, 1, 1e-5);
-  EXPECT_NEAR(share_of_fall(own, pilot).value(), 2.4, 0.02);
+  EXPECT_NEAR(share_of_fall(own, pilot.march).value(), 2.4, 0.02);
   const StepForecast forecast = forecast_steps(own, std::span(&pilot, 1), 1);
   EXPECT_NEAR(forecast.steps, static_cast<double>(truth.steps.size()), 0.01 * forecast.steps);
   EXPECT_NEAR(forecast.seconds, truth.seconds(), 0.03 * truth.seconds());
@@ -104,20 +104,36 @@ TEST(Forecast, APilotsFallIsTakenOverByItsShare) {
   EXPECT_LT(forecast_steps(own, {}, 1).steps, 0.6 * forecast.steps);
 }
 
+// log r in proportion to the number of elements along an edge to the power of 0.8.
+TEST(Forecast, TheTrendOfTwoPilotsLeadsToTheShare) {
+  const auto pilot = [](double factor) {
+    return Pilot{factor, falling(1e-3, 1.2 * std::pow(factor, -0.8), 1, 1e-6)};
+  };
+  const std::vector<Pilot> pilots{pilot(4), pilot(2)};
+  EXPECT_NEAR(share_by_trend(pilots), std::pow(2, 0.8), 0.02);
+  const March own = falling(4e-4, 1.2, 0.001, 1e-5);  // too short to fit anything
+  const March truth = falling(4e-4, 1.2, 1, 1e-5);
+  const StepForecast forecast = forecast_steps(own, pilots, 1);
+  EXPECT_NEAR(forecast.steps, static_cast<double>(truth.steps.size()), 0.02 * forecast.steps);
+  EXPECT_GT(share_by_trend(std::span(pilots).first(1)), share_by_trend(std::span(pilots).last(1)));
+}
+
 TEST(Forecast, APilotWhoseStepStaysChangesNothing) {
-  const March pilot = falling(1e-3, 0, 1, 1e-6);
+  const Pilot pilot{2, falling(1e-3, 0, 1, 1e-6)};
   const March own = falling(4e-4, 0, 0.2, 1e-5);
-  EXPECT_FALSE(share_of_fall(own, pilot).has_value());
+  EXPECT_FALSE(share_of_fall(own, pilot.march).has_value());
   const double steps = forecast_steps(own, {}, 1).steps;
   EXPECT_NEAR(forecast_steps(own, std::span(&pilot, 1), 1).steps, steps, 1e-6 * steps);
 }
 
 TEST(Forecast, WhereElementsAreDeletedTheStepMayComeBack) {
-  March pilot = falling(1e-3, 0.5, 1, 1e-6);
+  Pilot pilot{2, falling(1e-3, 0.5, 1, 1e-6)};
   const March own = falling(4e-4, 1.2, 0.6, 1e-5);
-  pilot.steps.back().deleted = 1;
+  const double without = forecast_steps(own, std::span(&pilot, 1), 1).steps;
+  pilot.march.steps.back().deleted = 1;
   const StepForecast forecast = forecast_steps(own, std::span(&pilot, 1), 1);
-  EXPECT_LT(forecast.steps, forecast.most);
+  EXPECT_LT(forecast.steps, 0.9 * without);
+  EXPECT_GE(forecast.most, without);
   EXPECT_GT(forecast.steps, forecast.least);
 }
 

@@ -114,7 +114,10 @@ Forecast forecast(const ForecastOptions& options, ScenePrepared& scene) {
   }
   forecast.peak_memory_mb = scene.memory.peak_mb();
   std::vector<Pilot> pilots;
-  if (options.pilot_s > 0 && !forecast.march.reached_end && !scene.deck.time.step) {
+  const bool step_is_given = scene.deck.time.step || scene.deck.time.mass_scaling;
+  if (options.pilot_s > 0 && step_is_given)
+    forecast.pilot_fault = "none is made where the deck gives the step";
+  if (options.pilot_s > 0 && !forecast.march.reached_end && !step_is_given) {
     const double start = work_clock(options.threads);
     pilots = march_pilots(options, scene.deck, 0.5 * options.pilot_s, forecast);
     march_on(options, scene, options.pilot_s - (work_clock(options.threads) - start), forecast.march);

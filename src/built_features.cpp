@@ -89,6 +89,8 @@ void add_elements(const Deck& deck, const Model& model, Features& features) {
                         "", bytes_held(model.particle_searches)});
   if (deck.numerics.precision == Precision::single_precision)
     features.push_back({"float", "numerics.precision", "", 0});
+  if (model.added_mass)
+    features.push_back({"mass scaling", "time.mass_scaling", "", bytes_held(*model.added_mass)});
 }
 
 void add_rigid_bodies(const Deck& deck, const Model& model, Features& features) {
@@ -221,6 +223,7 @@ std::vector<std::string> features_not_built(const Model& model) {
       {"prescribed motion", model.prescribed.empty() && bodies_with_given_motion(model.rigid) == 0},
       {"rigid walls", model.walls.empty()},
       {"loads", model.loads.empty()},
+      {"mass scaling", !model.added_mass},
       {"contact", model.contacts.empty()}};
   std::vector<std::string> names;
   for (const auto& [name, is_missing] : all)

@@ -113,7 +113,10 @@ StepForecast forecast_steps(const March& own, std::span<const Pilot> pilots, dou
   const Reading best = eroded ? Reading{by_trend, 0} : Reading{fitted, 1};
   StepForecast forecast = forecast_steps(own, pilot, best, end);
   double least = std::min(forecast.steps, stays.steps), most = std::max(forecast.steps, stays.steps);
-  for (const Reading& reading : {Reading{1, eroded ? 0.0 : 1.0}, Reading{fitted, 1}, Reading{by_trend, 1}}) {
+  // A single pilot shows no trend.
+  const double steepest = pilots.size() > 1 ? by_trend : std::pow(pilots.back().factor, largest_exponent);
+  for (const Reading& reading :
+       {Reading{1, eroded ? 0.0 : 1.0}, Reading{fitted, 1}, Reading{by_trend, 1}, Reading{steepest, 1}}) {
     const double steps = forecast_steps(own, pilot, reading, end).steps;
     least = std::min(least, steps);
     most = std::max(most, steps);

@@ -220,7 +220,7 @@ TEST(BuiltFeatures, NameTheKeyThatAskedForThem) {
   EXPECT_EQ(features[4].detail, "2 parts, 108 faces, 112 nodes, 2 bodies");
   EXPECT_EQ(features_not_built(model),
             (std::vector<std::string>{"shells", "beams", "particles", "rigid bodies", "merged nodes", "ties",
-                                      "deletion", "rigid walls", "loads"}));
+                                      "deletion", "rigid walls", "loads", "mass scaling"}));
 }
 
 }  // namespace

@@ -238,37 +238,63 @@ class LineCheck {
   std::optional<Vector3d> direction(const ClosestSegments& closest, double distance, double size,
                                     const Vector3d& motion) const {
     const double area = closest.normal.norm();
-    if (a_->radius + b_->radius == 0) {
-      if (are_parallel(area)) return std::nullopt;
-      const Vector3d across = closest.normal / area;
-      if (const Contact* old = tracked()) return old->normal.dot(across) > 0 ? across : Vector3d(-across);
-      return leads_out(*b_, across) ? across : Vector3d(-across);
-    }
+    if (a_->radius + b_->radius == 0) return direction_across(closest.normal, area);
     const Contact* old = tracked();
     if (distance > direction_share * size) {
       const Vector3d apart = closest.offset / distance;
       return old != nullptr && old->normal.dot(apart) < 0 ? Vector3d(-apart) : apart;
     }
     if (old != nullptr) return old->normal;
+    if (area == 0 && !a_->is_edge() && !b_->is_edge()) return any_way(motion);
     if (area == 0) return std::nullopt;
     const Vector3d across = closest.normal / area;
     return across.dot(motion) < 0 ? across : Vector3d(-across);
+  }
+
+  // Beams and particles that lie in one place: back the way that they came, or any.
+  Vector3d any_way(const Vector3d& motion) const {
+    const Vector3d along = end(*a_, 1) - end(*a_, 0);
+    if (along.isZero(0))
+      return motion.isZero(0) ? Vector3d(Vector3d::UnitX()) : Vector3d(-motion.normalized());
+    const Vector3d across = motion - (motion.dot(along) / along.squaredNorm()) * along;
+    return across.isZero(0) ? Vector3d(along.unitOrthogonal()) : Vector3d(-across.normalized());
+  }
+
+  // Edges of solids are pushed apart across both, from b to a; none where they are parallel.
+  std::optional<Vector3d> direction_across(const Vector3d& normal, double area) const {
+    if (are_parallel(area)) return std::nullopt;
+    const Vector3d across = normal / area;
+    if (const Contact* old = tracked()) return old->normal.dot(across) > 0 ? across : Vector3d(-across);
+    return leads_out(*b_, across) ? across : Vector3d(-across);
   }
 
   void join_meeting() {
     const auto meeting = edge_check(moving(*a_), moving(*b_));
     if (!meeting || !is_here(meeting->features) || meeting->normal.squaredNorm() < 0.5) return;
     const double reach = a_->radius + b_->radius;
-    if (reach == 0 && are_parallel((end(*a_, 1) - end(*a_, 0)).cross(end(*b_, 1) - end(*b_, 0)).norm()))
-      return;
+    const auto direction = reach > 0 ? std::optional(meeting->normal) : way_of_meeting(*meeting);
+    if (!direction) return;
+    const Vector3d& normal = *direction;
     // Where an edge lies in a face, it may be a seam of it that an upright edge seems to meet.
-    if (!leads_out(*b_, meeting->normal) || !leads_out(*a_, -meeting->normal)) return;
-    const bool in_face =
-        reach == 0 && (face_along(*b_, meeting->normal) || face_along(*a_, -meeting->normal));
+    if (!leads_out(*b_, normal) || !leads_out(*a_, -normal)) return;
+    const bool in_face = reach == 0 && (face_along(*b_, normal) || face_along(*a_, -normal));
     if (in_face && (!is_on(*a_, meeting->parameters[0], true) || !is_on(*b_, meeting->parameters[1], true)))
       return;
-    const double gap = offset_at(meeting->parameters).dot(meeting->normal) - reach;
-    append(meeting->parameters, meeting->normal, std::max(gap, 0.0));
+    const double gap = offset_at(meeting->parameters).dot(normal) - reach;
+    append(meeting->parameters, normal, std::max(gap, 0.0));
+  }
+
+  // Edges that meet where one of them ends, and goes on as another, came together any way, along the edge as
+  // well: a seam of its mesh would hold up an edge that slides along.
+  std::optional<Vector3d> way_of_meeting(const EdgeContact& meeting) const {
+    const Vector3d normal = (end(*a_, 1) - end(*a_, 0)).cross(end(*b_, 1) - end(*b_, 0));
+    const double area = normal.norm();
+    if (are_parallel(area)) return std::nullopt;
+    if (meeting.features[0] == SegmentFeature::inside && meeting.features[1] == SegmentFeature::inside)
+      return meeting.normal;
+    const double along = normal.dot(meeting.normal);
+    if (std::abs(along) > flush * area) return along > 0 ? Vector3d(normal / area) : Vector3d(-normal / area);
+    return direction_across(normal, area);
   }
 
   void append(std::array<double, 2> at, const Vector3d& normal, double gap) {

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "contact/enclosed.hpp"
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
 
@@ -177,6 +178,7 @@ std::vector<InitialOverlap> remove_initial_overlap(ContactScene& scene, Nodes& n
           overlap.moved = std::max(overlap.moved, moved);
     }
   }
+  expect_nothing_enclosed(scene, nodes);
   scene.candidates.depth_share = followed_depth_share;
   scene.candidates.growth[0] = -1;
   scene.contacts.clear();

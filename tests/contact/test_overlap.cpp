@@ -7,10 +7,11 @@ namespace brio::test {
 namespace {
 
 // Two blocks of unit cells, the upper one sunk in by `depth`, turned a little so that nodes meet faces.
-void overlap_blocks(SpringModel& model, double depth, double limit) {
-  model.add_box({3, 3, 3}, {3, 3, 3}, 1, shifted({0, 0, 0}));
+void overlap_blocks(SpringModel& model, double depth, double limit, int across = 3) {
+  model.add_box({across, across, 3}, {1.0 * across, 1.0 * across, 3}, 1, shifted({0, 0, 0}));
+  const double aside = 0.5 * (across - 3);
   model.add_box({2, 2, 2}, {2, 2, 2}, 1, [&](const Vector3d& x) -> Vector3d {
-    return Eigen::AngleAxisd(0.3, Vector3d::UnitZ()) * x + Vector3d(0.8, 0.4, 3 - depth);
+    return Eigen::AngleAxisd(0.3, Vector3d::UnitZ()) * x + Vector3d(0.8 + aside, 0.4 + aside, 3 - depth);
   });
   ContactOptions options;
   options.initial_overlap_limit = limit;
@@ -21,7 +22,7 @@ TEST(InitialOverlap, IsRemovedWithoutStrainOrMotion) {
   ThreadTeam team(1);
   for (const double depth : {1e-12, 1e-3, 0.15, 0.5}) {
     SpringModel model;
-    overlap_blocks(model, depth, 0.6);
+    overlap_blocks(model, depth, 0.6, 4);  // corners are farther from the sides than deep
     const auto report = remove_initial_overlap(model.scene, model.nodes, team);
     if (depth > 1e-9) {
       ASSERT_FALSE(report.empty()) << depth;
@@ -46,6 +47,20 @@ TEST(InitialOverlap, BeyondTheLimitNamesPartsAndDepth) {
     EXPECT_NE(std::string(error.what()).find("part 0"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("part 1"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("0.5"), std::string::npos) << error.what();
+  }
+}
+
+// A corner that is nearer to a side than it is deep seems to have come through that side.
+TEST(InitialOverlap, CornersThatAreLeftInsideAreRefused) {
+  ThreadTeam team(1);
+  SpringModel model;
+  overlap_blocks(model, 0.5, 0.6);
+  try {
+    remove_initial_overlap(model.scene, model.nodes, team);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("'part 1' lies in part 'part 0'"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -81,10 +81,9 @@ inline double touching_distance(Kind kind) {
   return distance[static_cast<std::size_t>(kind)];
 }
 
-/// One body of a kind in flight at (5, -3, -20) onto another that rests, askew, its lowest node over the
-/// middle.
-inline Deck impact(Kind upper_kind, Kind lower_kind, const Material& material = elastic(0.3)) {
-  Part lower = body(lower_kind, "lower"), upper = body(upper_kind, "upper");
+/// One part in flight at (5, -3, -20) onto another that rests, askew, its lowest node over the middle.
+/// \param touching sum of the distances from their nodes at which they touch
+inline Deck impact_of(Part upper, Part lower, double touching, const Material& material = elastic(0.3)) {
   lower.placement.rotate = Rotation{{0.3, 1, 0}, 11};
   upper.placement.rotate = Rotation{{1, 0.4, 0.7}, 37};
   Triple lowest{0, 0, HUGE_VAL};
@@ -92,8 +91,7 @@ inline Deck impact(Kind upper_kind, Kind lower_kind, const Material& material = 
     if (x[2] < lowest[2]) lowest = x;
   double top = -HUGE_VAL;
   for (const Triple& x : generate_mesh(lower.mesh, lower.placement).position) top = std::max(top, x[2]);
-  const double height = top + touching_distance(lower_kind) + touching_distance(upper_kind);
-  upper.placement.translate = {0.02 - lowest[0], 0.013 - lowest[1], height - lowest[2]};
+  upper.placement.translate = {0.02 - lowest[0], 0.013 - lowest[1], top + touching - lowest[2]};
   Deck deck;
   deck.materials = {{"material", material}};
   deck.parts = {lower, upper};
@@ -101,7 +99,12 @@ inline Deck impact(Kind upper_kind, Kind lower_kind, const Material& material = 
   deck.contact.emplace();
   deck.contact->options.friction = 0.2;
   deck.time.end = 8e-3;
-  if (upper_kind == Kind::rigid && lower_kind == Kind::rigid) deck.time.step = 0x1p-14;
+  return deck;
+}
+inline Deck impact(Kind upper, Kind lower, const Material& material = elastic(0.3)) {
+  Deck deck = impact_of(body(upper, "upper"), body(lower, "lower"),
+                        touching_distance(upper) + touching_distance(lower), material);
+  if (upper == Kind::rigid && lower == Kind::rigid) deck.time.step = 0x1p-14;
   return deck;
 }
 

@@ -1,0 +1,164 @@
+#include "contact/enclosed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "contact/face_geometry.hpp"
+#include "contact/tree_search.hpp"
+#include "contact/winding.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Deeper than this share of an edge a node is inside; overlaps are removed to rounding.
+constexpr double deep_share = 0.1;
+/// How far behind a face a body is probed, in its edges.
+constexpr double probe_share = 0.2;
+
+class Enclosures {
+ public:
+  Enclosures(const ContactScene& scene, const Nodes& nodes)
+      : scene_(scene),
+        surface_(scene.surface),
+        nodes_(nodes),
+        faces_(static_cast<std::size_t>(surface_.body_count)) {
+    for (std::size_t f = 0; f < surface_.face.size(); ++f)
+      if (const Face& face = surface_.face[f]; face.alive() && !face.shell)
+        faces_[static_cast<std::size_t>(face.body)].push_back(static_cast<int>(f));
+  }
+
+  // Of each body the closest of the faces that are candidates decides.
+  void expect_outside(int slave) {
+    closest_.clear();
+    const Vector3d x = position(nodes_, surface_.node[static_cast<std::size_t>(slave)]);
+    for (const int f : scene_.candidates.faces_of.of(slave)) {
+      const Face& face = surface_.face[static_cast<std::size_t>(f)];
+      if (face.shell || face.body == surface_.body[static_cast<std::size_t>(slave)]) continue;
+      if (surface_.never_touch(slave, face)) continue;
+      const ClosestPoint point = closest_point_on_quad(x, vertices(nodes_, face));
+      const auto [known, is_new] = closest_.try_emplace(face.body, f, point);
+      if (!is_new && point.squared_distance < known->second.second.squared_distance)
+        known->second = {f, point};
+    }
+    for (const auto& [body, near] : closest_) {
+      const auto& [f, point] = near;
+      const double depth = std::sqrt(point.squared_distance);
+      if (depth <= deep_share * shortest_edge(nodes_, surface_.face[static_cast<std::size_t>(f)])) continue;
+      if (!is_outside(surface_, nodes_, f, point) && winding(body, x) > 0.5)
+        refuse(part_of(slave), surface_.face[static_cast<std::size_t>(f)].part, depth, x);
+    }
+  }
+
+  // A point just inside of each closed body, in no other.
+  void expect_bodies_apart() {
+    std::vector<Vector3<double>> probes;
+    std::vector<CaptureBox> boxes;
+    std::vector<int> bodies;
+    for (int body = 0; body < surface_.body_count; ++body) {
+      if (faces_of(body).empty()) continue;
+      const Vector3d probe = probe_of(body);
+      if (winding(body, probe) <= 0.5) continue;  // thinner than that
+      bodies.push_back(body);
+      probes.push_back({probe[0], probe[1], probe[2]});
+      boxes.push_back(box_of(body));
+    }
+    ThreadTeam team(1);
+    TreeSearch search;
+    CandidatePairs pairs;
+    SearchCounts counts;
+    search.find(SearchNodes(probes), boxes, team, pairs, counts);
+    for (std::size_t b = 0; b < bodies.size(); ++b)
+      for (const int other : pairs.of_box(b))
+        if (other != static_cast<int>(b)) expect_apart(bodies[static_cast<std::size_t>(other)], bodies[b]);
+  }
+
+ private:
+  const std::vector<int>& faces_of(int body) const { return faces_[static_cast<std::size_t>(body)]; }
+  const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
+
+  double winding(int body, const Vector3d& x) const {
+    double sum = 0;
+    for (const int f : faces_of(body)) sum += winding_share(vertices(nodes_, face(f)), x);
+    return sum;
+  }
+
+  // Behind the middle of a face.
+  Vector3d probe_of(int body) const {
+    const int f = faces_of(body).front();
+    const FaceVertices v = vertices(nodes_, face(f));
+    const Vector3d normal = (v[2] - v[0]).cross(v[3] - v[1]);
+    const Vector3d middle = 0.25 * (v[0] + v[1] + v[2] + v[3]);
+    return middle - probe_share * shortest_edge(nodes_, face(f)) * normal.normalized();
+  }
+
+  CaptureBox box_of(int body) const {
+    CaptureBox box = empty_box;
+    for (const int f : faces_of(body))
+      for (const Vector3d& x : vertices(nodes_, face(f)))
+        for (int axis = 0; axis < 3; ++axis) {
+          box.lower[axis] = std::min(box.lower[axis], x[axis]);
+          box.upper[axis] = std::max(box.upper[axis], x[axis]);
+        }
+    return box;
+  }
+
+  void expect_apart(int body, int other) const {
+    const Face& own = face(faces_of(body).front());
+    const Face& theirs = face(faces_of(other).front());
+    if (surface_.never_touch(surface_.slave(own.node[0]), theirs)) return;
+    const Vector3d probe = probe_of(body);
+    double depth = std::numeric_limits<double>::infinity();
+    double edge = 0;
+    for (const int f : faces_of(other)) {
+      const double distance =
+          std::sqrt(closest_point_on_quad(probe, vertices(nodes_, face(f))).squared_distance);
+      if (distance >= depth) continue;
+      depth = distance;
+      edge = shortest_edge(nodes_, face(f));
+    }
+    if (depth > deep_share * edge && winding(other, probe) > 0.5) refuse(own.part, theirs.part, depth, probe);
+  }
+
+  int part_of(int slave) const {
+    const auto faces = surface_.faces_of.of(slave);
+    if (!faces.empty()) return face(faces.front()).part;
+    const int node = surface_.node[static_cast<std::size_t>(slave)];
+    for (const RoundElement& element : surface_.round)
+      if (element.node[0] == node || element.node[1] == node) return element.part;
+    return 0;
+  }
+
+  [[noreturn]] void refuse(int part, int other, double depth, const Vector3d& x) const {
+    std::ostringstream text;
+    text << "contact: part '" << surface_.part_name[static_cast<std::size_t>(part)] << "' lies in part '"
+         << surface_.part_name[static_cast<std::size_t>(other)] << "', " << depth << " deep at (" << x[0]
+         << ", " << x[1] << ", " << x[2] << "); accepted are bodies that begin beside each other";
+    throw std::invalid_argument(text.str());
+  }
+
+  const ContactScene& scene_;
+  const Surface& surface_;
+  const Nodes& nodes_;
+  std::vector<std::vector<int>> faces_;  ///< of each body
+  std::map<int, std::pair<int, ClosestPoint>> closest_;
+};
+
+}  // namespace
+
+void expect_nothing_enclosed(const ContactScene& scene, const Nodes& nodes) {
+  Enclosures enclosures(scene, nodes);
+  for (int slave = 0; slave < static_cast<int>(scene.surface.slaves()); ++slave)
+    enclosures.expect_outside(slave);
+  enclosures.expect_bodies_apart();
+}
+
+}  // namespace brio

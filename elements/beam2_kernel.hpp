@@ -60,8 +60,9 @@ struct Beam2Kernel : Beam2 {
                           Point<T, Law>* point) const {
     const FibreSection& s = *fibres;
     const Vector3<T> chord = chord_of(motion);
-    const T squared = max(dot(chord, chord), no_length<T>);
-    header.length = sqrt(squared);
+    const T squared = dot(chord, chord);
+    auto valid = squared > T(2 * no_length<T>);
+    header.length = sqrt(where(valid, squared, 1.0));
     const Vector3<T> e1 = (1.0 / header.length) * chord;
     const Vector3<T> up = upright(e1);
     const Vector3<T> across = up - dot(up, e1) * e1;
@@ -78,7 +79,6 @@ struct Beam2Kernel : Beam2 {
       header.bending_share[axis] = header.shear_stiffness[axis] / (header.shear_stiffness[axis] + bending);
     }
 
-    auto valid = squared > T(2 * no_length<T>);
     if (bends()) valid = valid & (dot(across, across) > 1e-8 * dot(up, up));
     header.mass = where(valid, T(law.density * s.area) * header.length, 0.0);
     const T share = 0.5 * header.mass;
@@ -325,8 +325,9 @@ struct Beam2Kernel : Beam2 {
                                 Header<T, Law>& header, Point<T, Law>* point,
                                 RotatingNodalForces<T, 2>& nodal) const {
     const Vector3<T> chord = chord_of(motion);
-    const T squared = max(dot(chord, chord), no_length<T>);
-    const T length = sqrt(squared);
+    const T squared = dot(chord, chord);
+    const auto has_length = squared > T(2 * no_length<T>);
+    const T length = sqrt(where(has_length, squared, 1.0));
     const T inverse_length = 1.0 / length;
     const T stretch = log(length / header.length);
     const T change = where(step > T(0.0), stretch - header.strain.stretch, 0.0);
@@ -347,8 +348,7 @@ struct Beam2Kernel : Beam2 {
     const T stiffness = volume * moduli.youngs * square(inverse_length);
     const T per_mass = 4.0 / header.mass;
     const T undamped = 2.0 / sqrt(max(stiffness, abs(force) * inverse_length) * per_mass);
-    increment.stable_step =
-        where(squared > T(2 * no_length<T>), undamped * damped_share(T(linear_bulk_viscosity)), 0.0);
+    increment.stable_step = where(has_length, undamped * damped_share(T(linear_bulk_viscosity)), 0.0);
     T taut(1.0);
     if (formulation == BeamFormulation::cable) taut = where(header.slack < T(0.0), T(0.0), 1.0);
     force += viscous_force(taut * stiffness, undamped, length * change, step, header, increment);

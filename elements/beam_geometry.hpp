@@ -72,14 +72,15 @@ template <class T>
 BRIO_INLINE BeamGeometry<T> beam_geometry(const Vector3<T>& chord, const Quaternion<T>& first,
                                           const Quaternion<T>& second) {
   BeamGeometry<T> g;
-  const T squared = max(dot(chord, chord), no_length<T>);
-  g.length = sqrt(squared);
+  const T squared = dot(chord, chord);
+  const MaskOf<T> has_length = squared > T(2 * no_length<T>);
+  g.length = sqrt(where(has_length, squared, 1.0));
   g.inverse_length = 1.0 / g.length;
   g.middle = middle_of(first, second);
   g.chord = g.inverse_length * rotated(conjugate(g.middle), chord);
   g.between = conjugate(first) * second;
   g.bend_ratio = angle_over_sine(max(g.between.w, 0.0));
-  g.is_valid = (squared > T(2 * no_length<T>)) & (g.between.w > T(0.0)) & (g.chord.x > T(0.0));
+  g.is_valid = has_length & (g.between.w > T(0.0)) & (g.chord.x > T(0.0));
   return g;
 }
 

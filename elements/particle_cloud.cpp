@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
+#include "elements/bad_element.hpp"
 #include "elements/gather.hpp"
 #include "elements/particle_weights.hpp"
 
@@ -113,9 +112,8 @@ ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume
       cloud.largest_gradient_size = std::max(cloud.largest_gradient_size, cloud.gradient_size[i]);
       continue;
     }
-    throw std::invalid_argument("particle " + std::to_string(i) +
-                                " has no neighbours in three directions; accepted are at least two particles "
-                                "along each axis");
+    throw BadElement(
+        i, "has no neighbours in three directions; accepted are at least two particles along each axis");
   }
   return cloud;
 }

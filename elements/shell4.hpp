@@ -96,7 +96,7 @@ struct Shell4 {
     const T gyration = gyration_square(g, moduli, shear_factor, header.thickness, rule().second_moment());
     header.inverse_gyration = 1.0 / gyration;
     // A triangle's smallest corner is zero but for round-off.
-    const auto valid = (smallest_corner(g) > T(-1e-6)) & (g.area > T(2 * std::sqrt(vanishing<T>)));
+    const auto valid = (smallest_corner(g) > T(-1e-6)) & g.is_valid;
     header.mass = where(valid, law.density * header.thickness * g.area, 0.0);
     const T share = 0.25 * header.mass;
     return {share, share * gyration};
@@ -125,8 +125,7 @@ struct Shell4 {
     T damping = T(linear_bulk_viscosity);
     if (hourglass_viscosity > 0)
       damping += hourglass_viscosity * (1.0 + 0.5 * (square(g.skew[0]) + square(g.skew[1])));
-    increment.stable_step =
-        where(g.area > T(2 * std::sqrt(vanishing<T>)), undamped * damped_share(damping), 0.0);
+    increment.stable_step = where(g.is_valid, undamped * damped_share(damping), 0.0);
 
     // Viscosity as if the stiffness of equal stretch in both directions, E' (1 + nu) / 2, acted for b1 stable
     // steps.

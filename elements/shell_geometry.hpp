@@ -45,6 +45,7 @@ template <class T>
 struct ShellGeometry {
   Vector3<T> axis[2];
   Vector3<T> normal;
+  MaskOf<T> is_valid;  ///< has an area; where it has none the numbers are harmless and mean nothing
   T area;
   T inverse_area;
   T diagonal[2][2];  ///< [diagonal][axis], length
@@ -56,8 +57,7 @@ struct ShellGeometry {
   T inverse_trace;   ///< 1 / tr U
 };
 
-/// Smallest square of a length to the fourth that still has a reciprocal: collapsed elements do not divide by
-/// zero.
+/// Square of a length, or of an area, that counts as none.
 template <class T>
 inline constexpr double vanishing = sizeof(RealOf<T>) == 8 ? 1e-200 : 1e-30;
 
@@ -78,7 +78,9 @@ BRIO_INLINE void set_plane(ShellGeometry<T>& g, const DiagonalParts<T>& x) {
 template <class T>
 BRIO_INLINE void set_normal(ShellGeometry<T>& g, const DiagonalParts<T>& x) {
   const Vector3<T> n = cross(x.difference[0], x.difference[1]);
-  const T double_area = sqrt(max(dot(n, n), vanishing<T>));
+  const T squared = dot(n, n);
+  g.is_valid = squared > T(16 * vanishing<T>);
+  const T double_area = sqrt(where(g.is_valid, squared, 1.0));
   const T inverse = 1.0 / double_area;
   g.normal = inverse * n;
   g.area = 0.5 * double_area;

@@ -44,12 +44,12 @@ struct HourglassStiffness {
   T rotation;  ///< E h^3 A s / 192
 };
 
-/// s: sum over nodes of the squared mean gradient, 1/area.
+/// s: sum over nodes of the squared mean gradient, 1/area; 1 where there is no area.
 template <class T>
 BRIO_INLINE T gradient_square(const ShellGeometry<T>& g) {
   T sum = square(g.dual[0][0]) + square(g.dual[0][1]);
   sum += square(g.dual[1][0]) + square(g.dual[1][1]);
-  return 2.0 * sum;
+  return where(g.is_valid, 2.0 * sum, 1.0);
 }
 
 template <class T>

@@ -29,6 +29,7 @@
 #include <string>
 #include <vector>
 
+#include "elements/bad_element.hpp"
 #include "elements/block.hpp"
 #include "elements/gather.hpp"
 #include "elements/lose.hpp"
@@ -295,18 +296,12 @@ void initialize_block(Block& block, Nodes& nodes) {
     const MotionOf<Kind, T> motion = gather_motion_once<Kind, Real>(nodes, connectivity);
     const NodalMass<T> share =
         kind.initialize(motion, law, Layout::header(block, pack), Layout::points(block, pack));
-    if constexpr (requires { law.start(Layout::points(block, pack)->history, share.mass); }) {
-      const T size = point_size<Kind, Real>(kind, share.mass, law.density);
-      for (int p = 0; p < kind.points(); ++p) law.start(Layout::points(block, pack)[p].history, size);
-    }
     for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count;
          ++lane) {
       if (!(share.mass[lane] > 0)) {
         std::string rule = "has no positive volume";
         if constexpr (requires { Kind::shape_rule; }) rule = Kind::shape_rule;
-        throw std::invalid_argument("element " +
-                                    std::to_string(pack * width + static_cast<std::size_t>(lane)) +
-                                    " of part '" + block.part + "' " + rule);
+        throw BadElement(pack * width + static_cast<std::size_t>(lane), rule);
       }
       for (int corner = 0; corner < Kind::nodes; ++corner) {
         const auto node = static_cast<std::size_t>(connectivity[corner * width + lane]);
@@ -314,6 +309,10 @@ void initialize_block(Block& block, Nodes& nodes) {
         if constexpr (Kind::rotations)
           nodes.rotational_inertia[node] += static_cast<double>(share.rotational_inertia[lane]);
       }
+    }
+    if constexpr (requires { law.start(Layout::points(block, pack)->history, share.mass); }) {
+      const T size = point_size<Kind, Real>(kind, share.mass, law.density);
+      for (int p = 0; p < kind.points(); ++p) law.start(Layout::points(block, pack)[p].history, size);
     }
   }
 }

@@ -1,6 +1,8 @@
 #include "src/advance.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +16,14 @@ namespace {
 
 // A step this much smaller than the first says that the mesh has collapsed.
 constexpr double collapse_ratio = 1e-5;
+
+// As few digits as tell it; in every locale the same.
+std::string written(double number) {
+  std::array<char, 32> digits{};
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::general, 6);
+  return {digits.data(), end.ptr};
+}
 
 std::string element_name(const Model& model, std::size_t block, std::size_t element) {
   const PartInModel& part = model.parts[block];
@@ -98,7 +108,7 @@ void sweep_elements(Model& model, ThreadTeam& team) {
   if (!(model.control.stable > 0))
     throw Breakdown(element_name(model, model.control.critical_block, model.control.critical_element) +
                     " has inverted or holds a value that is not a number, at time " +
-                    std::to_string(model.times.time));
+                    written(model.times.time));
 }
 
 void add_mass(Model& model) {
@@ -131,13 +141,13 @@ void choose_step(Model& model) {
   if (control.settings.step) {
     step = *control.settings.step;
     if (step > control.stable)
-      throw Breakdown("the constant step " + std::to_string(step) + " exceeds the stable step " +
-                      std::to_string(control.stable) + " of " +
+      throw Breakdown("the constant step " + written(step) + " exceeds the stable step " +
+                      written(control.stable) + " of " +
                       element_name(model, control.critical_block, control.critical_element));
   }
   if (model.step > 0) step = std::min(step, control.settings.step_growth * model.times.previous);
   if (model.step > 0 && step < collapse_ratio * control.first)
-    throw Breakdown("the stable step has collapsed to " + std::to_string(step) + ", set by " +
+    throw Breakdown("the stable step has collapsed to " + written(step) + ", set by " +
                     element_name(model, control.critical_block, control.critical_element));
   // The last two steps share what is left, so that the end time is met without a sliver.
   const double left = control.settings.end - model.times.time;
@@ -270,8 +280,8 @@ void check_books(Model& model, double energy_error_limit) {
   const double error = energy.relative_error();
   energy.error_max = std::max(energy.error_max, std::abs(error));
   if (!(std::abs(error) <= energy_error_limit))
-    throw Breakdown("the energy error " + std::to_string(error) +
-                    " exceeds numerics.energy_error_limit at time " + std::to_string(model.times.time));
+    throw Breakdown("the energy error " + written(error) + " exceeds numerics.energy_error_limit at time " +
+                    written(model.times.time));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "elements/bad_element.hpp"
 #include "src/build_rigid.hpp"
 #include "src/build_ties.hpp"
 #include "src/particles.hpp"
@@ -54,6 +55,7 @@ std::size_t place_parts(const Deck& deck, std::span<const Mesh> meshes, const Sh
     for (int node : part.node)
       if (node < 0) throw BuildError("part '" + part.name + "' has a node that belongs to no element");
     connectivity.push_back(std::move(nodes));
+    model.part_number.emplace(part.name, p);
     model.parts.push_back(std::move(part));
     offset += mesh.position.size();
   }
@@ -110,6 +112,9 @@ void lump_masses(std::span<const Mesh> meshes, Model& model) {
       if (!meshes[p].volume.empty())
         find_neighbours(model.blocks[p], particle_volumes(meshes[p], model.parts[p]), nodes);
       model.blocks[p].kernel.initialize(model.blocks[p], nodes);
+    } catch (const BadElement& fault) {
+      throw BuildError("element " + std::to_string(model.parts[p].element_order[fault.place]) + " of part '" +
+                       model.parts[p].name + "' " + fault.rule);
     } catch (const std::invalid_argument& fault) {
       throw BuildError(fault.what());
     }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "contact/overlap.hpp"
@@ -49,7 +50,8 @@ struct Model {
   Nodes nodes;
   std::vector<Block> blocks;
   std::vector<PartInModel> parts;
-  std::vector<MergedParts> merged;  ///< one a merge
+  std::unordered_map<std::string, std::size_t> part_number;  ///< by name
+  std::vector<MergedParts> merged;                           ///< one a merge
   Ties ties;
   SweepSchedule schedule;
   std::vector<SweepResult> sweep_results;         ///< one a task

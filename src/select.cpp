@@ -25,12 +25,14 @@ bool inside(const SphereRegion& sphere, const Vector& x) {
   return distance <= sphere.radius * sphere.radius;
 }
 
+BuildError no_part(const std::string& name) { return BuildError("no part is named '" + name + "'"); }
+
 }  // namespace
 
 std::size_t part_index(const std::string& name, const Deck& deck) {
   for (std::size_t p = 0; p < deck.parts.size(); ++p)
     if (deck.parts[p].name == name) return p;
-  throw BuildError("no part is named '" + name + "'");
+  throw no_part(name);
 }
 
 std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std::span<const Mesh> meshes,
@@ -38,7 +40,10 @@ std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std:
   std::vector<int> chosen;
   if (!where.set.empty()) {
     const std::size_t dot_at = where.set.find('.');
-    const std::size_t part = part_index(where.set.substr(0, dot_at), deck);
+    const std::string name = where.set.substr(0, dot_at);
+    const auto numbered = model.part_number.find(name);
+    if (numbered == model.part_number.end()) throw no_part(name);
+    const std::size_t part = numbered->second;
     const std::string set = dot_at == std::string::npos ? "all" : where.set.substr(dot_at + 1);
     if (set == "all") {
       chosen = model.parts[part].node;

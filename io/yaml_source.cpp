@@ -11,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <unordered_set>
 
 namespace brio {
 
@@ -78,6 +79,7 @@ class TreeBuilder : public YAML::EventHandler {
     bool key_is_pending = false;
     std::string key;
     Place key_place;
+    std::unordered_set<std::string> keys;  ///< of a map so far
   };
 
   void check_tag(const YAML::Mark& mark, const std::string& tag) const {
@@ -90,7 +92,7 @@ class TreeBuilder : public YAML::EventHandler {
     auto node = std::make_shared<YamlNode>();
     node->kind = kind;
     node->place = place_of(mark);
-    open_.push_back({std::move(node), anchor, false, {}, {}});
+    open_.push_back({std::move(node), anchor, false, {}, {}, {}});
   }
   void close() {
     const OpenNode done = std::move(open_.back());
@@ -120,9 +122,9 @@ class TreeBuilder : public YAML::EventHandler {
 
   static void start_entry(OpenNode& parent, const YamlNode& key, const Place& place) {
     if (!key.is_scalar()) throw DeckError(place, "a key is " + describe(key) + "; keys are words");
-    if (const YamlEntry* first = parent.node->find(key.text))
-      throw DeckError(place,
-                      "duplicate key '" + key.text + "'; it stands already at " + to_string(first->place));
+    if (!parent.keys.insert(key.text).second)
+      throw DeckError(place, "duplicate key '" + key.text + "'; it stands already at " +
+                                 to_string(parent.node->find(key.text)->place));
     parent.key = key.text;
     parent.key_place = place;
     parent.key_is_pending = true;

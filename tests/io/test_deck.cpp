@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <clocale>
 #include <filesystem>
 #include <fstream>
-#include <locale>
 
 #include "io/closest_word.hpp"
 #include "io/read_deck.hpp"
@@ -121,26 +119,6 @@ TEST(Deck, NumbersAreWrittenInManyWays) {
   EXPECT_EQ(std::get<BoxMesh>(deck.parts[0].mesh).elements, (std::array<int, 3>{2, 2, 4}));
 }
 
-/// A locale in which one and a half is written 1,5 and a thousand 1.000.
-struct CommaPunctuation : std::numpunct<char> {
-  char do_decimal_point() const override { return ','; }
-  char do_thousands_sep() const override { return '.'; }
-  std::string do_grouping() const override { return "\3"; }
-};
-
-TEST(Deck, MeansTheSameWhereNumbersHaveCommas) {
-  const std::locale before = std::locale::global(std::locale(std::locale(), new CommaPunctuation));
-  const std::string c_before = std::setlocale(LC_ALL, nullptr);
-  std::setlocale(LC_ALL, "de_DE.UTF-8");  // where it is installed
-  const Deck deck = parse_deck(plain_deck, "a.yaml", {"parts.left.mesh.box.elements=[1000, 2, 4]"});
-  const std::string fault = fault_of(with("[2, 2, 4]", "[2, 2.5, 4]"), {});
-  std::setlocale(LC_ALL, c_before.c_str());
-  std::locale::global(before);
-  EXPECT_EQ(density_of(deck), 7.34e-4);
-  EXPECT_NE(deck.text.find("elements: [1000, 2, 4]"), std::string::npos) << deck.text;
-  EXPECT_EQ(fault, "a.yaml:6:49: 'elements' is '2.5'; expected an integer >= 1");
-}
-
 TEST(Deck, AnchorsAndMergeKeysWork) {
   const std::string text = R"(
 materials:
@@ -175,7 +153,7 @@ TEST(Deck, LineEndsAndByteOrderMarkDoNotMatter) {
             "Zwei Würfel \xE2\x9C\x93");
 }
 
-TEST(Deck, IsReadFromAPathWithSpaces) {
+TEST(ExtremesDeckFile, IsReadFromAPathWithSpaces) {
   const auto folder = std::filesystem::temp_directory_path() / "brio deck test";
   std::filesystem::create_directories(folder);
   const std::string path = (folder / "a deck.yaml").string();

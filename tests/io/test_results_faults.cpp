@@ -355,7 +355,7 @@ std::string message_of_file_error(Work work) {
   return "no error";
 }
 
-TEST(ReadOnlyFolder, IsAnErrorBeforeAnythingIsComputed) {
+TEST(ExtremesReadOnlyFolder, IsAnErrorBeforeAnythingIsComputed) {
   using std::filesystem::perms;
   const Folder folder;
   std::filesystem::permissions(folder.path(), perms::owner_read | perms::owner_exec | perms::others_read |

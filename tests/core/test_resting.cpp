@@ -108,7 +108,7 @@ TEST(RestingStackSlow, OfThreeCubesNeitherCreepsNorGainsEnergy) {
 }
 
 // A hundred thousand steps, a third of them while gravity comes on; inputs/resting_stack.yaml is a million.
-TEST(RestingStackSlow, OfTenBricksNeitherCreepsNorTiltsNorGainsEnergy) {
+TEST(ExtremesRestSlow, OfTenBricksNeitherCreepsNorTiltsNorGainsEnergy) {
   const Rest result = rest(bricks(1), 100000, 2000 * 0.002 * 9.81 * 0.1, 0.1);
   expect_rest(result);
   EXPECT_LE(result.drift, 1e-6);

@@ -89,7 +89,7 @@ void expect_no_drift(const Means& first, const Means& last) {
 }
 
 // Steps of a twentieth of a turn: the beam is stretched by 7 %, and without viscosity goes on vibrating.
-TEST(SpinningBeamSlow, KeepsItsEnergyLengthAndMomentumForAMillionTurns) {
+TEST(ExtremesTurnsSlow, KeepsItsEnergyLengthAndMomentumForAMillionTurns) {
   SpinningBeam beam(16, 0);
   beam.over(1e3);
   const Means first = beam.over(1e5);

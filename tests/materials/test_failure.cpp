@@ -102,7 +102,7 @@ TEST(Failure, DamageNeverHealsAndAFailedPointCarriesNothingForEver) {
   expect_monotone(failing(power_law(tearing)), 400);
 }
 
-TEST(Failure, DamageThatWouldJumpPastOneStopsThere) {
+TEST(ExtremesFailure, DamageThatWouldJumpPastOneStopsThere) {
   Point point(failing(linear_law(opening_failure(0.01, 1e-3))));
   point.strain({0.5, 0, 0, 0, 0, 0});
   EXPECT_EQ(point.history.damage, 1.0);

@@ -41,13 +41,17 @@ double interpolated(const Values& time, const Values& value, double at) {
   return value[i - 1] + share * (value[i] - value[i - 1]);
 }
 
-// Growth over a span that ends at each row, over its length; rows before the first whole span have none.
-Values rates(const Values& time, const Values& value, double span) {
-  Values result;
-  for (std::size_t i = 0; i < time.size(); ++i)
-    if (time[i] - span >= time.front())
-      result.push_back((value[i] - interpolated(time, value, time[i] - span)) / span);
-  return result;
+// In place of the values, growth over a span that ends at each row, over its length; rows before the first
+// whole span are left out.
+void take_rates(Values& time, Values& value, double span) {
+  Values ends, rates;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    if (time[i] - span < time.front()) continue;
+    ends.push_back(time[i]);
+    rates.push_back((value[i] - interpolated(time, value, time[i] - span)) / span);
+  }
+  time = std::move(ends);
+  value = std::move(rates);
 }
 
 double entry(const nlohmann::json& summary, const std::string& path, const std::filesystem::path& file) {
@@ -78,10 +82,10 @@ class Measurement {
  private:
   double of_history(const Quantity& quantity, const std::string& column) {
     if (history_.columns.empty()) history_ = reader_.history();
-    const Values time = history_.column("time", file_);
+    Values time = history_.column("time", file_);
     Values values = history_.column(column, file_);
     if (values.empty()) throw FileError(file_, "the history has no rows");
-    if (quantity.rate_over) values = rates(time, values, *quantity.rate_over);
+    if (quantity.rate_over) take_rates(time, values, *quantity.rate_over);
     if (values.empty()) throw FileError(file_, "'" + quantity.name + "': the run is shorter than rate_over");
     if (quantity.time) return interpolated(time, values, *quantity.time);
     return taken(values, quantity.take.value_or(Taken::end));

@@ -36,6 +36,9 @@ quantities:
   stress: {field: stress, component: xx, take: max, whole_run: true}
   kinetic: {history: kinetic, take: mean}
   pull: {history: support_impulse_x, rate_over: 1e-4, take: min, factor: -1}
+  late_pull: {history: support_impulse_x, rate_over: 1e-4, time: 2e-3, factor: -1}
+  late_impulse: {history: support_impulse_x, time: 2e-3, factor: -1}
+  before: {history: support_impulse_x, time: 1.9e-3, factor: -1}
   viscous: {summary: energy.viscous, per: energy.total_start}
   speed: {history: momentum_x, time: 0, reference: 1, scale: 2, tolerance: 0.3}
 refined: mesh
@@ -91,6 +94,8 @@ TEST_F(ProgramStudy, MakesATableAndPictures) {
     EXPECT_NEAR(value(run, "speed"), 1000 * 0.01 / elements / 2, 1e-3 * 0.25);
     EXPECT_GT(value(run, "stress"), 0);
     EXPECT_GT(value(run, "pull"), 0);
+    EXPECT_NEAR(value(run, "late_pull"), (value(run, "late_impulse") - value(run, "before")) / 1e-4,
+                1e-4 * value(run, "pull"));
   }
   for (const char* picture :
        {"bars.front.svg", "bars.front.png", "bars.knobs.svg", "bars.knobs.png", "bars.gp"})
@@ -140,10 +145,10 @@ TEST_F(ProgramStudy, FaultsNameThePlaceBeforeAnythingRuns) {
       {with(bar_study, "take: mean", "take: median"), "bad.yaml:9:"},
       {with(bar_study, "part: bar", "part: rod"), "bad.yaml:7:"},
       {with(bar_study, "history: kinetic,", "history: kinetic, field: stress,"), "bad.yaml:9:"},
-      {with(bar_study, "reference: 1, scale: 2", "reference: 0"), "bad.yaml:12:"},
+      {with(bar_study, "reference: 1, scale: 2", "reference: 0"), "bad.yaml:15:"},
       {with(bar_study, "{numerics.precision: float}", "{numerics.precission: float}"), "numerics.precission"},
-      {with(bar_study, "{numerics.precision: float}", "{}"), "bad.yaml:20:"},
-      {with(bar_study, "knobs:", "combinations: [[mesh.fine, mesh.odd]]\nknobs:"), "bad.yaml:14:"},
+      {with(bar_study, "{numerics.precision: float}", "{}"), "bad.yaml:23:"},
+      {with(bar_study, "knobs:", "combinations: [[mesh.fine, mesh.odd]]\nknobs:"), "bad.yaml:17:"},
       {with(bar_study, "title:", "titel:"), "bad.yaml:2:1"},
   };
   for (const auto& [text, place] : faulty) {

@@ -43,6 +43,7 @@ struct Shell4 {
   double shear_factor = 5.0 / 6.0;
   double hourglass_stiffness = 0.05;
   double hourglass_viscosity = 0;
+  double drilling_stiffness = 0;
   double linear_bulk_viscosity = 0.06;
 
   static constexpr auto fields() {
@@ -61,6 +62,9 @@ struct Shell4 {
                  "elastic hourglass control of membrane, bending and shear, -"),
         optional("hourglass_viscosity", &Shell4::hourglass_viscosity, fraction,
                  "viscous hourglass control, share of critical damping, -"),
+        optional("drilling_stiffness", &Shell4::drilling_stiffness, fraction,
+                 "elastic resistance of nodes to spin about the normal, share of the square of the highest "
+                 "frequency, -"),
         optional("linear_bulk_viscosity", &Shell4::linear_bulk_viscosity, fraction,
                  "membrane viscosity b1, share of critical damping of the fastest mode, -"),
     };
@@ -79,6 +83,7 @@ struct Shell4 {
     ReferenceShape<T> reference;
     T hourglass[3];  ///< generalized forces of the elastic hourglass control
     T rotation[2];
+    T drilling[4];  ///< moments about the normal
   };
   template <class T, class Law>
   struct Point {
@@ -113,14 +118,16 @@ struct Shell4 {
                                  Header<T, Law>& header, Point<T, Law>* point,
                                  RotatingNodalForces<T, 4>& nodal) const {
     const ShellGeometry<T> g = shell_geometry(motion.position, header.reference);
-    const ShellRates<T> rates = shell_rates(motion, g, step, warping_projection);
+    const ShellRates<T> rates = shell_rates(motion, g, step, warping_projection, drilling_stiffness > 0);
     Increment<T> increment;
     ShellRates<T> result = stress_resultants(g, rates, step, law, header, point, increment);
 
     const auto moduli = plane_stress_moduli(law.template moduli<T>(point[0].history));
-    const T frequency = highest_frequency_square(g, moduli, shear_factor, rule().second_moment(), header.mass,
-                                                 header.thickness, header.inverse_gyration,
-                                                 hourglass_stiffness, warping_projection);
+    T frequency = highest_frequency_square(g, moduli, shear_factor, rule().second_moment(), header.mass,
+                                           header.thickness, header.inverse_gyration, hourglass_stiffness,
+                                           warping_projection);
+    const T drill = drilling_stiffness * frequency * header.mass / (4.0 * header.inverse_gyration);
+    if (drilling_stiffness > 0) frequency += drilling_frequency_square(g, drill, header);
     const T undamped = 2.0 / sqrt(frequency);
     T damping = T(linear_bulk_viscosity);
     if (hourglass_viscosity > 0)
@@ -137,7 +144,8 @@ struct Shell4 {
     increment.viscous_energy = (g.area * step) * (viscous_force * stretching);
 
     resist_hourglass(g, moduli, rates, step, undamped, header, result, increment);
-    shell_forces(g, result, warping_projection, nodal);
+    if (drilling_stiffness > 0) resist_drilling(drill, rates, step, header, result, increment);
+    shell_forces(g, result, warping_projection, drilling_stiffness > 0, nodal);
     return increment;
   }
 
@@ -236,7 +244,32 @@ struct Shell4 {
             {h_squared * moment[0], h_squared * moment[1], h_squared * moment[2]},
             {h * shear[0], h * shear[1]},
             {},
+            {},
             {}};
+  }
+
+  /// What resistance to drilling adds to the largest square of a frequency: its modes are the four nodes'
+  /// spins against that of the material, whose largest is all of them at once.
+  template <class T, class Law>
+  static BRIO_INLINE T drilling_frequency_square(const ShellGeometry<T>& g, T drill,
+                                                 const Header<T, Law>& header) {
+    return drill * (4.0 / header.mass) * (header.inverse_gyration + gradient_square(g));
+  }
+
+  /// A node's spin about the normal bends no element that is flat, and nothing else would resist it; but
+  /// moments of elements that are tilted against each other drive it, and turn it into what bends. (After
+  /// Hughes & Brezzi 1989: a spring between the spin of the node and that of the material, small.)
+  template <class T, class Law>
+  static BRIO_INLINE void resist_drilling(T drill, const ShellRates<T>& rates, T step, Header<T, Law>& header,
+                                          ShellRates<T>& result, Increment<T>& increment) {
+    T work = T(0.0);
+    for (int node = 0; node < 4; ++node) {
+      const T before = header.drilling[node];
+      header.drilling[node] += drill * step * rates.drilling[node];
+      work += (before + header.drilling[node]) * rates.drilling[node];
+      result.drilling[node] = header.drilling[node];
+    }
+    increment.hourglass_energy += 0.5 * step * work;
   }
 
   /// Elastic and viscous hourglass forces (Belytschko, Ong, Liu & Kennedy 1984).

@@ -33,6 +33,7 @@ struct ShellRates {
   T shear[2];      ///< engineering shear 13, 23
   T hourglass[3];  ///< of velocity: along e1, e2, normal
   T rotation[2];   ///< of angular velocity, along m1 ~ e2 and m2 ~ -e1
+  T drilling[4];   ///< of each node about the normal, less that of the material; where it is asked for
 };
 
 /// Share of a diagonal that lies in the deflection's hourglass vector under curvature along it.
@@ -97,7 +98,7 @@ BRIO_INLINE void refer_to_middle(const ShellGeometry<T>& g, T half_step, ShellRa
 
 template <class T>
 BRIO_INLINE ShellRates<T> shell_rates(const RotatingNodalMotion<T, 4>& motion, const ShellGeometry<T>& g,
-                                      T step, bool warping_projection) {
+                                      T step, bool warping_projection, bool with_drilling) {
   const T half_step = 0.5 * step;
   const DiagonalParts<T> v = diagonal_parts(motion.velocity);
   const DiagonalParts<T> w = diagonal_parts(motion.angular_velocity);
@@ -149,8 +150,11 @@ BRIO_INLINE ShellRates<T> shell_rates(const RotatingNodalMotion<T, 4>& motion, c
   const Vector3<T> twist = w.alternating - (g.skew[0] * w.difference[0] + g.skew[1] * w.difference[1]);
   for (int a = 0; a < 2; ++a) rates.rotation[a] = dot(twist, m[a]);
 
-  if (warping_projection)
-    add_twist_coupling(g, 0.5 * (across[1] - across[0]) - dot(mean_spin, normal), rates);
+  const T spin = 0.5 * (across[1] - across[0]);
+  if (with_drilling)
+    for (int node = 0; node < 4; ++node)
+      rates.drilling[node] = dot(column(motion.angular_velocity, node), normal) - spin;
+  if (warping_projection) add_twist_coupling(g, spin - dot(mean_spin, normal), rates);
   refer_to_middle(g, half_step, rates);
   return rates;
 }
@@ -185,8 +189,11 @@ BRIO_INLINE void spread(const Vector3<T>& first, const Vector3<T>& second, const
 /// nodes.
 template <class T>
 BRIO_INLINE void shell_forces(const ShellGeometry<T>& g, ShellRates<T> force, bool warping_projection,
-                              RotatingNodalForces<T, 4>& nodal) {
-  const T about_normal = warping_projection ? take_twist_coupling(g, force) : T(0.0);
+                              bool with_drilling, RotatingNodalForces<T, 4>& nodal) {
+  T about_normal = warping_projection ? take_twist_coupling(g, force) : T(0.0);
+  if (with_drilling)
+    about_normal -=
+        g.inverse_area * ((force.drilling[0] + force.drilling[1]) + (force.drilling[2] + force.drilling[3]));
   const Vector3<T> turned[2] = {g.axis[1], T(-1.0) * g.axis[0]};  // m1, m2
 
   const Vector3<T> hourglass =
@@ -229,6 +236,14 @@ BRIO_INLINE void shell_forces(const ShellGeometry<T>& g, ShellRates<T> force, bo
   const Vector3<T> uniform = in_plane(turned, quarter * force.shear[0], quarter * force.shear[1]) -
                              (quarter * about_normal) * g.normal;
   spread(along[0], along[1], twist, uniform, nodal.moment);
+  if (!with_drilling) return;
+  const T mean = 0.25 * ((force.drilling[0] + force.drilling[1]) + (force.drilling[2] + force.drilling[3]));
+  for (int node = 0; node < 4; ++node) {
+    const T own = force.drilling[node] - mean;
+    nodal.moment[0][node] += own * g.normal.x;
+    nodal.moment[1][node] += own * g.normal.y;
+    nodal.moment[2][node] += own * g.normal.z;
+  }
 }
 
 }  // namespace brio

@@ -126,8 +126,11 @@ struct Shell4 {
     T frequency = highest_frequency_square(g, moduli, shear_factor, rule().second_moment(), header.mass,
                                            header.thickness, header.inverse_gyration, hourglass_stiffness,
                                            warping_projection);
-    const T drill = drilling_stiffness * frequency * header.mass / (4.0 * header.inverse_gyration);
-    if (drilling_stiffness > 0) frequency += drilling_frequency_square(g, drill, header);
+    T drill = T(0.0);
+    if (drilling_stiffness > 0) {
+      drill = drilling_stiffness * frequency * header.mass / (4.0 * header.inverse_gyration);
+      frequency += drilling_frequency_square(g, drill, header);
+    }
     const T undamped = 2.0 / sqrt(frequency);
     T damping = T(linear_bulk_viscosity);
     if (hourglass_viscosity > 0)

@@ -115,21 +115,18 @@ std::string script(const StudyTable& table, const std::string& name) {
       "format x "
       "'%g'\n",
       cost.range(), error.range());
-  for (const auto& [kind, end, scale] :
-       {std::tuple{"svg noenhanced font 'sans,12' background 'white'", "svg", 1},
-        std::tuple{"pngcairo noenhanced font 'sans,11'", "png", 1}}) {
+  for (const auto& [kind, end] : {std::pair{"svg noenhanced font 'sans,12' background 'white'", "svg"},
+                                  std::pair{"pngcairo noenhanced font 'sans,11'", "png"}}) {
     text += fmt::format(
         "set terminal {} size {},{}\nset output '{}.front.{}'\nset title {}\nset xlabel 'cost: processor "
         "seconds'\nset ylabel 'error, %'\nset key outside right top\n{}\n",
-        kind, 900 * scale, 560 * scale, name, end,
-        quoted(table.study.title.empty() ? name : table.study.title), parts.front);
+        kind, 900, 560, name, end, quoted(table.study.title.empty() ? name : table.study.title), parts.front);
     if (parts.panels == 0) continue;
     text += fmt::format(
         "set terminal {} size {},{}\nset output '{}.knobs.{}'\nunset key\nset multiplot layout "
         "{},{}\n{}unset "
         "multiplot\n",
-        kind, 420 * across * static_cast<std::size_t>(scale), 320 * down * static_cast<std::size_t>(scale),
-        name, end, down, across, parts.knobs);
+        kind, 420 * across, 320 * down, name, end, down, across, parts.knobs);
   }
   return text + "unset output\n";
 }

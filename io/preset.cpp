@@ -22,7 +22,7 @@ struct PresetValues {
   std::span<const ElementSetting> elements;
 };
 
-// What each of these costs and buys: docs/tradeoffs.md.
+// What they cost and buy is told by the knob `preset` of the studies in inputs/studies.
 constexpr Setting fast_settings[] = {
     {"numerics.precision", "float"}, {"contact.passes", "2"}, {"time.step_scale", "0.95"}};
 constexpr ElementSetting fast_elements[] = {{"hex8", "objective_rate", "jaumann"},

@@ -7,15 +7,15 @@
 #include "elements/bad_element.hpp"
 #include "src/build_rigid.hpp"
 #include "src/build_ties.hpp"
+#include "src/part_index.hpp"
 #include "src/particles.hpp"
 
 namespace brio {
 
 namespace {
 
-const Material& material_of(const Part& part, const Deck& deck) {
-  for (const auto& [name, material] : deck.materials)
-    if (name == part.material) return material;
+const Material& law_of(const Part& part, const Deck& deck) {
+  if (const Material* material = material_of(deck, part)) return *material;
   throw BuildError("part '" + part.name + "': no material is named '" + part.material + "'");
 }
 
@@ -89,8 +89,8 @@ void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connecti
       continue;
     }
     try {
-      model.blocks.push_back(make_block(part.name, part.element, material_of(part, deck),
-                                        deck.numerics.precision, connectivity[p], part.deletion));
+      model.blocks.push_back(make_block(part.name, part.element, law_of(part, deck), deck.numerics.precision,
+                                        connectivity[p], part.deletion));
     } catch (const std::invalid_argument& fault) {
       throw BuildError("part '" + part.name + "': " + fault.what());
     }

@@ -5,6 +5,7 @@
 
 #include "src/memory.hpp"
 #include "src/observe.hpp"
+#include "src/part_index.hpp"
 
 namespace brio {
 
@@ -53,12 +54,6 @@ void add_per_kind(const Deck& deck, const Model& model, const Key& kind_of, cons
     feature.detail = counted(elements, "element");
     features.push_back(std::move(feature));
   }
-}
-
-const Material* material_of(const Deck& deck, const Part& part) {
-  for (const auto& [name, material] : deck.materials)
-    if (name == part.material) return &material;
-  return nullptr;
 }
 
 void add_elements(const Deck& deck, const Model& model, Features& features) {

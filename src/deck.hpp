@@ -397,7 +397,7 @@ struct OutputSection {
   }
 };
 
-/// Values for what a deck leaves open, as measured (docs/tradeoffs.md).
+/// Values for what a deck leaves open.
 enum class Preset { fast, balanced, accurate };
 constexpr std::array<NamedValue<Preset>, 3> named_values(Preset) {
   return {{{"fast", Preset::fast}, {"balanced", Preset::balanced}, {"accurate", Preset::accurate}}};

@@ -35,6 +35,12 @@ std::size_t part_index(const std::string& name, const Deck& deck) {
   throw no_part(name);
 }
 
+const Material* material_of(const Deck& deck, const Part& part) {
+  for (const auto& [name, material] : deck.materials)
+    if (name == part.material) return &material;
+  return nullptr;
+}
+
 std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std::span<const Mesh> meshes,
                               const Model& model) {
   std::vector<int> chosen;

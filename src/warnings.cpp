@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "src/output_schedule.hpp"
+#include "src/part_index.hpp"
 #include "src/part_shape.hpp"
 
 namespace brio {
@@ -20,12 +21,6 @@ std::string number(double value) {
   text.precision(3);
   text << value;
   return text.str();
-}
-
-const Material* material_of(const Deck& deck, const Part& part) {
-  for (const auto& [name, material] : deck.materials)
-    if (name == part.material) return &material;
-  return nullptr;
 }
 
 bool is_in_contact(const Deck& deck, const std::string& part) {

@@ -5,11 +5,9 @@
 ///
 /// * Axes, strains and what was added to the original: shell_geometry.hpp, shell_strain.hpp.
 /// * Stable step and scaled rotational inertia: shell_step.hpp.
-/// * Drilling: a node has one moment of inertia about all axes, and nothing resists its spin about the normal
-/// of a flat
-///   shell. Moments lie in the planes of the elements around the node, so that spin is neither driven nor
-///   damped: it keeps the value that initial motion or a fold gave to it. Strain takes only what lies in the
-///   element's plane.
+/// * Drilling: a node has one moment of inertia about all axes, and strain takes only what lies in the
+///   element's plane: it does not resist spin about the normal. Elements that are tilted against each other
+///   drive that spin and turn it into what bends, so a weak spring holds it (drilling_stiffness).
 
 #include <string_view>
 #include <tuple>
@@ -43,7 +41,7 @@ struct Shell4 {
   double shear_factor = 5.0 / 6.0;
   double hourglass_stiffness = 0.05;
   double hourglass_viscosity = 0;
-  double drilling_stiffness = 0;
+  double drilling_stiffness = 0.01;
   double linear_bulk_viscosity = 0.06;
 
   static constexpr auto fields() {
@@ -80,10 +78,11 @@ struct Shell4 {
     T thickness;
     T inverse_gyration;  ///< 1 / r^2: nodal mass over nodal rotational inertia
     T internal_energy;
+    T viscous_force;  ///< per length, of the last step
     ReferenceShape<T> reference;
     T hourglass[3];  ///< generalized forces of the elastic hourglass control
     T rotation[2];
-    T drilling[4];  ///< moments about the normal
+    T drilling;  ///< moment about the normal
   };
   template <class T, class Law>
   struct Point {
@@ -118,7 +117,7 @@ struct Shell4 {
                                  Header<T, Law>& header, Point<T, Law>* point,
                                  RotatingNodalForces<T, 4>& nodal) const {
     const ShellGeometry<T> g = shell_geometry(motion.position, header.reference);
-    const ShellRates<T> rates = shell_rates(motion, g, step, warping_projection, drilling_stiffness > 0);
+    const ShellRates<T> rates = shell_rates(motion, g, step, warping_projection);
     Increment<T> increment;
     ShellRates<T> result = stress_resultants(g, rates, step, law, header, point, increment);
 
@@ -128,7 +127,7 @@ struct Shell4 {
                                            warping_projection);
     T drill = T(0.0);
     if (drilling_stiffness > 0) {
-      drill = drilling_stiffness * frequency * header.mass / (4.0 * header.inverse_gyration);
+      drill = drilling_stiffness * frequency * header.mass / header.inverse_gyration;
       frequency += drilling_frequency_square(g, drill, header);
     }
     const T undamped = 2.0 / sqrt(frequency);
@@ -144,11 +143,14 @@ struct Shell4 {
                             (moduli.stretch * (1.0 + moduli.ratio)) * stretching;
     result.membrane[0] += viscous_force;
     result.membrane[1] += viscous_force;
-    increment.viscous_energy = (g.area * step) * (viscous_force * stretching);
+    const T middle_area = g.area * (1.0 - 0.5 * step * stretching);
+    increment.viscous_energy =
+        (0.5 * middle_area * step) * ((header.viscous_force + viscous_force) * stretching);
+    header.viscous_force = viscous_force;
 
     resist_hourglass(g, moduli, rates, step, undamped, header, result, increment);
     if (drilling_stiffness > 0) resist_drilling(drill, rates, step, header, result, increment);
-    shell_forces(g, result, warping_projection, drilling_stiffness > 0, nodal);
+    shell_forces(g, result, warping_projection, nodal);
     return increment;
   }
 
@@ -248,31 +250,29 @@ struct Shell4 {
             {h * shear[0], h * shear[1]},
             {},
             {},
-            {}};
+            T(0.0)};
   }
 
-  /// What resistance to drilling adds to the largest square of a frequency: its modes are the four nodes'
-  /// spins against that of the material, whose largest is all of them at once.
+  /// What resistance to drilling adds to the largest square of a frequency: its only mode is all four nodes'
+  /// spin against that of the material.
   template <class T, class Law>
   static BRIO_INLINE T drilling_frequency_square(const ShellGeometry<T>& g, T drill,
                                                  const Header<T, Law>& header) {
-    return drill * (4.0 / header.mass) * (header.inverse_gyration + gradient_square(g));
+    return (drill / header.mass) * (header.inverse_gyration + gradient_square(g));
   }
 
-  /// A node's spin about the normal bends no element that is flat, and nothing else would resist it; but
-  /// moments of elements that are tilted against each other drive it, and turn it into what bends. (After
-  /// Hughes & Brezzi 1989: a spring between the spin of the node and that of the material, small.)
+  /// Nodal spin about the normal bends no element that is flat, and nothing else would resist it; but moments
+  /// of elements that are tilted against each other drive it, and turn it into what bends. (After Hughes &
+  /// Brezzi 1989: a weak spring between the spin of the nodes and that of the material. One for the mean of
+  /// the nodes, as one point of integration gives: nodes spin unequally where a warped surface bends, and one
+  /// for each would lock it.)
   template <class T, class Law>
   static BRIO_INLINE void resist_drilling(T drill, const ShellRates<T>& rates, T step, Header<T, Law>& header,
                                           ShellRates<T>& result, Increment<T>& increment) {
-    T work = T(0.0);
-    for (int node = 0; node < 4; ++node) {
-      const T before = header.drilling[node];
-      header.drilling[node] += drill * step * rates.drilling[node];
-      work += (before + header.drilling[node]) * rates.drilling[node];
-      result.drilling[node] = header.drilling[node];
-    }
-    increment.hourglass_energy += 0.5 * step * work;
+    const T before = header.drilling;
+    header.drilling += drill * step * rates.drilling;
+    result.drilling = header.drilling;
+    increment.hourglass_energy += (0.5 * step) * ((before + header.drilling) * rates.drilling);
   }
 
   /// Elastic and viscous hourglass forces (Belytschko, Ong, Liu & Kennedy 1984).

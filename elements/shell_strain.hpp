@@ -25,7 +25,7 @@
 namespace brio {
 
 /// Rates on the axes; with forces in their place, what does work on them per area (membrane, curvature,
-/// shear) or in total (hourglass).
+/// shear) or in total (hourglass, drilling).
 template <class T>
 struct ShellRates {
   T membrane[3];   ///< 11, 22, 12 (tensor component)
@@ -33,7 +33,7 @@ struct ShellRates {
   T shear[2];      ///< engineering shear 13, 23
   T hourglass[3];  ///< of velocity: along e1, e2, normal
   T rotation[2];   ///< of angular velocity, along m1 ~ e2 and m2 ~ -e1
-  T drilling[4];   ///< of each node about the normal, less that of the material; where it is asked for
+  T drilling;      ///< mean of the nodes' spins about the normal, less that of the material
 };
 
 /// Share of a diagonal that lies in the deflection's hourglass vector under curvature along it.
@@ -98,7 +98,7 @@ BRIO_INLINE void refer_to_middle(const ShellGeometry<T>& g, T half_step, ShellRa
 
 template <class T>
 BRIO_INLINE ShellRates<T> shell_rates(const RotatingNodalMotion<T, 4>& motion, const ShellGeometry<T>& g,
-                                      T step, bool warping_projection, bool with_drilling) {
+                                      T step, bool warping_projection) {
   const T half_step = 0.5 * step;
   const DiagonalParts<T> v = diagonal_parts(motion.velocity);
   const DiagonalParts<T> w = diagonal_parts(motion.angular_velocity);
@@ -151,10 +151,8 @@ BRIO_INLINE ShellRates<T> shell_rates(const RotatingNodalMotion<T, 4>& motion, c
   for (int a = 0; a < 2; ++a) rates.rotation[a] = dot(twist, m[a]);
 
   const T spin = 0.5 * (across[1] - across[0]);
-  if (with_drilling)
-    for (int node = 0; node < 4; ++node)
-      rates.drilling[node] = dot(column(motion.angular_velocity, node), normal) - spin;
-  if (warping_projection) add_twist_coupling(g, spin - dot(mean_spin, normal), rates);
+  rates.drilling = dot(mean_spin, normal) - spin;
+  if (warping_projection) add_twist_coupling(g, -rates.drilling, rates);
   refer_to_middle(g, half_step, rates);
   return rates;
 }
@@ -189,11 +187,9 @@ BRIO_INLINE void spread(const Vector3<T>& first, const Vector3<T>& second, const
 /// nodes.
 template <class T>
 BRIO_INLINE void shell_forces(const ShellGeometry<T>& g, ShellRates<T> force, bool warping_projection,
-                              bool with_drilling, RotatingNodalForces<T, 4>& nodal) {
+                              RotatingNodalForces<T, 4>& nodal) {
   T about_normal = warping_projection ? take_twist_coupling(g, force) : T(0.0);
-  if (with_drilling)
-    about_normal -=
-        g.inverse_area * ((force.drilling[0] + force.drilling[1]) + (force.drilling[2] + force.drilling[3]));
+  about_normal -= g.inverse_area * force.drilling;
   const Vector3<T> turned[2] = {g.axis[1], T(-1.0) * g.axis[0]};  // m1, m2
 
   const Vector3<T> hourglass =
@@ -236,14 +232,6 @@ BRIO_INLINE void shell_forces(const ShellGeometry<T>& g, ShellRates<T> force, bo
   const Vector3<T> uniform = in_plane(turned, quarter * force.shear[0], quarter * force.shear[1]) -
                              (quarter * about_normal) * g.normal;
   spread(along[0], along[1], twist, uniform, nodal.moment);
-  if (!with_drilling) return;
-  const T mean = 0.25 * ((force.drilling[0] + force.drilling[1]) + (force.drilling[2] + force.drilling[3]));
-  for (int node = 0; node < 4; ++node) {
-    const T own = force.drilling[node] - mean;
-    nodal.moment[0][node] += own * g.normal.x;
-    nodal.moment[1][node] += own * g.normal.y;
-    nodal.moment[2][node] += own * g.normal.z;
-  }
 }
 
 }  // namespace brio

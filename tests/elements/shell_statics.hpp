@@ -45,7 +45,7 @@ class ShellStatics {
       };
       for (int a = 0; a < 24; ++a) {
         for (int b = 0; b < 24; ++b) entries_.emplace_back(place(a), place(b), k(a, b));
-        // Nothing holds the drilling spins of flat shells; a little does.
+        // Drilling spins whose mean vanishes in all elements are free; a little holds them.
         if (a >= 12) entries_.emplace_back(place(a), place(a), 1e-8 * bending);
       }
     }

@@ -27,6 +27,7 @@ TEST(Shell4Patch, LinearMembraneFieldsGiveUniformStressAndNoInnerForces) {
   for (int n = 0; n < count; ++n) {
     const Vector3d x = model.position(n);
     model.set_velocity(n, {exx * x.x() + (exy - spin) * x.y(), (exy + spin) * x.x() + eyy * x.y(), 0});
+    model.set_angular_velocity(n, {0, 0, spin});
   }
   model.sweep(instant);
   const double stretch = 200e9 / 0.91 * instant;

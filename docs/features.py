@@ -120,7 +120,7 @@ def main():
     chosen = arguments.parse_args()
     if not (chosen.coverage / "brio").exists():
         subprocess.run(["cmake", "-S", ROOT, "-B", chosen.coverage, "-G", "Ninja", "-DBRIO_TESTS=OFF", "-DBRIO_BENCH=OFF",
-                        "-DCMAKE_CXX_FLAGS=--coverage", "-DCMAKE_CXX_FLAGS_RELEASE=-O1"], check=True)
+                        "-DCMAKE_CXX_FLAGS=--coverage -DBRIO_KERNELS_BY_CALL", "-DCMAKE_CXX_FLAGS_RELEASE=-O1"], check=True)
         subprocess.run(["cmake", "--build", chosen.coverage, "--target", "brio"], check=True)
 
     memory, stages, lines = {}, {}, {}

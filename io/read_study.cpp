@@ -56,13 +56,18 @@ void check_references(const CheckedStudy& checked, const YamlNode& root) {
                           "the name of a reference run");
 }
 
-void check_refined(const CheckedStudy& checked, const YamlNode& root) {
-  const std::string& refined = checked.study.refined;
+void check_knob(const CheckedStudy& checked, const std::string& name, const Place& place) {
   std::vector<std::string_view> names;
   for (const auto& [knob, settings] : checked.study.knobs) names.push_back(knob);
-  if (refined.empty() || std::find(names.begin(), names.end(), refined) != names.end()) return;
-  throw DeckError(root.find("refined")->value->place,
-                  "no knob is called '" + refined + "'; " + accepted_words(refined, names));
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw DeckError(place, "no knob is called '" + name + "'; " + accepted_words(name, names));
+}
+
+void check_named_knobs(const CheckedStudy& checked, const YamlNode& root) {
+  const Study& study = checked.study;
+  if (!study.refined.empty()) check_knob(checked, study.refined, root.find("refined")->value->place);
+  for (std::size_t i = 0; i < study.physics.size(); ++i)
+    check_knob(checked, study.physics[i], root.find("physics")->value->items[i]->place);
 }
 
 void check_scales(const CheckedStudy& checked, const YamlNode& root) {
@@ -115,7 +120,7 @@ CheckedStudy read_study(const std::string& path) {
   }
   check_references(checked, *root);
   check_scales(checked, *root);
-  check_refined(checked, *root);
+  check_named_knobs(checked, *root);
   read_decks(checked);
   check_parts(checked, *root);
   return checked;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -52,6 +53,8 @@ class StudyInRun {
   StudyOutcome outcome() {
     make_runs();
     for (StudyRow& row : table_.rows) measure(row);
+    // One result that lacks something is told in its row; where all do, what was asked for is wrong.
+    if (measured_ == 0 && fault_) std::rethrow_exception(fault_);
     judge();
     return {std::move(table_), folder_, complete_};
   }
@@ -175,7 +178,14 @@ class StudyInRun {
   void measure(StudyRow& row) {
     const auto run = static_cast<std::size_t>(&row - table_.rows.data());
     if (row.exit_code != 0 || !fs::exists(result_of(run))) return;
-    row.figures = measure_quantities(checked_.study.quantities, result_of(run), checked_.parts);
+    try {
+      row.figures = measure_quantities(checked_.study.quantities, result_of(run), checked_.parts);
+    } catch (const FileError& fault) {
+      row.message = fault.what();
+      fault_ = std::current_exception();
+      return;
+    }
+    ++measured_;
     row.steps = read_summary(result_of(run)).at("steps").get<double>();
   }
 
@@ -195,7 +205,8 @@ class StudyInRun {
         square += row.errors.back() * row.errors.back();
       }
       row.error = std::sqrt(square / static_cast<double>(study.quantities.size()));
-      all.push_back({row.exit_code == 0 ? row.processor_s : nothing, row.error});
+      const bool counts = row.exit_code == 0 && !row.run.is_another_problem;
+      all.push_back({counts ? row.processor_s : nothing, row.error});
     }
     const std::vector<bool> front = pareto_front(all);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -211,6 +222,8 @@ class StudyInRun {
   fs::path folder_;
   std::uint64_t program_print_ = 0;
   bool complete_ = true;
+  std::size_t measured_ = 0;
+  std::exception_ptr fault_;
 };
 
 }  // namespace

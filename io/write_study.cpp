@@ -43,8 +43,13 @@ std::string csv(const StudyTable& table) {
 
 std::string remarks(const StudyTable& table, const StudyRow& row) {
   std::vector<std::string> remarks;
-  if (row.exit_code != 0) remarks.push_back(fmt::format("ended with {}: {}", row.exit_code, row.message));
+  if (row.exit_code != 0) {
+    remarks.push_back(fmt::format("ended with {}: {}", row.exit_code, row.message));
+  } else if (!row.message.empty()) {
+    remarks.push_back("not measured: " + row.message);
+  }
   if (row.is_reference) remarks.emplace_back("reference");
+  if (row.run.is_another_problem) remarks.emplace_back("another problem");
   if (row.on_front && !row.is_reference) remarks.emplace_back("front");
   if (row.beats_default) remarks.emplace_back("beats the default");
   for (std::size_t q = 0; q < row.errors.size(); ++q) {

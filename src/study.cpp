@@ -1,5 +1,6 @@
 #include "src/study.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace brio {
@@ -13,6 +14,11 @@ const Settings* find_setting(const Study& study, std::string_view name) {
   return nullptr;
 }
 
+bool is_of_physics(const Study& study, std::string_view setting) {
+  return std::any_of(study.physics.begin(), study.physics.end(),
+                     [&](const std::string& knob) { return setting.substr(0, setting.find('.')) == knob; });
+}
+
 StudyRun combination(const Study& study, const std::vector<std::string>& names) {
   StudyRun run{.name = "", .knob = "", .label = "", .overrides = study.set.overrides};
   for (const std::string& name : names) {
@@ -21,6 +27,7 @@ StudyRun combination(const Study& study, const std::vector<std::string>& names) 
       throw std::invalid_argument("'" + name + "' is not among the knobs; KNOB.SETTING is expected");
     run.name += (run.name.empty() ? "" : "+") + name;
     run.overrides.insert(run.overrides.end(), setting->overrides.begin(), setting->overrides.end());
+    run.is_another_problem = run.is_another_problem || is_of_physics(study, name);
   }
   run.label = run.name;
   return run;
@@ -29,7 +36,8 @@ StudyRun combination(const Study& study, const std::vector<std::string>& names) 
 }  // namespace
 
 std::vector<StudyRun> runs_of(const Study& study) {
-  std::vector<StudyRun> runs{{std::string(default_run), "", std::string(default_run), study.set.overrides}};
+  std::vector<StudyRun> runs{
+      {std::string(default_run), "", std::string(default_run), study.set.overrides, false}};
   for (const auto& [knob, settings] : study.knobs)
     for (const auto& [label, setting] : settings) {
       StudyRun& run = runs.emplace_back(combination(study, {knob + "." + label}));

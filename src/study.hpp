@@ -116,6 +116,7 @@ struct Study {
   std::string reference;
   std::vector<std::pair<std::string, NamedSettings>> knobs;
   std::vector<std::vector<std::string>> combinations;
+  std::vector<std::string> physics;
   std::string refined;
   int threads = 1;
   int repeats = 1;
@@ -133,6 +134,9 @@ struct Study {
                  "a map of knobs, each a map of settings, each a map of overrides of the deck"),
         optional("combinations", &Study::combinations, any_number,
                  "lists of KNOB.SETTING that are run together"),
+        optional("physics", &Study::physics, any_number,
+                 "knobs that change the problem, not how it is solved: they are held to no comparison of "
+                 "cost and error"),
         optional(
             "refined", &Study::refined, any_number,
             "a knob whose settings halve the mesh size one after the other: orders of convergence are told"),
@@ -147,6 +151,7 @@ struct StudyRun {
   std::string knob;   ///< empty: the deck as it is, or a combination
   std::string label;  ///< of the setting
   std::vector<std::string> overrides;
+  bool is_another_problem = false;  ///< a knob of its physics is turned
 };
 
 inline constexpr std::string_view default_run = "default";

@@ -55,6 +55,15 @@ TEST(StudyRuns, AreTheDefaultEachSettingAloneAndTheCombinations) {
   EXPECT_EQ(runs[4].overrides, (std::vector<std::string>{"time.end=1", "a=3", "b=2", "c=float"}));
 }
 
+TEST(StudyRuns, AreAnotherProblemWhereAKnobOfPhysicsIsTurned) {
+  Study study = two_knobs();
+  study.physics = {"precision"};
+  study.combinations = {{"mesh.fine", "precision.float"}, {"mesh.coarse", "mesh.fine"}};
+  std::vector<bool> other;
+  for (const StudyRun& run : runs_of(study)) other.push_back(run.is_another_problem);
+  EXPECT_EQ(other, (std::vector<bool>{false, false, false, true, true, false}));
+}
+
 TEST(StudyRuns, NameWhatIsNotThere) {
   Study study = two_knobs();
   study.combinations = {{"mesh.finest"}};

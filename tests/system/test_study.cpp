@@ -106,6 +106,21 @@ TEST_F(ProgramStudy, MakesATableAndPictures) {
   EXPECT_NE(ending.output.find("Order of convergence"), std::string::npos) << ending.output;
 }
 
+TEST_F(ProgramStudy, HoldsAnotherProblemToNoComparison) {
+  write("bar.yaml", bar_deck);
+  write("bars.yaml", bar_study +
+                         "  end: {sooner: {time.end: 1e-3}, at_once: {time.end: 1e-5}}\n  mass: {heavier: "
+                         "{materials.rubber.density: 1010}}\nphysics: [end, mass]\n");
+  const Ending ending = brio("study bars.yaml --jobs 2");
+  ASSERT_EQ(ending.exit_code, 0) << ending.faults;
+  Table table = table_of(read("bars.study/bars.csv"));
+  for (const char* run : {"end.sooner", "end.at_once", "mass.heavier"})
+    EXPECT_EQ(table[run]["on_front"], "0");
+  EXPECT_NE(ending.output.find("another problem"), std::string::npos) << ending.output;
+  EXPECT_NE(ending.output.find("not measured"), std::string::npos)
+      << "too short for a rate: " << ending.output;
+}
+
 TEST_F(ProgramStudy, GoesOnWhereItWas) {
   write("bar.yaml", bar_deck);
   write("bars.yaml", bar_study);
@@ -149,6 +164,8 @@ TEST_F(ProgramStudy, FaultsNameThePlaceBeforeAnythingRuns) {
       {with(bar_study, "{numerics.precision: float}", "{numerics.precission: float}"), "numerics.precission"},
       {with(bar_study, "{numerics.precision: float}", "{}"), "bad.yaml:23:"},
       {with(bar_study, "knobs:", "combinations: [[mesh.fine, mesh.odd]]\nknobs:"), "bad.yaml:17:"},
+      {with(bar_study, "knobs:", "physics: [mesh, friction]\nknobs:"),
+       "bad.yaml:17:17: no knob is called 'friction'"},
       {with(bar_study, "title:", "titel:"), "bad.yaml:2:1"},
   };
   for (const auto& [text, place] : faulty) {

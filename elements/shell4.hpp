@@ -41,7 +41,7 @@ struct Shell4 {
   double shear_factor = 5.0 / 6.0;
   double hourglass_stiffness = 0.05;
   double hourglass_viscosity = 0;
-  double drilling_stiffness = 0.01;
+  double drilling_stiffness = 0.001;
   double linear_bulk_viscosity = 0.06;
 
   static constexpr auto fields() {
@@ -187,6 +187,9 @@ struct Shell4 {
   }
 
  private:
+  /// Angle, in radians, at which resistance to drilling yields.
+  static constexpr double drilling_limit = 0.01;
+
   /// Update of stress at all points; forces and moments per length, new thickness, work.
   template <class T, class Law>
   BRIO_INLINE ShellRates<T> stress_resultants(const ShellGeometry<T>& g, const ShellRates<T>& rates, T step,
@@ -265,12 +268,14 @@ struct Shell4 {
   /// of elements that are tilted against each other drive it, and turn it into what bends. (After Hughes &
   /// Brezzi 1989: a weak spring between the spin of the nodes and that of the material. One for the mean of
   /// the nodes, as one point of integration gives: nodes spin unequally where a warped surface bends, and one
-  /// for each would lock it.)
+  /// for each would lock it. It yields at a hundredth of a radian, so that it does not resist where the
+  /// corners of folds shear in their plane.)
   template <class T, class Law>
   static BRIO_INLINE void resist_drilling(T drill, const ShellRates<T>& rates, T step, Header<T, Law>& header,
                                           ShellRates<T>& result, Increment<T>& increment) {
     const T before = header.drilling;
-    header.drilling += drill * step * rates.drilling;
+    const T most = drilling_limit * drill;
+    header.drilling = min(max(before + drill * step * rates.drilling, -most), most);
     result.drilling = header.drilling;
     increment.hourglass_energy += (0.5 * step) * ((before + header.drilling) * rates.drilling);
   }

@@ -27,11 +27,10 @@ constexpr Setting fast_settings[] = {
     {"numerics.precision", "float"}, {"contact.passes", "2"}, {"time.step_scale", "0.95"}};
 constexpr ElementSetting fast_elements[] = {{"hex8", "objective_rate", "jaumann"},
                                             {"shell4", "thickness_points", "3"}};
-constexpr Setting accurate_settings[] = {{"contact.passes", "10"}, {"time.step_scale", "0.7"}};
-constexpr ElementSetting accurate_elements[] = {{"shell4", "thickness_points", "7"},
-                                                {"shell4", "warping_projection", "true"}};
+constexpr ElementSetting accurate_elements[] = {{"hex8", "hourglass_stiffness", "0.01"},
+                                                {"shell4", "hourglass_stiffness", "0.01"}};
 constexpr PresetValues presets[] = {{"fast", fast_settings, fast_elements},
-                                    {"accurate", accurate_settings, accurate_elements}};
+                                    {"accurate", {}, accurate_elements}};
 
 const YamlNode* at(const YamlNode& root, std::string_view path) {
   const std::size_t dot = path.find('.');

@@ -225,5 +225,37 @@ TEST(Shell4, EveryModeButRigidOnesAndDrillingIsResisted) {
   EXPECT_EQ(rank, 24 - 6 - 3 - 1) << svd.singularValues().transpose();
 }
 
+TEST(Shell4, ResistanceToDrillingYieldsAndBooksItsWork) {
+  Shell4 shell = plate(0.1);
+  shell.linear_bulk_viscosity = 0;
+  const Points4 x = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1.2, 1, 0), Vector3d(0, 0.9, 0)};
+  SingleShell<> element(shell, steel(), x);
+  Points4 spin = SingleShell<>::none();
+  for (Vector3d& w : spin) w = Vector3d(0, 0, 1);
+  const double step = 1e-3;
+  double work = 0, booked = 0, before = 0;
+  std::vector<double> moment;
+  const auto turn = [&](int steps) {
+    for (int k = 0; k < steps; ++k) {
+      element.move(x, SingleShell<>::none(), spin, step);
+      double sum = 0;
+      for (int n = 0; n < 4; ++n) sum += element.moment(n).z();
+      work += 0.5 * step * (before + sum) * spin[0].z();
+      booked += element.increment.hourglass_energy;
+      EXPECT_LT(std::abs(element.force(0).norm() + element.force(2).norm()), 2 * std::abs(sum))
+          << "the couple is held by the material's spin";
+      moment.push_back(before = sum);
+    }
+  };
+  turn(20);
+  EXPECT_NEAR(moment[4], 5 * moment[0], 1e-9 * moment[4]) << "elastic";
+  EXPECT_NEAR(moment[9], 10 * moment[0], 1e-9 * moment[9]);
+  EXPECT_EQ(moment[19], moment[10]) << "a hundredth of a radian";
+  for (Vector3d& w : spin) w = -w;
+  turn(5);
+  EXPECT_NEAR(moment[24], 5 * moment[0], 1e-9 * moment[9]) << "back as stiff as before";
+  EXPECT_NEAR(work, booked, 1e-12 * booked);
+}
+
 }  // namespace
 }  // namespace brio

@@ -17,4 +17,15 @@ for study in inputs/studies/*.yaml; do
   cp "$folder/$name.study/$name".{front,knobs}.svg "$pictures"
   { echo; sed "s|](\($name\.\)|](pictures/studies/\1|" "$folder/$name.study/$name.md"; } >> "$page"
 done
+{
+  echo; echo "## All scenes"; echo
+  echo "What is cheaper and more accurate than the default by more than 5 % in both, and where:"; echo
+  echo "| setting | scenes | |"; echo "| --- | --- | --- |"
+  for study in inputs/studies/*.yaml; do
+    name=$(basename "$study" .yaml)
+    awk -F, -v name="$name" 'NR > 1 && $NF == 1 { print $1, name }' "$folder/$name.study/$name.csv"
+  done | sort | awk '{ count[$1]++; where[$1] = where[$1] (where[$1] ? ", " : "") $2 }
+    END { for (run in count) printf "| `%s` | %d | %s |\n", run, count[run], where[run] }' | sort -t'|' -k3,3nr -k2,2
+  echo; echo "Settings have the same name in several studies where they are the same. The presets were chosen by these tables."
+} >> "$page"
 mv "$page" docs/tradeoffs.md

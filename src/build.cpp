@@ -12,6 +12,14 @@
 
 namespace brio {
 
+bool is_in_contact(const Deck& deck, const std::string& part) {
+  if (!deck.contact) return false;
+  const auto named = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), part) != list.end();
+  };
+  return (deck.contact->surfaces.empty() || named(deck.contact->surfaces)) && !named(deck.contact->exclude);
+}
+
 namespace {
 
 const Material& law_of(const Part& part, const Deck& deck) {
@@ -221,13 +229,6 @@ PressureLoad pressure_on(const std::string& side_set, const Curve& pressure, con
   throw BuildError("no side set is named '" + side_set + "'");
 }
 
-bool takes_part(const ContactSection& contact, const std::string& part) {
-  const auto named = [&](const std::vector<std::string>& list) {
-    return std::find(list.begin(), list.end(), part) != list.end();
-  };
-  return (contact.surfaces.empty() || named(contact.surfaces)) && !named(contact.exclude);
-}
-
 // Thickness or diameter with which each element touches; of solids nothing. A particle touches as far as half
 // its share of the lattice.
 std::vector<double> contact_thickness(const Element& element, const Mesh& mesh) {
@@ -250,7 +251,7 @@ double debris_radius(const Part& part) {
 
 void check_debris_in_contact(const Deck& deck) {
   for (const Part& part : deck.parts)
-    if (debris_radius(part) > 0 && !(deck.contact && takes_part(*deck.contact, part.name)))
+    if (debris_radius(part) > 0 && !is_in_contact(deck, part.name))
       throw BuildError("part '" + part.name +
                        "' has a debris_radius but is not in contact; accepted are parts that are");
 }
@@ -285,7 +286,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
                              .deleted = {}};
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Part& part = deck.parts[p];
-    if (!takes_part(*deck.contact, part.name)) continue;
+    if (!is_in_contact(deck, part.name)) continue;
     part_of_surface[p] = static_cast<int>(surfaces.size());
     if (model.surface_numbers) {
       model.surface_numbers->part[p] = part_of_surface[p];

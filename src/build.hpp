@@ -15,6 +15,9 @@ namespace brio {
 ///         initial overlap that is too large.
 Model build(const Deck& deck, std::span<const Mesh> meshes);
 
+/// Whether the deck lets a part touch others, or itself.
+bool is_in_contact(const Deck& deck, const std::string& part);
+
 /// Nodes of the model that a selection names, ascending.
 std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std::span<const Mesh> meshes,
                               const Model& model);

@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "src/build.hpp"
 #include "src/output_schedule.hpp"
 #include "src/part_index.hpp"
 #include "src/part_shape.hpp"
@@ -21,14 +22,6 @@ std::string number(double value) {
   text.precision(3);
   text << value;
   return text.str();
-}
-
-bool is_in_contact(const Deck& deck, const std::string& part) {
-  if (!deck.contact) return false;
-  const auto named = [&](const std::vector<std::string>& list) {
-    return std::find(list.begin(), list.end(), part) != list.end();
-  };
-  return (deck.contact->surfaces.empty() || named(deck.contact->surfaces)) && !named(deck.contact->exclude);
 }
 
 bool are_joined(const Model& model, const std::string& a, const std::string& b) {
@@ -231,7 +224,7 @@ void warn_of_missing_contact(const Deck& deck, const Model& model, const Shapes&
     for (std::size_t b = a + 1; b < shapes.size(); ++b) {
       const std::string &first = deck.parts[a].name, &second = deck.parts[b].name;
       if (may_touch(deck, first, second) || are_joined(model, first, second)) continue;
-      const bool said = deck.contact && is_in_contact(deck, first) && is_in_contact(deck, second);
+      const bool said = is_in_contact(deck, first) && is_in_contact(deck, second);
       const double size = 1e-6 * std::min(shapes[a].extent(), shapes[b].extent());
       if (said || !boxes_meet(shapes[a], shapes[b], -size, 1e-12 * deck.time.end, deck.time.end)) continue;
       if (boxes_meet(shapes[a], shapes[b], -size, 0, 1e-12 * deck.time.end)) continue;  // as drawn

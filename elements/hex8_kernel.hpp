@@ -129,13 +129,19 @@ struct Hex8Kernel : Hex8 {
                                                        const HourglassAxes<T>& hourglass_axes,
                                                        const HourglassVectors<T>& q,
                                                        HourglassState<T>& state) const {
-    const T elastic_work = stretch_hourglass(state.force, hourglass_axes, stiffness, q);
     const T old_energy = state.energy;
-    state.energy += elastic_work;
-    if constexpr (flows<Law>) {
+    if constexpr (!flows<Law>) {
+      const T work = stretch_hourglass(state.force, hourglass_axes, stiffness, q);
+      state.energy += work;
+      return {work, T(0.0)};
+    } else {
       const auto hardening = law.hardening();
       const T plastic_strain = point.history.equivalent_plastic_strain;
       const MaskOf<T> has_flowed = plastic_strain > step.old_plastic_strain;
+      const T share = where(has_flowed, T(hourglass_share_in_flow(hourglass_stiffness)), T(1.0));
+      const T elastic_work = stretch_hourglass(state.force, hourglass_axes,
+                                               {share * stiffness.bending, share * stiffness.twist}, q);
+      state.energy += elastic_work;
       const T at_first_yield =
           hourglass_energy_at_yield(T(hardening.initial_yield_stress()), volume, stiffness.bending);
       const bool any_yields = any(state.energy > at_first_yield);
@@ -153,8 +159,8 @@ struct Hex8Kernel : Hex8 {
         const T stored = state.energy - old_energy;
         return {stored, work - stored};
       }
+      return {elastic_work, T(0.0)};
     }
-    return {elastic_work, T(0.0)};
   }
 
   template <class Law>

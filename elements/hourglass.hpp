@@ -148,6 +148,17 @@ BRIO_INLINE T stretch_hourglass(HourglassVectors<T>& force, const HourglassAxes<
   return work;
 }
 
+/// Largest coefficient with which hourglass forces grow in a brick that flows. On top of a uniform flow no
+/// stress grows along that flow, and the return to the yield surface (shrink_hourglass) does not know: with
+/// more, bricks that are torn resist by a third too much. With nothing along the flow, as the consistent
+/// tangent has it, layers of bricks fold onto each other at the foot of a rod that hits a wall.
+inline constexpr double hourglass_stiffness_in_flow = 0.01;
+
+/// Share of the stiffness of hourglass motion that is left in a brick that flows.
+constexpr double hourglass_share_in_flow(double coefficient) {
+  return coefficient > hourglass_stiffness_in_flow ? hourglass_stiffness_in_flow / coefficient : 1;
+}
+
 /// Energy that hourglass stress can store at yield. Bending stress +-s over a brick of edges L, E its plane
 /// modulus, is Q = s V / (12 L), and the yield stress over all of the section carries 3/2 of the Q at first
 /// yield: Q G^-1 Q = V^2 yield^2 / 32, and twice S times the energy is Q G^-1 Q.

@@ -62,7 +62,7 @@ struct Shell4 {
                  "viscous hourglass control, share of critical damping, -"),
         optional("drilling_stiffness", &Shell4::drilling_stiffness, fraction,
                  "elastic resistance of nodes to spin about the normal, share of the square of the highest "
-                 "frequency, -"),
+                 "frequency, -; yields at 0.01 rad"),
         optional("linear_bulk_viscosity", &Shell4::linear_bulk_viscosity, fraction,
                  "membrane viscosity b1, share of critical damping of the fastest mode, -"),
     };

@@ -160,7 +160,7 @@ void expect_shape_of_hexahedra(ParticleFrame kernel, double spacing, double radi
   };
   double start_length = 0, start_radius = 0, length = 0, radius = 0;
   extent(start_length, start_radius);
-  ThreadTeam team(2);
+  ThreadTeam team;
   run(model, deck, team);
   extent(length, radius);
   EXPECT_NEAR(model.energy.kinetic_start, 239.81, 0.01);

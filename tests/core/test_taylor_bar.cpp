@@ -51,7 +51,7 @@ Shape taylor_bar(const Rod& rod, const Element& element) {
   }
   deck.time.end = 80e-6;
   Model model = build_model(deck);
-  ThreadTeam team(2);
+  ThreadTeam team;
   run(model, deck, team);
   Shape shape;
   double lowest = 1, highest = -1;

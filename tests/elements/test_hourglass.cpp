@@ -137,5 +137,26 @@ TEST(Hourglass, ForcesFadeInABrickThatFlowsWithoutBending) {
   EXPECT_NEAR(brick.header.hourglass.energy, brick.hourglass_energy, 1e-12);
 }
 
+// Force of the bending that is laid upon a brick in one step while it is stretched.
+double bending_force(double coefficient, double stretching) {
+  Hex8Kernel<ObjectiveRate::green_naghdi> kernel;
+  kernel.hourglass_stiffness = coefficient;
+  const test::Corners x = test::box(1, 1, 1);
+  Brick brick(kernel, metal, x);
+  const Eigen::DiagonalMatrix<double, 3> stretch(1 + stretching, 1 - 0.5 * stretching, 1 - 0.5 * stretching);
+  for (int step = 0; step < 100; ++step) brick.move_to(stretch * brick.position, 1e-3);
+  brick.move_to(stretch * brick.position + bending(1e-9), 1e-3);
+  return brick.header.hourglass.force.mode[1].x;
+}
+
+TEST(Hourglass, ForcesOfABrickThatFlowsGrowWithACoefficientOfAHundredthAtMost) {
+  const double elastic = bending_force(0.01, 1e-6), flowing = bending_force(0.01, 5e-4);
+  ASSERT_NE(flowing, 0);
+  EXPECT_NEAR(bending_force(0.05, 1e-6), 5 * elastic, 1e-9 * std::abs(elastic));
+  EXPECT_NEAR(bending_force(0.05, 5e-4), flowing, 1e-9 * std::abs(flowing));
+  EXPECT_NEAR(bending_force(0.15, 5e-4), flowing, 1e-9 * std::abs(flowing));
+  EXPECT_NEAR(bending_force(0.005, 5e-4), 0.5 * flowing, 1e-9 * std::abs(flowing));
+}
+
 }  // namespace
 }  // namespace brio

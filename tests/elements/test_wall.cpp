@@ -245,7 +245,7 @@ TEST(Wall, ExactMomentEndsAtThatOfAFullyPlasticSection) {
 double elastic_ratio(double coefficient, int layers) { return 1 - (1 - 9 * coefficient) / (layers * layers); }
 
 // The skin of the wall yields before the points in the middle of the outer layers: there is most of the
-// excess.
+// excess. In the end the points carry what there is, but for an error of second order in the layers.
 TEST(Wall, OnePointBricksBendAndTwistAsAWallPastYield) {
   for (const Shape shape : {Shape::bending, Shape::twist})
     for (const Law& law : {ideal, hardening})
@@ -259,7 +259,7 @@ TEST(Wall, OnePointBricksBendAndTwistAsAWallPastYield) {
           EXPECT_NEAR(r.elastic, elastic_ratio(0.05, layers), 1e-4) << scene;
           EXPECT_GT(r.least, r.elastic - 1e-4) << scene;
           EXPECT_LT(r.most, layers == 3 ? 1.1 : 1.05) << scene;
-          EXPECT_NEAR(r.last, 1, 0.04) << scene;
+          EXPECT_NEAR(r.last, 1, (law.hardening_constant > 0 ? 0.4 : 0.12) / (layers * layers)) << scene;
         }
 }
 

@@ -120,8 +120,9 @@ struct Hex8Kernel : Hex8 {
   }
 
   /// Hourglass stress meets flow as the stress of the point does: it shrinks by the share by which flow
-  /// returns stress to the yield surface, and stays below that of a section that yields all over. Work that
-  /// is not stored is plastic work. Where nothing flows in a pack, flow costs nothing.
+  /// returns stress to the yield surface, and stays below that of a section that yields all over. On top of
+  /// that flow it grows less, of a displacement of which the rest is plastic; going back is elastic. Work
+  /// that is not stored is plastic work. Where nothing flows in a pack, flow costs nothing.
   template <class T, class Law>
   BRIO_INLINE HourglassWork<T> resist_hourglass_motion(const Law& law, const Point<T, Law>& point,
                                                        const PointStep<T>& step, const MaterialAxes<T>& axes,
@@ -138,10 +139,14 @@ struct Hex8Kernel : Hex8 {
       const auto hardening = law.hardening();
       const T plastic_strain = point.history.equivalent_plastic_strain;
       const MaskOf<T> has_flowed = plastic_strain > step.old_plastic_strain;
-      const T share = where(has_flowed, T(hourglass_share_in_flow(hourglass_stiffness)), T(1.0));
+      T share(1.0);
+      if (any(has_flowed)) {
+        const MaskOf<T> grows = has_flowed & (dot(state.force, q) >= T(0.0));
+        share = where(grows, T(hourglass_share_in_flow(hourglass_stiffness)), T(1.0));
+      }
       const T elastic_work = stretch_hourglass(state.force, hourglass_axes,
                                                {share * stiffness.bending, share * stiffness.twist}, q);
-      state.energy += elastic_work;
+      state.energy += share * elastic_work;
       const T at_first_yield =
           hourglass_energy_at_yield(T(hardening.initial_yield_stress()), volume, stiffness.bending);
       const bool any_yields = any(state.energy > at_first_yield);

@@ -16,6 +16,13 @@ struct HourglassVectors {
   Vector3<T> mode[hourglass_modes];
 };
 
+template <class T>
+BRIO_INLINE T dot(const HourglassVectors<T>& a, const HourglassVectors<T>& b) {
+  T sum(0.0);
+  for (int i = 0; i < hourglass_modes; ++i) sum += dot(a.mode[i], b.mode[i]);
+  return sum;
+}
+
 /// scale gamma . v for each mode. \param l `scale` times the mean gradient of v on the configuration of x.
 template <class T>
 BRIO_INLINE HourglassVectors<T> hourglass_motion(const HexahedronModes<T>& x, const HexahedronModes<T>& v,
@@ -171,23 +178,16 @@ BRIO_INLINE T hourglass_energy_at_yield(T yield_stress, T volume, T stiffness) {
 /// half is q, that they then miss.
 template <class T>
 BRIO_INLINE T shrink_hourglass(HourglassVectors<T>& force, T share, const HourglassVectors<T>& q) {
-  T missed(0.0);
-  for (int a = 0; a < hourglass_modes; ++a) {
-    missed += dot(force.mode[a], q.mode[a]);
-    force.mode[a] = share * force.mode[a];
-  }
-  return (1.0 - share) * missed;
+  const T all = dot(force, q);
+  for (Vector3<T>& mode : force.mode) mode = share * mode;
+  return (1.0 - share) * all;
 }
 
 /// Viscous forces, added to `q`. \return their power.
 template <class T>
 BRIO_INLINE T resist_hourglass(const HourglassVectors<T>& rate, T resistance, HourglassVectors<T>& q) {
-  T squared(0.0);
-  for (int a = 0; a < hourglass_modes; ++a) {
-    squared += dot(rate.mode[a], rate.mode[a]);
-    q.mode[a] = q.mode[a] + resistance * rate.mode[a];
-  }
-  return resistance * squared;
+  for (int a = 0; a < hourglass_modes; ++a) q.mode[a] = q.mode[a] + resistance * rate.mode[a];
+  return resistance * dot(rate, rate);
 }
 
 /// Corner forces of a stress on the mean gradient and of generalized hourglass forces.

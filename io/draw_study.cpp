@@ -1,12 +1,12 @@
 // The pictures of a study. What gnuplot is told stays beside them, to be drawn anew by hand.
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <system_error>
 
+#include "io/run_processes.hpp"
 #include "io/text_file.hpp"
 #include "io/write_study.hpp"
 
@@ -22,6 +22,13 @@ std::string quoted(std::string text) {
   std::replace(text.begin(), text.end(), '"', '\'');
   std::replace(text.begin(), text.end(), '\\', '/');
   return '"' + text + '"';
+}
+
+// The name of a file, as it is.
+std::string literal(const std::string& name) {
+  std::string text = "'";
+  for (const char c : name) text.append(c == '\'' ? 2 : 1, c);
+  return text + '\'';
 }
 
 std::string line_of(const StudyRow& row, const std::string& label) {
@@ -118,15 +125,16 @@ std::string script(const StudyTable& table, const std::string& name) {
   for (const auto& [kind, end] : {std::pair{"svg noenhanced font 'sans,12' background 'white'", "svg"},
                                   std::pair{"pngcairo noenhanced font 'sans,11'", "png"}}) {
     text += fmt::format(
-        "set terminal {} size {},{}\nset output '{}.front.{}'\nset title {}\nset xlabel 'cost: processor "
+        "set terminal {} size {},{}\nset output {}\nset title {}\nset xlabel 'cost: processor "
         "seconds'\nset ylabel 'error, %'\nset key outside right top\n{}\n",
-        kind, 900, 560, name, end, quoted(table.study.title.empty() ? name : table.study.title), parts.front);
+        kind, 900, 560, literal(name + ".front." + end),
+        quoted(table.study.title.empty() ? name : table.study.title), parts.front);
     if (parts.panels == 0) continue;
     text += fmt::format(
-        "set terminal {} size {},{}\nset output '{}.knobs.{}'\nunset key\nset multiplot layout "
+        "set terminal {} size {},{}\nset output {}\nunset key\nset multiplot layout "
         "{},{}\n{}unset "
         "multiplot\n",
-        kind, 420 * across, 320 * down, name, end, down, across, parts.knobs);
+        kind, 420 * across, 320 * down, literal(name + ".knobs." + end), down, across, parts.knobs);
   }
   return text + "unset output\n";
 }
@@ -138,13 +146,17 @@ std::string draw_study(const StudyTable& table, const std::filesystem::path& fol
   if (rows_where(table, [](const StudyRow&) { return true; }).empty())
     return "no run has an error to be drawn";
   replace_text_file(folder / (name + ".gp"), {script(table, name)});
-  const std::string command = "cd '" + folder.string() + "' && gnuplot '" + name + ".gp' > gnuplot.txt 2>&1";
-  const int status = std::system(command.c_str());
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
+  const std::filesystem::path faults = folder / "gnuplot.txt";
+  int exit_code = 0;
+  try {
+    run_processes({{{"gnuplot", name + ".gp"}, faults, folder}}, 1, nullptr,
+                  [&](const Ended& ended) { exit_code = ended.exit_code; });
+  } catch (const std::system_error& fault) {
+    if (fault.code() != std::errc::no_such_file_or_directory) throw;
     return "gnuplot is not installed; with it, `gnuplot " + name + ".gp` in " + folder.string() +
            " draws them";
-  return "gnuplot failed; see " + (folder / "gnuplot.txt").string();
+  }
+  return exit_code == 0 ? std::string() : "gnuplot failed; see " + faults.string();
 }
 
 }  // namespace brio

@@ -36,8 +36,9 @@ pid_t start(const Command& command) {
   posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&files, 2, command.faults.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (!command.folder.empty()) posix_spawn_file_actions_addchdir_np(&files, command.folder.c_str());
   pid_t child = 0;
-  const int error = posix_spawn(&child, arguments[0], &files, nullptr, arguments.data(), environ);
+  const int error = posix_spawnp(&child, arguments[0], &files, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   if (error != 0) throw std::system_error(error, std::generic_category(), "cannot start " + words[0]);
   return child;

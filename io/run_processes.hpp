@@ -12,8 +12,9 @@ namespace brio {
 
 /// A command and where its complaints go.
 struct Command {
-  std::vector<std::string> arguments;  ///< the program first
+  std::vector<std::string> arguments;  ///< the program first, by its path or as the system finds it
   std::filesystem::path faults;        ///< file for its error stream; what it prints is dropped
+  std::filesystem::path folder{};      ///< where it runs; empty: where this process does
 };
 
 struct Ended {

@@ -30,7 +30,7 @@ std::string element_name(const Model& model, std::size_t block, std::size_t elem
   return "element " + std::to_string(element) + " of part '" + part.name + "'";
 }
 
-bool has_loads(const Model& model) { return !model.loads.empty() || !model.rigid.empty(); }
+bool has_loads(const Model& model) { return !model.loads.empty(); }
 
 void apply_loads(Model& model) {
   if (!has_loads(model)) return;

@@ -121,6 +121,13 @@ TEST_F(ProgramStudy, HoldsAnotherProblemToNoComparison) {
       << "too short for a rate: " << ending.output;
 }
 
+TEST_F(ProgramStudy, DrawsWhereNamesHoldQuotes) {
+  write("bar.yaml", bar_deck);
+  write("it's.yaml", bar_study);
+  ASSERT_EQ(brio("study \"it's.yaml\"").exit_code, 0);
+  EXPECT_GT(read("it's.study/it's.front.svg").size(), 500u) << read("it's.study/gnuplot.txt");
+}
+
 TEST_F(ProgramStudy, GoesOnWhereItWas) {
   write("bar.yaml", bar_deck);
   write("bars.yaml", bar_study);

@@ -123,10 +123,10 @@ def main():
     arguments.add_argument("--program", type=Path, default=ROOT / "build/release/brio")
     arguments.add_argument("--coverage", type=Path, default=ROOT / "build/coverage")
     chosen = arguments.parse_args()
-    if not (chosen.coverage / "brio").exists():
+    if not (chosen.coverage / "CMakeCache.txt").exists():
         subprocess.run(["cmake", "-S", ROOT, "-B", chosen.coverage, "-G", "Ninja", "-DBRIO_TESTS=OFF", "-DBRIO_BENCH=OFF",
                         "-DCMAKE_CXX_FLAGS=--coverage -DBRIO_KERNELS_BY_CALL", "-DCMAKE_CXX_FLAGS_RELEASE=-O1"], check=True)
-        subprocess.run(["cmake", "--build", chosen.coverage, "--target", "brio"], check=True)
+    subprocess.run(["cmake", "--build", chosen.coverage, "--target", "brio"], check=True)
 
     memory, stages, lines = {}, {}, {}
     for scene in SCENES:

@@ -82,8 +82,8 @@ Rod copper() {
   return {law, 227};
 }
 
-// Radius 7.22 mm is the converged one-point brick of the literature, which holds the foot in its plane;
-// lengths are 21.4 to 21.5 mm.
+// Radius 7.22 mm is the converged one-point brick of the literature; lengths are 21.4 to 21.5 mm. They are
+// met with the foot held in its plane.
 void expect_published_shape(const Shape& shape) {
   EXPECT_NEAR(shape.radius, 7.22e-3, 0.01 * 7.22e-3);
   EXPECT_NEAR(shape.length, 21.45e-3, 0.005 * 21.45e-3);

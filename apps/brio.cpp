@@ -1,6 +1,7 @@
 /// The command line.
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -62,6 +63,21 @@ void add_run_command(CLI::App& program, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = brio::run(*arguments); });
 }
 
+void set_pilot_budget(const std::string& budget, brio::ForecastOptions& options) {
+  std::size_t read = 0;
+  double number = -1;
+  try {
+    number = std::stod(budget, &read);
+  } catch (const std::logic_error&) {
+  }
+  const bool is_share = read > 0 && budget.substr(read) == "%";
+  if (!(number >= 0 && number < HUGE_VAL) || (read != budget.size() && !is_share))
+    throw CLI::ValidationError("--pilot",
+                               "'" + budget + "' is no budget; accepted: seconds >= 0, or a share as 40%");
+  options.pilot_s = is_share ? HUGE_VAL : number;
+  options.pilot_share = is_share ? 0.01 * number : HUGE_VAL;
+}
+
 void add_check_command(CLI::App& program) {
   struct Arguments {
     brio::ForecastOptions options;
@@ -69,15 +85,19 @@ void add_check_command(CLI::App& program) {
   };
   auto arguments = std::make_shared<Arguments>();
   brio::ForecastOptions& options = arguments->options;
+  options.pilot_s = 10;
+  options.pilot_share = 0.4;
   CLI::App* command = program.add_subcommand(
       "check", "Read a deck, build its scene, say what it is and what a run of it would take");
   command->add_option("deck", options.deck, "YAML deck")->required();
   add_threads(command, options.threads);
   command
-      ->add_option_function<double>(
-          "--pilot", [&options](double seconds) { options.pilot_s = seconds; },
-          "foresee how the step falls by coarser scenes, which are run for about so many seconds; default 10")
-      ->check(CLI::PositiveNumber)
+      ->add_option_function<std::string>(
+          "--pilot", [&options](const std::string& budget) { set_pilot_budget(budget, options); },
+          "time to foresee how the step falls, by coarser scenes and more steps: seconds, or P% of what the "
+          "run "
+          "takes; 0: none; default: 10 s, but at most 40 % of the run")
+      ->type_name("SECONDS|P%")
       ->expected(0, 1)
       ->default_str("10");
   add_overrides(command, options.overrides);

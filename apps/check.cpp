@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "apps/commands.hpp"
@@ -52,7 +53,7 @@ std::string memory(std::size_t bytes) {
 }
 
 void print_built(const CheckReport& report) {
-  fmt::print("switched on: {}\n\n", fmt::join(report.active_features, " "));
+  fmt::print("\nswitched on: {}\n\n", fmt::join(report.active_features, " "));
   for (const BuiltFeature& feature : report.built) {
     fmt::print("  {}: because of {}", feature.name, feature.because);
     if (!feature.detail.empty()) fmt::print("; {}", feature.detail);
@@ -74,10 +75,8 @@ void print_steps(const Forecast& forecast) {
   if (steps.exact) {
     fmt::print("  steps      {:.0f}, all of them marched\n", steps.steps);
   } else if (forecast.pilot_factors.empty()) {
-    fmt::print(
-        "  steps      {:.0f} if the step stays as it is; a scene that is crushed takes more: --pilot "
-        "tells\n",
-        steps.steps);
+    fmt::print("  steps      {:.0f} if the step stays as it is; a scene that is crushed takes more\n",
+               steps.steps);
   } else {
     fmt::print(
         "  steps      {:.0f}, between {:.0f} and {:.0f}, as told by a pilot with elements {:g} times "
@@ -132,19 +131,21 @@ void print_overlaps(std::span<const InitialOverlap> overlaps) {
 }
 
 void check(const ForecastOptions& options, bool json) {
-  const CheckReport report = check_deck(options);
   if (json) {
-    fmt::print("{}", check_json(report));
+    fmt::print("{}", check_json(check_deck(options)));
     return;
   }
-  if (!report.title.empty()) fmt::print("{}\n\n", report.title);
-  print_parts(report);
-  print_joints(report);
-  print_step(report);
+  const CheckReport report = check_deck(options, [](const CheckReport& scene) {
+    if (!scene.title.empty()) fmt::print("{}\n\n", scene.title);
+    print_parts(scene);
+    print_joints(scene);
+    print_step(scene);
+    print_overlaps(scene.initial_overlaps);
+    for (const SceneWarning& warning : scene.warnings)
+      fmt::print("warning: {}: {}; {}\n", warning.subject, warning.what, warning.advice);
+    std::fflush(stdout);
+  });
   print_built(report);
-  print_overlaps(report.initial_overlaps);
-  for (const SceneWarning& warning : report.warnings)
-    fmt::print("warning: {}: {}; {}\n", warning.subject, warning.what, warning.advice);
   print_forecast(report.forecast, report.threads);
 }
 

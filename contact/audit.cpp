@@ -204,18 +204,19 @@ class Auditor {
   std::vector<double> edge_;
 };
 
-void add_to(Audit& sum, const Audit& other) {
-  sum.inside_solids += other.inside_solids;
-  sum.shells_too_close += other.shells_too_close;
-  sum.shells_pierced += other.shells_pierced;
-  sum.lines_crossed += other.lines_crossed;
-  if (other.deepest > sum.deepest) {
-    sum.deepest = other.deepest;
-    sum.deepest_node = other.deepest_node;
-  }
-}
-
 }  // namespace
+
+Audit& Audit::operator+=(const Audit& other) {
+  inside_solids += other.inside_solids;
+  shells_too_close += other.shells_too_close;
+  shells_pierced += other.shells_pierced;
+  lines_crossed += other.lines_crossed;
+  if (other.deepest > deepest) {
+    deepest = other.deepest;
+    deepest_node = other.deepest_node;
+  }
+  return *this;
+}
 
 Audit audit(const ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   const Auditor auditor(scene, nodes);
@@ -225,17 +226,16 @@ Audit audit(const ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   std::vector<Audit> piece((all + nodes_per_task - 1) / nodes_per_task);
   team.for_ranges(all, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      add_to(piece[begin / nodes_per_task], i < slaves ? auditor.of_node(static_cast<int>(i))
-                                            : i < slaves + faces
-                                                ? auditor.of_edges(static_cast<int>(i - slaves))
-                                                : auditor.of_round(static_cast<int>(i - slaves - faces)));
+      piece[begin / nodes_per_task] += i < slaves ? auditor.of_node(static_cast<int>(i))
+                                       : i < slaves + faces
+                                           ? auditor.of_edges(static_cast<int>(i - slaves))
+                                           : auditor.of_round(static_cast<int>(i - slaves - faces));
   });
   Audit sum;
-  for (const Audit& part : piece) add_to(sum, part);
+  for (const Audit& part : piece) sum += part;
   if (scene.lines) {
     const LineAudit lines = audit_lines(scene, nodes, team);
-    add_to(sum,
-           {.lines_crossed = lines.crossed, .deepest = lines.deepest, .deepest_node = lines.deepest_node});
+    sum += {.lines_crossed = lines.crossed, .deepest = lines.deepest, .deepest_node = lines.deepest_node};
   }
   return sum;
 }

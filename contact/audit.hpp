@@ -17,6 +17,7 @@ struct Audit {
   double deepest = 0;        ///< of the penetrations that count
   int deepest_node = -1;     ///< global number
 
+  Audit& operator+=(const Audit& other);
   int missed() const { return inside_solids + shells_too_close + shells_pierced + lines_crossed; }
 };
 

@@ -70,7 +70,7 @@ def command(program, verb, scene, *more):
 
 
 def memory_and_time(program, scene):
-    checked = json.loads(subprocess.run(command(program, "check", scene, "--json"), check=True,
+    checked = json.loads(subprocess.run(command(program, "check", scene, "--json", "--pilot=0"), check=True,
                                         capture_output=True).stdout)
     with tempfile.TemporaryDirectory() as folder:
         ended = json.loads(subprocess.run(command(program, "run", scene, "--quiet", "--json", "--output", folder),

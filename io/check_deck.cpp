@@ -4,7 +4,7 @@
 
 namespace brio {
 
-CheckReport check_deck(const ForecastOptions& options) {
+CheckReport check_deck(const ForecastOptions& options, const std::function<void(const CheckReport&)>& look) {
   ScenePrepared scene = prepare_scene(options);
   const Deck& deck = scene.deck;
   const Model& model = scene.model;
@@ -33,6 +33,7 @@ CheckReport check_deck(const ForecastOptions& options) {
   report.not_built = features_not_built(model);
   report.warnings = scene_warnings(deck, model);
   report.threads = options.threads;
+  look(report);
   report.forecast = forecast(options, scene);
   report.built = built_features(deck, model);  // after the peak of memory was read
   return report;

@@ -1,6 +1,7 @@
 #pragma once
 /// What a deck is, what it asks for, what is likely to be wrong with it, and what a run of it would take.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,11 @@ struct CheckReport {
   Forecast forecast;
 };
 
-/// \throws DeckError, and Breakdown where the first step cannot be made
-CheckReport check_deck(const ForecastOptions& options);
+/// \param look is shown the report before the forecast, which takes time; forecast and `built` are still
+/// missing. \throws DeckError, and Breakdown where the first step cannot be made
+CheckReport check_deck(
+    const ForecastOptions& options,
+    const std::function<void(const CheckReport&)>& look = [](const CheckReport&) {});
 
 /// Keys in full words; a number that is not finite becomes null.
 std::string check_json(const CheckReport& report);

@@ -31,61 +31,96 @@ double dumps_with_deletion(const March& march, const Deck& deck) {
 }
 
 // What came to its end says; where nothing did, each dump may.
-double new_topologies(const ScenePrepared& scene, const Forecast& forecast, std::span<const Pilot> pilots) {
+double new_topologies(const ScenePrepared& scene, const Forecast& forecast,
+                      const std::optional<Pilot>& pilot) {
   if (!scene.model.erosion) return 0;
   if (forecast.march.reached_end) return dumps_with_deletion(forecast.march, scene.deck);
-  if (!pilots.empty()) return dumps_with_deletion(pilots.back().march, scene.deck);
+  if (pilot) return dumps_with_deletion(pilot->march, scene.deck);
   return std::max(0.0, forecast.output.dumps - 1);
 }
 
-// A scene with longer elements to its end. Nothing where it does not get there in time.
-std::optional<March> pilot_of(const ForecastOptions& options, const Deck& deck, double factor,
-                              double budget_s, Forecast& forecast) {
+// A scene with longer elements. Nothing where there are none, as of parts that have but one across.
+std::optional<Model> coarse_scene(const ScenePrepared& scene, double factor, Forecast& forecast) {
   try {
-    ThreadTeam team(options.threads);
-    Model model = build_scene(coarser(deck, factor));
+    Model model = build_scene(coarser(scene.deck, factor));
+    if (model.nodes.size() < scene.model.nodes.size()) return model;
+  } catch (const DeckError& fault) {
+    forecast.pilot_fault = fault.what();
+  }
+  return {};
+}
+
+// Nothing where it does not get to its end in time.
+std::optional<March> march_to_end(Model& model, int threads, double budget_s, Forecast& forecast) {
+  try {
+    ThreadTeam team(threads);
     update_velocities(model, HUGE_VAL, team);
     March pilot;
     march(pilot, model, HUGE_VAL, budget_s, team);
-    if (!pilot.breakdown.empty()) forecast.pilot_fault = pilot.breakdown;
     if (pilot.reached_end) return pilot;
-  } catch (const DeckError& fault) {
-    forecast.pilot_fault = fault.what();
+    forecast.pilot_fault = pilot.breakdown;
   } catch (const Breakdown& fault) {
     forecast.pilot_fault = fault.what();
   }
   return {};
 }
 
-// A coarse pilot, and the finest that may be expected to come to its end in what is left of the time.
-std::vector<Pilot> march_pilots(const ForecastOptions& options, const Deck& deck, double budget_s,
-                                Forecast& forecast) {
-  constexpr double cost_exponent = 3.5;  // elements of surfaces and solids, and steps
-  std::vector<Pilot> pilots;
-  const double start = work_clock(options.threads);
-  double last_factor = 0, last_cost = 0;
-  for (double factor : {4.0, 1.5, 2.0, 3.0}) {
-    const double left = budget_s - (work_clock(options.threads) - start);
-    if (left <= 0) break;
-    const bool too_long = last_cost * std::pow(last_factor / factor, cost_exponent) > left;
-    if (last_factor > 0 && (factor > last_factor || too_long)) continue;
-    const double begin = work_clock(options.threads);
-    std::optional<March> pilot = pilot_of(options, deck, factor, left, forecast);
-    if (!pilot) continue;
-    last_factor = factor;
-    last_cost = work_clock(options.threads) - begin;
-    forecast.pilot_factors.push_back(factor);
-    pilots.push_back({factor, std::move(*pilot)});
-  }
-  if (pilots.empty() && forecast.pilot_fault.empty())
-    forecast.pilot_fault = "none came to its end in " + std::to_string(std::lround(budget_s)) + " s";
-  return pilots;
-}
-
 void march_on(const ForecastOptions& options, ScenePrepared& scene, double budget_s, March& march) {
   ThreadTeam team(options.threads);
   brio::march(march, scene.model, scene.deck.numerics.energy_error_limit, budget_s, team);
 }
+
+// Pilots and more steps, and what follows from them.
+class Exploration {
+ public:
+  Exploration(const ForecastOptions& wanted, ScenePrepared& prepared, Forecast& result)
+      : options(wanted), scene(prepared), forecast(result), start(work_clock(wanted.threads)) {}
+
+  // Pilots that are ever finer, as long as the next may be expected to come to its end in half of the budget.
+  void march_pilots() {
+    constexpr double cost_exponent = 4;  // elements of surfaces and solids, steps, and the fall of these
+    double last_factor = 0, last_cost = 0;
+    for (const double factor : {4.0, 2.0, 1.5}) {
+      const double begin = spent();
+      const double left = 0.5 * budget() - begin;
+      if (left <= 0) break;
+      if (last_factor > 0 && last_cost * std::pow(last_factor / factor, cost_exponent) > left) break;
+      std::optional<Model> model = coarse_scene(scene, factor, forecast);
+      if (!model) continue;
+      std::optional<March> march = march_to_end(*model, options.threads, left, forecast);
+      if (!march) continue;
+      pilot = Pilot{factor, std::move(*march)};
+      forecast.pilot_factors.push_back(factor);
+      forecast.steps = forecast_steps(forecast.march, *pilot, forecast.end);
+      last_factor = factor;
+      last_cost = spent() - begin;
+    }
+    if (!pilot && forecast.pilot_fault.empty())
+      forecast.pilot_fault = "none is coarser and came to its end in time";
+  }
+
+  // What is left of the budget, in two goes: the first changes what the budget is a share of.
+  void march_scene() {
+    for (const double part : {0.5, 1.0}) {
+      const double left = part * (budget() - spent());
+      if (left <= 0 || forecast.march.reached_end || !forecast.march.breakdown.empty()) return;
+      march_on(options, scene, left, forecast.march);
+      forecast.steps = pilot ? forecast_steps(forecast.march, *pilot, forecast.end)
+                             : forecast_steps(forecast.march, forecast.end);
+    }
+  }
+
+  std::optional<Pilot> pilot;  // the finest
+
+ private:
+  double spent() const { return work_clock(options.threads) - start; }
+  double budget() const { return std::min(options.pilot_s, options.pilot_share * forecast.steps.seconds); }
+
+  const ForecastOptions& options;
+  ScenePrepared& scene;
+  Forecast& forecast;
+  double start;
+};
 
 }  // namespace
 
@@ -106,24 +141,22 @@ Forecast forecast(const ForecastOptions& options, ScenePrepared& scene) {
   forecast.build_seconds = scene.seconds;
   march_on(options, scene, options.march_s, forecast.march);
   if (forecast.march.steps.empty()) return forecast;
-  forecast.steps = forecast_steps(forecast.march, {}, forecast.end);
+  forecast.steps = forecast_steps(forecast.march, forecast.end);
   try {
     forecast.output = measure_output(scene.deck, scene.model, forecast.steps.steps);
   } catch (const FileError& fault) {
     forecast.output_fault = fault.what();
   }
   forecast.peak_memory_mb = scene.memory.peak_mb();
-  std::vector<Pilot> pilots;
-  const bool step_is_given = scene.deck.time.step || scene.deck.time.mass_scaling;
-  if (options.pilot_s > 0 && step_is_given)
+  Exploration exploration(options, scene, forecast);
+  const bool is_asked_for = options.pilot_s > 0 && !forecast.march.reached_end;
+  if (is_asked_for && (scene.deck.time.step || scene.deck.time.mass_scaling)) {
     forecast.pilot_fault = "none is made where the deck gives the step";
-  if (options.pilot_s > 0 && !forecast.march.reached_end && !step_is_given) {
-    const double start = work_clock(options.threads);
-    pilots = march_pilots(options, scene.deck, 0.5 * options.pilot_s, forecast);
-    march_on(options, scene, options.pilot_s - (work_clock(options.threads) - start), forecast.march);
-    forecast.steps = forecast_steps(forecast.march, pilots, forecast.end);
+  } else if (is_asked_for && forecast.march.breakdown.empty()) {
+    exploration.march_pilots();
+    exploration.march_scene();
   }
-  forecast.new_topologies = new_topologies(scene, forecast, pilots);
+  forecast.new_topologies = new_topologies(scene, forecast, exploration.pilot);
   forecast.result_bytes = forecast.output.bytes(forecast.new_topologies);
   return forecast;
 }

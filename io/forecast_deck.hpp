@@ -15,8 +15,9 @@ struct ForecastOptions {
   std::filesystem::path deck;
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE
   int threads = 1;
-  double march_s = 1;  ///< of the work_clock, for steps of the scene itself
-  double pilot_s = 0;  ///< more of it, up to a half for pilots, the rest for more steps; 0: none
+  double march_s = 1;      ///< of the work_clock, for steps of the scene itself
+  double pilot_s = 0;      ///< most of it for pilots (up to a half) and for more steps; 0: none
+  double pilot_share = 1;  ///< of the run foretold, most of it for the same
 };
 
 struct Forecast {
@@ -24,8 +25,9 @@ struct Forecast {
   double first_step = 0;
   March march;
   StepForecast steps;
-  std::vector<double> pilot_factors;  ///< of the pilots that came to their ends: how much coarser
-  std::string pilot_fault;            ///< why there is none, if one was asked for
+  std::vector<double>
+      pilot_factors;        ///< of the pilots that came to their ends: how much coarser; the last is read
+  std::string pilot_fault;  ///< why there is none, if one was asked for
   double build_seconds = 0;
   OutputCost output;
   std::string output_fault;   ///< why output could not be measured

@@ -78,14 +78,12 @@ class Output {
     const bool fields_due = field_schedule_.due(model_.times.time);
     if (!row_due && !fields_due && !last) return;
     const StageTimer timer(model_.stages, Stage::output);
+    if (fields_due || last) audit_contacts(model_, team);
     if (row_due || last) {
       observe_history(model_, row_);
       history_.append(row_);
     }
-    if (fields_due || last) {
-      audit_contacts(model_, team);
-      writer_.write(observer_.observe(model_));
-    }
+    if (fields_due || last) writer_.write(observer_.observe(model_));
     if (fields_due || last || history_.full()) writer_.write(history_);
   }
 

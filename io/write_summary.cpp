@@ -33,16 +33,25 @@ Json masses(const Summary::Masses& mass) {
 }
 
 Json contact_counts(const Summary::ContactCounts& contact) {
-  return {{"searches", contact.searches},
-          {"comparisons", contact.comparisons},
-          {"candidate_pairs", contact.candidate_pairs},
-          {"bodies", contact.bodies},
-          {"lines", contact.lines},
-          {"line_comparisons", contact.line_comparisons},
-          {"line_candidate_pairs", contact.line_candidate_pairs},
-          {"active_max", contact.active_max},
-          {"penetration_max", contact.penetration_max},
-          {"missed", contact.missed}};
+  Json counts{{"searches", contact.searches},
+              {"comparisons", contact.comparisons},
+              {"candidate_pairs", contact.candidate_pairs},
+              {"bodies", contact.bodies},
+              {"lines", contact.lines},
+              {"line_comparisons", contact.line_comparisons},
+              {"line_candidate_pairs", contact.line_candidate_pairs},
+              {"active_max", contact.active_max},
+              {"penetration_max", contact.penetration_max},
+              {"missed", contact.missed}};
+  if (const auto& missed = contact.missed_by_kind)
+    counts["missed_by_kind"] = {{"inside_solids", missed->inside_solids},
+                                {"shells_too_close", missed->shells_too_close},
+                                {"shells_pierced", missed->shells_pierced},
+                                {"lines_crossed", missed->lines_crossed},
+                                {"deepest", missed->deepest},
+                                {"time_of_deepest", missed->time_of_deepest},
+                                {"node_of_deepest", missed->node_of_deepest}};
+  return counts;
 }
 
 Json wall_times(const Summary::WallTimes& wall) {

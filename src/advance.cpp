@@ -342,8 +342,13 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
 }
 
 void audit_contacts(Model& model, ThreadTeam& team) {
-  for (const ContactScene& scene : model.contacts)
-    if (scene.options.audit) model.missed_contacts += audit(scene, model.nodes, team).missed();
+  if (!model.missed_contacts) return;
+  for (const ContactScene& scene : model.contacts) {
+    const Audit found = audit(scene, model.nodes, team);
+    if (found.deepest > model.missed_contacts->found.deepest)
+      model.missed_contacts->time_of_deepest = model.times.time;
+    model.missed_contacts->found += found;
+  }
 }
 
 void update_positions(Model& model, ThreadTeam& team) {

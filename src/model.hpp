@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "contact/audit.hpp"
 #include "contact/overlap.hpp"
 #include "contact/scene.hpp"
 #include "contact/ties.hpp"
@@ -42,6 +43,12 @@ struct StepControl {
   double largest = 0;
 };
 
+/// What audits have found so far.
+struct MissedContacts {
+  Audit found;
+  double time_of_deepest = 0;
+};
+
 struct Model {
   std::int64_t step = 0;             ///< steps made
   std::int64_t element_updates = 0;  ///< elements swept, summed over the steps
@@ -60,9 +67,9 @@ struct Model {
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
   RigidBodies rigid;
-  std::vector<ContactScene> contacts;            ///< one if the deck names contact, else none
-  std::int64_t missed_contacts = 0;              ///< counted by the audit, where the deck asks for it
-  std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step
+  std::vector<ContactScene> contacts;             ///< one if the deck names contact, else none
+  std::optional<MissedContacts> missed_contacts;  ///< if the deck asks for the audit
+  std::vector<InitialOverlap> initial_overlaps;   ///< removed before the first step
 
   std::optional<Erosion> erosion;                 ///< if elements can be deleted
   std::optional<SurfaceNumbers> surface_numbers;  ///< if elements can be deleted and the deck names contact

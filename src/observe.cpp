@@ -244,6 +244,7 @@ std::vector<std::string> history_columns(const Model& model) {
     for (const char* axis : {".velocity_x", ".velocity_y", ".velocity_z"})
       columns.push_back(model.parts[p].name + axis);
   if (model.added_mass) columns.emplace_back("added_mass");
+  if (model.missed_contacts) columns.emplace_back("missed_contacts");
   add_columns(model.probes, columns);
   return columns;
 }
@@ -268,6 +269,7 @@ void observe_history(Model& model, std::vector<double>& row) {
     row.insert(row.end(), velocity.begin(), velocity.end());
   }
   if (model.added_mass) row.push_back(model.added_mass->total());
+  if (model.missed_contacts) row.push_back(model.missed_contacts->found.missed());
   add_values(model.probes, model.nodes, row);
 }
 
@@ -340,13 +342,25 @@ Summary observe_end(Model& model) {
                        .candidate_pairs = static_cast<std::int64_t>(counts.candidate_pairs),
                        .active_max = scene.totals.most_contacts,
                        .penetration_max = scene.totals.deepest_overlap,
-                       .missed = model.missed_contacts,
+                       .missed = 0,
+                       .missed_by_kind = {},
                        .bodies = scene.surface.body_count};
     if (!scene.lines) continue;
     const LineCandidates& lines = scene.lines->candidates;
     summary.contact.lines = static_cast<std::int64_t>(lines.line.size());
     summary.contact.line_comparisons = static_cast<std::int64_t>(lines.counts.comparisons);
     summary.contact.line_candidate_pairs = static_cast<std::int64_t>(lines.counts.candidate_pairs);
+  }
+  if (model.missed_contacts) {
+    const Audit& found = model.missed_contacts->found;
+    summary.contact.missed = found.missed();
+    summary.contact.missed_by_kind = {.inside_solids = found.inside_solids,
+                                      .shells_too_close = found.shells_too_close,
+                                      .shells_pierced = found.shells_pierced,
+                                      .lines_crossed = found.lines_crossed,
+                                      .deepest = found.deepest,
+                                      .time_of_deepest = model.missed_contacts->time_of_deepest,
+                                      .node_of_deepest = found.deepest_node};
   }
   if (model.added_mass) {
     const AddedMass& mass = *model.added_mass;

@@ -42,7 +42,7 @@ TEST(Forecast, StepsAsTheyAreAreForetoldFromTheFirst) {
   March few;
   march(few, model, 0.1, 0, team);
   ASSERT_EQ(few.steps.size(), 1u);
-  const StepForecast forecast = forecast_steps(few, {}, deck.time.end);
+  const StepForecast forecast = forecast_steps(few, deck.time.end);
   EXPECT_FALSE(forecast.exact);
   EXPECT_EQ(forecast.most, 0);
   EXPECT_NEAR(forecast.steps, static_cast<double>(whole.step), 0.05 * static_cast<double>(whole.step));
@@ -59,7 +59,7 @@ TEST(Forecast, AMarchToTheEndIsTheRun) {
   march(all, model, 0.1, 1e9, team);
   EXPECT_TRUE(all.reached_end);
   EXPECT_EQ(all.steps.size(), static_cast<std::size_t>(whole.step));
-  const StepForecast forecast = forecast_steps(all, {}, deck.time.end);
+  const StepForecast forecast = forecast_steps(all, deck.time.end);
   EXPECT_TRUE(forecast.exact);
   EXPECT_EQ(forecast.steps, static_cast<double>(whole.step));
   for (std::size_t i = 0; i < whole.nodes.size(); ++i)
@@ -92,46 +92,73 @@ March falling(double first, double depth, double until, double seconds) {
 }
 
 TEST(Forecast, APilotsFallIsTakenOverByItsShare) {
-  const Pilot pilot{2, falling(1e-3, 0.5, 1, 1e-6)};
-  const March own = falling(4e-4, 1.2, 0.2, 1e-5);
-  const March truth = falling(4e-4, 1.2, 1, 1e-5);
-  EXPECT_NEAR(share_of_fall(own, pilot.march).value(), 2.4, 0.02);
-  const StepForecast forecast = forecast_steps(own, std::span(&pilot, 1), 1);
-  EXPECT_NEAR(forecast.steps, static_cast<double>(truth.steps.size()), 0.01 * forecast.steps);
-  EXPECT_NEAR(forecast.seconds, truth.seconds(), 0.03 * truth.seconds());
-  EXPECT_LT(forecast.least, 0.8 * forecast.steps);
-  EXPECT_GE(forecast.most, forecast.steps);
-  EXPECT_LT(forecast_steps(own, {}, 1).steps, 0.6 * forecast.steps);
+  const Pilot pilot{2, falling(1e-2, 2, 1, 1e-6)};
+  const March own = falling(4e-3, 3, 0.4, 1e-5);
+  const March truth = falling(4e-3, 3, 1, 1e-5);
+  // Experience, of the weight 0.1, pulls it a little from 1.5.
+  const double seen = 4 * 4 * std::pow(0.4, 3) / 3;
+  const double share = share_of_fall(own, pilot.march, 1.3, 1);
+  EXPECT_NEAR(share, (0.1 * 1.3 + 1.5 * seen) / (0.1 + seen), 0.01);
+  EXPECT_NEAR(share_of_fall(own, pilot.march, 1.5, 1), 1.5, 0.01);
+  const StepForecast forecast = forecast_steps(own, pilot, 1);
+  EXPECT_GT(forecast.share_of_fall, 1.4);
+  EXPECT_NEAR(forecast.steps, static_cast<double>(truth.steps.size()), 0.08 * forecast.steps);
+  EXPECT_NEAR(forecast.seconds, truth.seconds(), 0.1 * truth.seconds());
+  EXPECT_LT(forecast.least, static_cast<double>(truth.steps.size()));
+  EXPECT_GT(forecast.most, static_cast<double>(truth.steps.size()));
+  EXPECT_LT(forecast_steps(own, 1).steps, 0.7 * forecast.steps);
+  const StepForecast best = forecast_steps(own, pilot.march, {1.5, 1}, 1);
+  EXPECT_NEAR(best.steps, static_cast<double>(truth.steps.size()), 0.01 * best.steps);
+  EXPECT_NEAR(best.seconds, truth.seconds(), 0.02 * truth.seconds());
 }
 
-// log r in proportion to the number of elements along an edge to the power of 0.8.
-TEST(Forecast, TheTrendOfTwoPilotsLeadsToTheShare) {
-  const auto pilot = [](double factor) {
-    return Pilot{factor, falling(1e-3, 1.2 * std::pow(factor, -0.8), 1, 1e-6)};
-  };
-  const std::vector<Pilot> pilots{pilot(4), pilot(2)};
-  EXPECT_NEAR(share_by_trend(pilots), std::pow(2, 0.8), 0.02);
-  const March own = falling(4e-4, 1.2, 0.001, 1e-5);  // too short to fit anything
-  const March truth = falling(4e-4, 1.2, 1, 1e-5);
-  const StepForecast forecast = forecast_steps(own, pilots, 1);
-  EXPECT_NEAR(forecast.steps, static_cast<double>(truth.steps.size()), 0.02 * forecast.steps);
-  EXPECT_GT(share_by_trend(std::span(pilots).first(1)), share_by_trend(std::span(pilots).last(1)));
+TEST(Forecast, WithoutEvidenceTheShareIsUsual) {
+  const March pilot = falling(1e-3, 1, 1, 1e-6);
+  const March own = falling(4e-4, 1.4, 0.001, 1e-5);  // too short to show anything
+  EXPECT_NEAR(share_of_fall(own, pilot, 1.4, 1), 1.4, 1e-6);
+  EXPECT_NEAR(forecast_steps(own, Pilot{4, pilot}, 1).share_of_fall, std::pow(4, 0.4), 1e-6);
+}
+
+// What the march lost beside the pilot's fall is not lost for ever.
+TEST(Forecast, WhatThePilotMissedFades) {
+  const March pilot = falling(1e-3, 0, 1, 1e-6);
+  const March own = falling(4e-4, 1, 0.5, 1e-5);
+  const double start = own.time, first = own.steps.front().size;
+  const double missed = std::log(first / own.steps.back().size), lasting = 0.3;
+  double steps = static_cast<double>(own.steps.size());
+  constexpr int pieces = 10000;
+  for (int i = 0; i < pieces; ++i)
+    steps += (1 - start) / pieces / first *
+             std::exp(missed * std::exp(-(1 - start) * (i + 0.5) / pieces / lasting));
+  EXPECT_NEAR(forecast_steps(own, pilot, {1, lasting}, 1).steps, steps, 1e-3 * steps);
+}
+
+// Contact makes steps of a pilot dearer than those of the scene, which has more elements.
+TEST(Forecast, CostGrowsByWhatItWasSeenToGrow) {
+  March pilot = falling(1e-3, 0, 1, 0), same = falling(4e-4, 0, 0.5, 0), as_pilot = same;
+  for (MarchedStep& step : pilot.steps) step.seconds = 1e-6 * (1 + 20 * step.time);
+  for (MarchedStep& step : same.steps) step.seconds = 1e-5;
+  for (MarchedStep& step : as_pilot.steps) step.seconds = 1e-5 * (1 + 20 * step.time);
+  const double steps = 2500, all_as_pilot = 1e-5 * steps * 11;
+  EXPECT_NEAR(forecast_steps(as_pilot, pilot, {1, 1}, 1).seconds, all_as_pilot, 0.02 * all_as_pilot);
+  const double seconds = forecast_steps(same, pilot, {1, 1}, 1).seconds;
+  EXPECT_GT(seconds, 1e-5 * steps);
+  EXPECT_LT(seconds, 1.2 * 1e-5 * steps) << "in proportion it would be 1.8";
 }
 
 TEST(Forecast, APilotWhoseStepStaysChangesNothing) {
   const Pilot pilot{2, falling(1e-3, 0, 1, 1e-6)};
   const March own = falling(4e-4, 0, 0.2, 1e-5);
-  EXPECT_FALSE(share_of_fall(own, pilot.march).has_value());
-  const double steps = forecast_steps(own, {}, 1).steps;
-  EXPECT_NEAR(forecast_steps(own, std::span(&pilot, 1), 1).steps, steps, 1e-6 * steps);
+  const double steps = forecast_steps(own, 1).steps;
+  EXPECT_NEAR(forecast_steps(own, pilot, 1).steps, steps, 1e-6 * steps);
 }
 
 TEST(Forecast, WhereElementsAreDeletedTheStepMayComeBack) {
   Pilot pilot{2, falling(1e-3, 0.5, 1, 1e-6)};
   const March own = falling(4e-4, 1.2, 0.6, 1e-5);
-  const double without = forecast_steps(own, std::span(&pilot, 1), 1).steps;
+  const double without = forecast_steps(own, pilot, 1).steps;
   pilot.march.steps.back().deleted = 1;
-  const StepForecast forecast = forecast_steps(own, std::span(&pilot, 1), 1);
+  const StepForecast forecast = forecast_steps(own, pilot, 1);
   EXPECT_LT(forecast.steps, 0.9 * without);
   EXPECT_GE(forecast.most, without);
   EXPECT_GT(forecast.steps, forecast.least);

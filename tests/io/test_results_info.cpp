@@ -33,7 +33,7 @@ Summary summary() {
   s.energy.error_relative = 1e-4;
   s.momentum.linear = {1, 2, 3};
   s.momentum.angular = {4, 5, 6};
-  s.contact = {10, 20, 30, 4, 1e-3, 0};
+  s.contact = {10, 20, 30, 4, 1e-3, 0, {}};
   s.wall_s.total = 2.5;
   s.wall_s.by_stage = {{"contact", 1.0}, {"forces", 1.5}};
   s.threads = 2;
@@ -70,6 +70,13 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
   EXPECT_EQ(keys(json["contact"]),
             (Names{"searches", "comparisons", "candidate_pairs", "bodies", "lines", "line_comparisons",
                    "line_candidate_pairs", "active_max", "penetration_max", "missed"}));
+  Summary audited = summary();
+  audited.contact.missed_by_kind = {.inside_solids = 3, .deepest = 0.5, .node_of_deepest = 7};
+  const auto missed = nlohmann::ordered_json::parse(summary_json(audited))["contact"]["missed_by_kind"];
+  EXPECT_EQ(keys(missed), (Names{"inside_solids", "shells_too_close", "shells_pierced", "lines_crossed",
+                                 "deepest", "time_of_deepest", "node_of_deepest"}));
+  EXPECT_EQ(missed["inside_solids"], 3);
+  EXPECT_EQ(missed["node_of_deepest"], 7);
   EXPECT_EQ(keys(json["wall_s"]), (Names{"total", "by_stage"}));
   EXPECT_EQ(json["momentum"]["angular"], (std::vector<double>{4, 5, 6}));
   EXPECT_EQ(json["wall_s"]["by_stage"]["forces"], 1.5);

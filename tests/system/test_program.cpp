@@ -103,6 +103,19 @@ TEST_F(Program, CheckWithAPilotRunsACoarserScene) {
   EXPECT_TRUE(!forecast["pilots"].empty() || forecast["pilot_fault"] != "") << forecast;
 }
 
+TEST_F(Program, BudgetOfPilotsIsSecondsOrAShare) {
+  write("cube.yaml", small_deck);
+  for (const char* budget : {"0", "0.1", "40%", "2.5%"}) {
+    const Ending ending = brio("check cube.yaml --threads 1 --pilot=" + std::string(budget));
+    EXPECT_EQ(ending.exit_code, 0) << ending.faults;
+  }
+  for (const char* budget : {"-1", "%", "ten", "4%%", "nan", "inf"}) {
+    const Ending ending = brio("check cube.yaml --threads 1 --pilot=" + std::string(budget));
+    EXPECT_EQ(ending.exit_code, 2) << budget;
+    EXPECT_NE(ending.faults.find("accepted: seconds >= 0, or a share"), std::string::npos) << ending.faults;
+  }
+}
+
 TEST_F(Program, CheckWarnsAndSaysWhy) {
   write("two.yaml", R"(
 materials:

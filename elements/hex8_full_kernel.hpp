@@ -133,8 +133,10 @@ struct Hex8FullKernel : Hex8Full {
       const Tensor<T> n = centered(half_step * l, determinant);
       is_valid = is_valid & has_volume & (determinant > T(0.0));
       MaterialAxes<T> axes;
-      increment.internal_energy +=
-          volume * where(determinant > T(0.0), determinant, T(1.0)) * update(law, n, point[p], axes).work;
+      // Of a point with next to no volume left the strain of a step is more than can be followed.
+      const T work = update(law, n, point[p], axes).work;
+      is_valid = is_valid & (work - work == T(0.0));
+      increment.internal_energy += volume * where(determinant > T(0.0), determinant, T(1.0)) * work;
       fetch_ahead(reinterpret_cast<std::uintptr_t>(point + p) + pack_bytes, sizeof(Point<T, Law>));
       const SymmetricTensor<T> stress = fixed_stress(point[p], axes);
       const T mean_stress = trace(stress) * (1.0 / 3.0);

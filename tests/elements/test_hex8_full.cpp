@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "elements/hex8_full_kernel.hpp"
 #include "materials/elastic.hpp"
 #include "tests/elements/hexahedra.hpp"
@@ -64,6 +66,33 @@ TEST(Hex8Full, BendingOfACubeIsThatOfTheExactIntegral) {
   const Eigen::Map<const Eigen::Matrix<double, 24, 1>> u(mode.data());
   // 2 mu int (dev eps : dev eps) = 2 (2/3 + 1/2) int eta^2 dV with unit shear modulus
   EXPECT_NEAR(u.dot(k * u), 2 * (2.0 / 3 + 0.5) * 8.0 / 3, 1e-5);
+}
+
+// A point with next to no volume left strains by more than can be followed in a step, and again, until its
+// state is no number. The other points and the volume of the brick do not show it.
+TEST(Hex8Full, ABrickOfWhichAPointCannotBeFollowedCountsAsInverted) {
+  const Elastic law{.density = 1, .youngs_modulus = 2.6, .poissons_ratio = 0.3};
+  Noise noise(43);
+  Corners crushed = test::box(1, 1, 1);
+  crushed.col(6) *= -0.07;
+  FullElement element({}, law, test::box(1, 1, 1));
+  int followed = 0, inverted = 0, not_numbers = 0;
+  for (int step = 0; step < 3000; ++step) {
+    const Corners x = crushed + 0.003 * noise.matrix<Corners>();
+    element.move_to(x, 1);
+    const bool is_number = std::isfinite(element.increment.internal_energy);
+    if (element.increment.stable_step > 0) {
+      ++followed;
+      ASSERT_TRUE(is_number && element.force.allFinite()) << step;
+      continue;
+    }
+    ++inverted;
+    not_numbers += !is_number;
+    element = FullElement({}, law, test::box(1, 1, 1));
+  }
+  EXPECT_GT(followed, 100);
+  EXPECT_GT(inverted, not_numbers);
+  EXPECT_GT(not_numbers, 0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "contact/audit_lines.hpp"
 #include "contact/exclusion.hpp"
@@ -16,6 +17,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double deep_share = 0.1;
+/// Of the sphere: a wedge whose sides come apart by `deep_share` of their length.
+constexpr double wedge_share = deep_share / (2 * std::numbers::pi);
 /// A node of a flat surface is behind its other faces by rounding.
 constexpr double flat_share = 1e-3;
 constexpr std::size_t nodes_per_task = 64;
@@ -139,6 +142,7 @@ class Auditor {
   }
 
   // A node of a body that does not cut itself sees its own surface from the surface: less than once around.
+  // At the bottom of a closed cleft it is all around, and more by the wedge in which its flanks overlap.
   bool inside_own_body(int slave, const Vector3d& x, Audit& found) const {
     if (surface_.of_solid[static_cast<std::size_t>(slave)] == 0) return false;
     const int body = surface_.body[static_cast<std::size_t>(slave)];
@@ -155,7 +159,7 @@ class Auditor {
       depth = distance;
       suspect = far;
     }
-    return suspect && winding(body, x) > 1 && note(depth, found);
+    return suspect && winding(body, x) > 1 + wedge_share && note(depth, found);
   }
 
   double winding(int body, const Vector3d& x) const {

@@ -86,17 +86,25 @@ bool can_be_damaged(const Model& model) {
 
 std::int64_t deleted_so_far(const Model& model) { return model.erosion ? model.erosion->total_deleted() : 0; }
 
+// Of each node its number in the results, by parts; -1 of those that no part names.
+std::vector<std::int64_t> points_of_nodes(const Model& model) {
+  std::vector<std::int64_t> points(model.nodes.size(), -1);
+  std::int64_t count = 0;
+  for (const PartInModel& part : model.parts)
+    for (int node : part.node)
+      // One of a part before, which shares it, has its number.
+      if (std::int64_t& point = points[static_cast<std::size_t>(node)]; point < 0) point = count++;
+  return points;
+}
+
 }  // namespace
 
-FieldObserver::FieldObserver(const Model& model) : point_of_node_(model.nodes.size(), -1) {
-  for (const PartInModel& part : model.parts) {
-    for (int node : part.node) {
-      std::int64_t& point = point_of_node_[static_cast<std::size_t>(node)];
-      if (point >= 0) continue;  // of a part before, which shares it
-      point = static_cast<std::int64_t>(node_of_point_.size());
-      node_of_point_.push_back(node);
-    }
-  }
+FieldObserver::FieldObserver(const Model& model) : point_of_node_(points_of_nodes(model)) {
+  node_of_point_.resize(model.nodes.size() -
+                        static_cast<std::size_t>(std::ranges::count(point_of_node_, std::int64_t{-1})));
+  for (std::size_t node = 0; node < point_of_node_.size(); ++node)
+    if (point_of_node_[node] >= 0)
+      node_of_point_[static_cast<std::size_t>(point_of_node_[node])] = static_cast<int>(node);
   const std::size_t points = node_of_point_.size();
   snapshot_.points.resize(3 * points);
   snapshot_.point_fields = {field("displacement", 3, points, Storage::double_precision),
@@ -360,7 +368,10 @@ Summary observe_end(Model& model) {
                                       .lines_crossed = found.lines_crossed,
                                       .deepest = found.deepest,
                                       .time_of_deepest = model.missed_contacts->time_of_deepest,
-                                      .node_of_deepest = found.deepest_node};
+                                      .node_of_deepest = -1};
+    if (found.deepest_node >= 0)
+      summary.contact.missed_by_kind->node_of_deepest =
+          points_of_nodes(model)[static_cast<std::size_t>(found.deepest_node)];
   }
   if (model.added_mass) {
     const AddedMass& mass = *model.added_mass;

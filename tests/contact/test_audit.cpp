@@ -57,6 +57,33 @@ TEST(Audit, FindsShellsTooCloseAndPierced) {
       << "its uprights, and columns of the lower";
 }
 
+// A bar folded upon itself: the node at the bottom of the cleft has material all around and a face of the
+// other side of the bar near by, and is no penetration. Flanks that reach through each other are.
+TEST(Audit, CountsNothingAtTheBottomOfAClosedCleft) {
+  const auto folded = [](double angle) {
+    return [angle](const Vector3d& x) -> Vector3d {
+      const double along = x[2] - 2, side = along < 0 ? -1 : 1;
+      if (along == 0) return {-x[0], -x[1], 0};
+      const double c = std::cos(angle), s = std::sin(angle), reach = std::abs(along);
+      return {c * reach - s * x[0], -x[1], side * (s * reach + c * x[0])};
+    };
+  };
+  const auto missed = [&](double angle) {
+    ThreadTeam team(1);
+    SpringModel open, closed;
+    open.add_box({2, 2, 4}, {0.6, 2, 4}, 1, folded(0.1));
+    closed.add_box({2, 2, 4}, {0.6, 2, 4}, 1, folded(angle));
+    open.start({});
+    closed.start({});
+    for (int n = 0; n < open.count(); ++n) move_nodes(open, n, n + 1, closed.x(n) - open.x(n));
+    return audit(open.scene, open.nodes, team).missed();
+  };
+  EXPECT_EQ(missed(0.1), 0);
+  EXPECT_EQ(missed(0), 0);
+  EXPECT_EQ(missed(-0.03), 0);
+  EXPECT_GT(missed(-0.15), 0);
+}
+
 TEST(Audit, FindsASolidThatCutsItself) {
   ThreadTeam team(1);
   SpringModel model;

@@ -32,6 +32,15 @@ double fall(const March& march, double time) {
   return std::log(steps.front().size / after->size);
 }
 
+// A pilot that shows little of the fall at the end of the march is believed less: 0 to 1.
+double doubt_in(const March& own, const March& pilot, double share) {
+  constexpr double small_fall = 0.1;
+  const std::span<const MarchedStep> steps = telling(own);
+  const double shown = share * fall(pilot, own.time);
+  const double missed = std::log(steps.front().size / steps.back().size) - shown;
+  return missed * missed / (missed * missed + shown * shown + small_fall * small_fall);
+}
+
 // Time per step of a march as a straight line in that of a pilot at the same times, c + b (p - mean p): with
 // the slope that fits, between none and that of proportion, which is taken where the pilot's hardly changes.
 struct CostLine {
@@ -132,6 +141,11 @@ StepForecast forecast_steps(const March& own, const Pilot& pilot, double end) {
   const double share = eroded ? usual : share_of_fall(own, pilot.march, usual, end);
   const double fades = (eroded ? lasting_among_deletions : lasting) * end;
   StepForecast forecast = forecast_steps(own, pilot.march, {share, fades}, end);
+  if (!eroded) {
+    const double doubt = doubt_in(own, pilot.march, share);
+    forecast.steps = std::pow(forecast.steps, 1 - doubt) * std::pow(stays.steps, doubt);
+    forecast.seconds = std::pow(forecast.seconds, 1 - doubt) * std::pow(stays.seconds, doubt);
+  }
   double least = std::min(forecast.steps, stays.steps), most = std::max(forecast.steps, stays.steps);
   for (const Reading& reading : {Reading{1, fades}, Reading{share, HUGE_VAL},
                                  Reading{std::pow(pilot.factor, largest_exponent), fades}}) {

@@ -12,7 +12,8 @@
 /// elements along an edge. Measured on ten scenes, the exponent is 0 to 0.4 for struck rods, for birds and
 /// for pipes that tear, 0.5 for bricks, 0.7 for plates that tear and 1 for walls that fold. Where elements
 /// are deleted, those that have set the step may be gone at any time: there the march says nothing of what
-/// follows. Time per step grows with that of the pilot, by as much as it was seen to.
+/// follows. Elsewhere the forecast leans towards a step that stays as it is, the more the pilot missed (in
+/// logarithms). Time per step grows with that of the pilot, by as much as it was seen to.
 
 #include "src/march.hpp"
 

@@ -133,6 +133,17 @@ TEST(Forecast, WhatThePilotMissedFades) {
   EXPECT_NEAR(forecast_steps(own, pilot, {1, lasting}, 1).steps, steps, 1e-3 * steps);
 }
 
+// A pilot whose step stays where that of the scene has fallen says little of what is still to come.
+TEST(Forecast, APilotThatMissedTheFallIsBelievedLess) {
+  const March pilot = falling(1e-3, 0, 1, 1e-6);
+  const March own = falling(4e-4, 1, 0.5, 1e-5);
+  const double stays = forecast_steps(own, 1).steps, read = forecast_steps(own, pilot, {1, 0.5}, 1).steps;
+  const double doubt = 1 / 1.01;
+  const double expected = std::pow(read, 1 - doubt) * std::pow(stays, doubt);
+  EXPECT_NEAR(forecast_steps(own, Pilot{1, pilot}, 1).steps, expected, 2e-3 * expected);
+  EXPECT_GT(std::abs(read / stays - 1), 0.05);
+}
+
 // Contact makes steps of a pilot dearer than those of the scene, which has more elements.
 TEST(Forecast, CostGrowsByWhatItWasSeenToGrow) {
   March pilot = falling(1e-3, 0, 1, 0), same = falling(4e-4, 0, 0.5, 0), as_pilot = same;

@@ -41,6 +41,15 @@ double doubt_in(const March& own, const March& pilot, double share) {
   return missed * missed / (missed * missed + shown * shown + small_fall * small_fall);
 }
 
+// Takes steps that are still to come between those of two forecasts, in logarithms; each costs what it did.
+void lean_towards(const StepForecast& other, double weight, const March& own, StepForecast& forecast) {
+  const auto marched = static_cast<double>(own.steps.size());
+  const double steps = std::pow(forecast.steps, 1 - weight) * std::pow(other.steps, weight);
+  const double change = (steps - marched) / (forecast.steps - marched);
+  forecast.seconds = own.seconds() + change * (forecast.seconds - own.seconds());
+  forecast.steps = steps;
+}
+
 // Time per step of a march as a straight line in that of a pilot at the same times, c + b (p - mean p): with
 // the slope that fits, between none and that of proportion, which is taken where the pilot's hardly changes.
 struct CostLine {
@@ -141,11 +150,7 @@ StepForecast forecast_steps(const March& own, const Pilot& pilot, double end) {
   const double share = eroded ? usual : share_of_fall(own, pilot.march, usual, end);
   const double fades = (eroded ? lasting_among_deletions : lasting) * end;
   StepForecast forecast = forecast_steps(own, pilot.march, {share, fades}, end);
-  if (!eroded) {
-    const double doubt = doubt_in(own, pilot.march, share);
-    forecast.steps = std::pow(forecast.steps, 1 - doubt) * std::pow(stays.steps, doubt);
-    forecast.seconds = std::pow(forecast.seconds, 1 - doubt) * std::pow(stays.seconds, doubt);
-  }
+  if (!eroded) lean_towards(stays, doubt_in(own, pilot.march, share), own, forecast);
   double least = std::min(forecast.steps, stays.steps), most = std::max(forecast.steps, stays.steps);
   for (const Reading& reading : {Reading{1, fades}, Reading{share, HUGE_VAL},
                                  Reading{std::pow(pilot.factor, largest_exponent), fades}}) {

@@ -117,7 +117,7 @@ void print_forecast(const Forecast& forecast, int threads) {
   if (!forecast.steps.exact)
     fmt::print("  assumed    {}\n", forecast.pilot_factors.empty()
                                         ? "step, contact and cost of a step stay as they were marched"
-                                        : "cost of a step changes as it does in the pilot");
+                                        : "cost of a step changes with that of the pilot");
 }
 
 }  // namespace

@@ -73,8 +73,8 @@ void march_on(const ForecastOptions& options, ScenePrepared& scene, double budge
 // Pilots and more steps, and what follows from them.
 class Exploration {
  public:
-  Exploration(const ForecastOptions& wanted, ScenePrepared& prepared, Forecast& result)
-      : options(wanted), scene(prepared), forecast(result), start(work_clock(wanted.threads)) {}
+  Exploration(const ForecastOptions& options, ScenePrepared& scene, Forecast& forecast)
+      : options_(options), scene_(scene), forecast_(forecast), start_(work_clock(options.threads)) {}
 
   // Pilots that are ever finer, as long as the next may be expected to come to its end in half of the budget.
   void march_pilots() {
@@ -85,41 +85,41 @@ class Exploration {
       const double left = 0.5 * budget() - begin;
       if (left <= 0) break;
       if (last_factor > 0 && last_cost * std::pow(last_factor / factor, cost_exponent) > left) break;
-      std::optional<Model> model = coarse_scene(scene, factor, forecast);
+      std::optional<Model> model = coarse_scene(scene_, factor, forecast_);
       if (!model) continue;
-      std::optional<March> march = march_to_end(*model, options.threads, left, forecast);
+      std::optional<March> march = march_to_end(*model, options_.threads, left, forecast_);
       if (!march) continue;
       pilot = Pilot{factor, std::move(*march)};
-      forecast.pilot_factors.push_back(factor);
-      forecast.steps = forecast_steps(forecast.march, *pilot, forecast.end);
+      forecast_.pilot_factors.push_back(factor);
+      forecast_.steps = forecast_steps(forecast_.march, *pilot, forecast_.end);
       last_factor = factor;
       last_cost = spent() - begin;
     }
-    if (!pilot && forecast.pilot_fault.empty())
-      forecast.pilot_fault = "none is coarser and came to its end in time";
+    if (!pilot && forecast_.pilot_fault.empty())
+      forecast_.pilot_fault = "none is coarser and came to its end in time";
   }
 
   // What is left of the budget, in two goes: the first changes what the budget is a share of.
   void march_scene() {
     for (const double part : {0.5, 1.0}) {
       const double left = part * (budget() - spent());
-      if (left <= 0 || forecast.march.reached_end || !forecast.march.breakdown.empty()) return;
-      march_on(options, scene, left, forecast.march);
-      forecast.steps = pilot ? forecast_steps(forecast.march, *pilot, forecast.end)
-                             : forecast_steps(forecast.march, forecast.end);
+      if (left <= 0 || forecast_.march.reached_end || !forecast_.march.breakdown.empty()) return;
+      march_on(options_, scene_, left, forecast_.march);
+      forecast_.steps = pilot ? forecast_steps(forecast_.march, *pilot, forecast_.end)
+                              : forecast_steps(forecast_.march, forecast_.end);
     }
   }
 
   std::optional<Pilot> pilot;  // the finest
 
  private:
-  double spent() const { return work_clock(options.threads) - start; }
-  double budget() const { return std::min(options.pilot_s, options.pilot_share * forecast.steps.seconds); }
+  double spent() const { return work_clock(options_.threads) - start_; }
+  double budget() const { return std::min(options_.pilot_s, options_.pilot_share * forecast_.steps.seconds); }
 
-  const ForecastOptions& options;
-  ScenePrepared& scene;
-  Forecast& forecast;
-  double start;
+  const ForecastOptions& options_;
+  ScenePrepared& scene_;
+  Forecast& forecast_;
+  double start_;
 };
 
 }  // namespace

@@ -95,8 +95,7 @@ void add_check_command(CLI::App& program) {
       ->add_option_function<std::string>(
           "--pilot", [&options](const std::string& budget) { set_pilot_budget(budget, options); },
           "time to foresee how the step falls, by coarser scenes and more steps: seconds, or P% of what the "
-          "run "
-          "takes; 0: none; default: 10 s, but at most 40 % of the run")
+          "run takes; 0: none; default: 10 s, but at most 40 % of the run")
       ->type_name("SECONDS|P%")
       ->expected(0, 1)
       ->default_str("10");

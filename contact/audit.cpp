@@ -142,7 +142,8 @@ class Auditor {
   }
 
   // A node of a body that does not cut itself sees its own surface from the surface: less than once around.
-  // At the bottom of a closed cleft it is all around, and more by the wedge in which its flanks overlap.
+  // At the bottom of a closed cleft it is all around, and more by the wedge in which its flanks overlap. The
+  // tip of a spike narrower than that wedge is not found.
   bool inside_own_body(int slave, const Vector3d& x, Audit& found) const {
     if (surface_.of_solid[static_cast<std::size_t>(slave)] == 0) return false;
     const int body = surface_.body[static_cast<std::size_t>(slave)];

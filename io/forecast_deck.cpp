@@ -149,7 +149,7 @@ Forecast forecast(const ForecastOptions& options, ScenePrepared& scene) {
   }
   forecast.peak_memory_mb = scene.memory.peak_mb();
   Exploration exploration(options, scene, forecast);
-  const bool is_asked_for = options.pilot_s > 0 && !forecast.march.reached_end;
+  const bool is_asked_for = options.pilot_s > 0 && options.pilot_share > 0 && !forecast.march.reached_end;
   if (is_asked_for && (scene.deck.time.step || scene.deck.time.mass_scaling)) {
     forecast.pilot_fault = "none is made where the deck gives the step";
   } else if (is_asked_for && forecast.march.breakdown.empty()) {

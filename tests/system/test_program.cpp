@@ -105,7 +105,7 @@ TEST_F(Program, CheckWithAPilotRunsACoarserScene) {
 
 TEST_F(Program, BudgetOfPilotsIsSecondsOrAShare) {
   write("cube.yaml", small_deck);
-  for (const char* budget : {"0", "0.1", "40%", "2.5%"}) {
+  for (const char* budget : {"0", "0%", "0.1", "40%", "2.5%"}) {
     const Ending ending = brio("check cube.yaml --threads 1 --pilot=" + std::string(budget));
     EXPECT_EQ(ending.exit_code, 0) << ending.faults;
   }

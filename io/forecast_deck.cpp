@@ -76,15 +76,19 @@ class Exploration {
   Exploration(const ForecastOptions& options, ScenePrepared& scene, Forecast& forecast)
       : options_(options), scene_(scene), forecast_(forecast), start_(work_clock(options.threads)) {}
 
-  // Pilots that are ever finer, as long as the next may be expected to come to its end in half of the budget.
+  // Pilots that are ever finer. The first may take all of the budget, without it nothing is known; the next
+  // ones are made where they may be expected to come to their end in half of what is left. The scene is
+  // marched between them: what the budget is a share of is known better before a pilot that costs much.
   void march_pilots() {
+    constexpr double marched_between = 1.0 / 3, share_of_finer = 0.5;
     constexpr double cost_exponent = 4;  // elements of surfaces and solids, steps, and the fall of these
     double last_factor = 0, last_cost = 0;
     for (const double factor : {4.0, 2.0, 1.5}) {
+      if (pilot) march_scene(marched_between);
       const double begin = spent();
-      const double left = 0.5 * budget() - begin;
-      if (left <= 0) break;
-      if (last_factor > 0 && last_cost * std::pow(last_factor / factor, cost_exponent) > left) break;
+      const double left = (pilot ? share_of_finer : 1) * (budget() - begin);
+      if (left <= 0 || forecast_.march.is_over()) break;
+      if (pilot && last_cost * std::pow(last_factor / factor, cost_exponent) > left) break;
       std::optional<Model> model = coarse_scene(scene_, factor, forecast_);
       if (!model) continue;
       std::optional<March> march = march_to_end(*model, options_.threads, left, forecast_);
@@ -99,15 +103,13 @@ class Exploration {
       forecast_.pilot_fault = "none is coarser and came to its end in time";
   }
 
-  // What is left of the budget, in two goes: the first changes what the budget is a share of.
-  void march_scene() {
-    for (const double part : {0.5, 1.0}) {
-      const double left = part * (budget() - spent());
-      if (left <= 0 || forecast_.march.reached_end || !forecast_.march.breakdown.empty()) return;
-      march_on(options_, scene_, left, forecast_.march);
-      forecast_.steps = pilot ? forecast_steps(forecast_.march, *pilot, forecast_.end)
-                              : forecast_steps(forecast_.march, forecast_.end);
-    }
+  // For a part of what is left of the budget.
+  void march_scene(double part) {
+    const double left = part * (budget() - spent());
+    if (left <= 0 || forecast_.march.is_over()) return;
+    march_on(options_, scene_, left, forecast_.march);
+    forecast_.steps = pilot ? forecast_steps(forecast_.march, *pilot, forecast_.end)
+                            : forecast_steps(forecast_.march, forecast_.end);
   }
 
   std::optional<Pilot> pilot;  // the finest
@@ -154,7 +156,8 @@ Forecast forecast(const ForecastOptions& options, ScenePrepared& scene) {
     forecast.pilot_fault = "none is made where the deck gives the step";
   } else if (is_asked_for && forecast.march.breakdown.empty()) {
     exploration.march_pilots();
-    exploration.march_scene();
+    exploration.march_scene(0.5);  // changes what the budget is a share of
+    exploration.march_scene(1);
   }
   forecast.new_topologies = new_topologies(scene, forecast, exploration.pilot);
   forecast.result_bytes = forecast.output.bytes(forecast.new_topologies);

@@ -16,7 +16,7 @@ struct ForecastOptions {
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE
   int threads = 1;
   double march_s = 1;      ///< of the work_clock, for steps of the scene itself
-  double pilot_s = 0;      ///< most of it for pilots (up to a half) and for more steps; 0: none
+  double pilot_s = 0;      ///< most of it for pilots and for more steps; 0: none
   double pilot_share = 1;  ///< of the run foretold, most of it for the same
 };
 

@@ -23,6 +23,7 @@ struct March {
   bool reached_end = false;
   std::string breakdown;  ///< why it ended early; empty if it did not
 
+  bool is_over() const { return reached_end || !breakdown.empty(); }
   double seconds() const;
   /// Wall time over what steps take on a machine that has nothing else to do; 1 with several threads.
   double waiting() const;

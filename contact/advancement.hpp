@@ -8,11 +8,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+
+#include "src/base/floating_point.hpp"
 
 namespace brio::advancement {
-
-inline constexpr double unit_roundoff = 0x1p-53;
 
 inline double largest(const Eigen::Vector3d& a) { return a.lpNorm<Eigen::Infinity>(); }
 
@@ -141,9 +140,9 @@ inline Direction along_normal(const Eigen::Vector3d& normal, const Eigen::Vector
 inline double positive_until(double a, double b, double c) {
   if (!(c > 0)) return 0;
   const double discriminant = b * b - 4 * a * c;
-  if (discriminant < 0) return std::numeric_limits<double>::infinity();  // then a > 0
+  if (discriminant < 0) return infinity;  // then a > 0
   const double root = std::sqrt(discriminant);
-  if (b >= 0) return a < 0 ? (b + root) / (-2 * a) : std::numeric_limits<double>::infinity();
+  if (b >= 0) return a < 0 ? (b + root) / (-2 * a) : infinity;
   return 2 * c / (root - b);
 }
 
@@ -159,7 +158,7 @@ double separated_for(const std::array<Eigen::Vector3d, count>& points,
   const double growth = direction.growth;
   // Beyond half a right angle the direction is useless, and its length, 1 + growth elapsed + (turn elapsed)^2
   // / (2 (1 + growth elapsed)), too rough; that it shrinks by no more than half bounds the length.
-  double elapsed = turn > 1 ? 1 / turn : std::numeric_limits<double>::infinity();
+  double elapsed = turn > 1 ? 1 / turn : infinity;
   if (growth < 0) elapsed = std::min(elapsed, -0.5 / growth);
   const double bend = growth < 0 ? 1 : 0.5;
   for (std::size_t k = 0; k < count; ++k) {

@@ -38,7 +38,7 @@ struct Heights {
 /// heights, below 16 units of the largest distance plus displacement, is allowed for twice over.
 template <class T>
 BRIO_INLINE MaskOf<T> surely_apart(const MovingPair<T>& pair, T reach) {
-  constexpr double unit_roundoff = std::numeric_limits<RealOf<T>>::epsilon() / 2.0;
+  constexpr double roundoff = std::numeric_limits<RealOf<T>>::epsilon() / 2.0;
   std::array<Vector3<T>, 4> first;
   std::array<Vector3<T>, 4> last;
   T scale = reach;
@@ -63,7 +63,7 @@ BRIO_INLINE MaskOf<T> surely_apart(const MovingPair<T>& pair, T reach) {
     along_z.include(first[k].z);
     along_z.include(last[k].z);
   }
-  const T beyond = reach + T(32 * unit_roundoff) * scale;
+  const T beyond = reach + T(32 * roundoff) * scale;
   const Vector3<T> normal =
       cross((first[2] + last[2]) - (first[0] + last[0]), (first[3] + last[3]) - (first[1] + last[1]));
   Heights<T> along_normal{dot(normal, first[0]), dot(normal, first[0])};
@@ -72,7 +72,7 @@ BRIO_INLINE MaskOf<T> surely_apart(const MovingPair<T>& pair, T reach) {
     along_normal.include(dot(normal, last[k]));
   }
   const T length = sqrt(dot(normal, normal));
-  const T beyond_normal = (reach + T(64 * unit_roundoff) * scale) * length;
+  const T beyond_normal = (reach + T(64 * roundoff) * scale) * length;
   return (along_x.least > beyond) | (along_x.greatest < -beyond) | (along_y.least > beyond) |
          (along_y.greatest < -beyond) | (along_z.least > beyond) | (along_z.greatest < -beyond) |
          (along_normal.least > beyond_normal) | (along_normal.greatest < -beyond_normal);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "contact/audit_lines.hpp"
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
 #include "contact/winding.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -16,7 +16,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double deep_share = 0.1;
 /// Of the sphere: a wedge whose sides come apart by `deep_share` of their length.
 constexpr double wedge_share = deep_share / (2 * std::numbers::pi);
 /// A node of a flat surface is behind its other faces by rounding.
@@ -122,7 +121,7 @@ class Auditor {
 
   // The closest place of the whole body decides, with its pseudo-normal.
   bool inside_other_body(int body, int slave, const Vector3d& x, Audit& found) const {
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = infinity;
     int nearest_face = -1;
     ClosestPoint nearest_point;
     for (std::size_t f : solid_of_[static_cast<std::size_t>(body)]) {
@@ -147,7 +146,7 @@ class Auditor {
   bool inside_own_body(int slave, const Vector3d& x, Audit& found) const {
     if (surface_.of_solid[static_cast<std::size_t>(slave)] == 0) return false;
     const int body = surface_.body[static_cast<std::size_t>(slave)];
-    double depth = std::numeric_limits<double>::infinity();
+    double depth = infinity;
     bool suspect = false;
     for (std::size_t f : solid_of_[static_cast<std::size_t>(body)]) {
       if (excluded(slave, f)) continue;

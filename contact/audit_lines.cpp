@@ -13,7 +13,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double deep_share = 0.1;
 constexpr std::size_t lines_per_task = 16;
 
 class LineAuditor {

@@ -5,12 +5,12 @@
 
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 constexpr Vector3<double> nowhere{not_a_number, not_a_number, not_a_number};

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double unit_roundoff = 0x1p-53;
 
 // a b - c d with the rounding of c d given back (Kahan; Jeannerod, Louvet and Muller 2013: within 1.5 units
 // in the last place).
@@ -140,9 +139,7 @@ double safe_length(const Vector3d& vector) {
   const double squared = vector.squaredNorm();
   if (squared > 0x1p-900 && squared < 0x1p900) return std::sqrt(squared);
   const double largest = vector.lpNorm<Eigen::Infinity>();
-  return largest > 0 && largest < std::numeric_limits<double>::infinity()
-             ? largest * (vector / largest).norm()
-             : largest;
+  return largest > 0 && largest < infinity ? largest * (vector / largest).norm() : largest;
 }
 
 Vector3d unit_or(const Vector3d& area_vector, const Vector3d& otherwise) {
@@ -163,7 +160,7 @@ ClosestPoint closest_point_on_quad(const Vector3d& node, const FaceVertices& ver
 
   ClosestPoint closest;
   Vector3d area_vector = face_area;
-  closest.squared_distance = std::numeric_limits<double>::infinity();
+  closest.squared_distance = infinity;
   for (int k = 0; k < (triangle ? 1 : 4); ++k) {
     const auto first = static_cast<std::size_t>(k);
     const auto second = static_cast<std::size_t>((k + 1) % 4);

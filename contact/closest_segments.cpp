@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/closest_point.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -11,7 +12,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double unit_roundoff = 0x1p-53;
 // Segments whose directions differ by fewer roundings are parallel: the rounding of their own differences.
 constexpr double parallel_roundings = 4;
 // Distances that differ by fewer roundings are the same, for parallel segments.

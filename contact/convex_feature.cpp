@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -202,7 +203,7 @@ std::optional<Separation> separate_at_feature(const NodeAtFeature& query, const 
     planes.add(straight);
   }
   const double hair = hair_share * query.edge;
-  double least_deep = -std::numeric_limits<double>::infinity();
+  double least_deep = -infinity;
   for (std::size_t i = 0; i < planes.count; ++i) {
     Plane& plane = planes.plane[i];
     plane.opposed = opposition(query, plane.normal);
@@ -212,7 +213,7 @@ std::optional<Separation> separate_at_feature(const NodeAtFeature& query, const 
   const double opposed = least_opposed_share * best_opposed(planes.all(), not_below);
   const Plane* chosen = nullptr;
   double best = 0;
-  double clear = -std::numeric_limits<double>::infinity();
+  double clear = -infinity;
   for (const Plane& plane : planes.all()) {
     const bool beside = plane.opposed < opposed || plane.beside > farthest_beside * query.edge;
     if (beside) {

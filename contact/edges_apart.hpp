@@ -25,7 +25,7 @@ struct MovingEdgePair {
 /// ends and heights, below 16 units of the largest distance plus displacement, is allowed for twice over.
 template <class T>
 BRIO_INLINE MaskOf<T> surely_apart(const MovingEdgePair<T>& pair, T reach) {
-  constexpr double unit_roundoff = std::numeric_limits<RealOf<T>>::epsilon() / 2.0;
+  constexpr double roundoff = std::numeric_limits<RealOf<T>>::epsilon() / 2.0;
   std::array<Vector3<T>, 8> between;  // ends of a minus ends of b: four at the beginning, four at the end
   T scale = reach;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -46,10 +46,10 @@ BRIO_INLINE MaskOf<T> surely_apart(const MovingEdgePair<T>& pair, T reach) {
     along_y.include(between[k].y);
     along_z.include(between[k].z);
   }
-  const T beyond = reach + T(32 * unit_roundoff) * scale;
+  const T beyond = reach + T(32 * roundoff) * scale;
   MaskOf<T> apart = (along_x.least > beyond) | (along_x.greatest < -beyond) | (along_y.least > beyond) |
                     (along_y.greatest < -beyond) | (along_z.least > beyond) | (along_z.greatest < -beyond);
-  const T beyond_direction = reach + T(64 * unit_roundoff) * scale;
+  const T beyond_direction = reach + T(64 * roundoff) * scale;
   const auto apart_along = [&](const Vector3<T>& direction) {
     Heights<T> heights{dot(direction, between[0]), dot(direction, between[0])};
     for (std::size_t k = 1; k < 8; ++k) heights.include(dot(direction, between[k]));

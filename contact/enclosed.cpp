@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 #include "contact/face_geometry.hpp"
 #include "contact/tree_search.hpp"
 #include "contact/winding.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -19,8 +19,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Deeper than this share of an edge a node is inside; overlaps are removed to rounding.
-constexpr double deep_share = 0.1;
 /// How far behind a face a body is probed, in its edges.
 constexpr double probe_share = 0.2;
 
@@ -116,7 +114,7 @@ class Enclosures {
     const Face& theirs = face(faces_of(other).front());
     if (surface_.never_touch(surface_.slave(own.node[0]), theirs)) return;
     const Vector3d probe = probe_of(body);
-    double depth = std::numeric_limits<double>::infinity();
+    double depth = infinity;
     double edge = 0;
     for (const int f : faces_of(other)) {
       const double distance =

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact/face_geometry.hpp"
 #include "contact/scene.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -76,7 +76,7 @@ namespace {
 double room_around(const ContactScene& scene, const Nodes& nodes, int slave) {
   const double scale = scene.options.shell_thickness_scale;
   const Vector3d x = position(nodes, scene.surface.node[static_cast<std::size_t>(slave)]);
-  double room = std::numeric_limits<double>::infinity();
+  double room = infinity;
   double nearest = room;
   bool inside = false;
   for (int f : scene.candidates.faces_of.of(slave)) {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -133,7 +134,7 @@ bool is_outside(const Surface& surface, const Nodes& nodes, int face, const Clos
 }
 
 double shortest_edge(const Nodes& nodes, const Face& face) {
-  double shortest = std::numeric_limits<double>::infinity();
+  double shortest = infinity;
   for (int k = 0; k < face.corners(); ++k) {
     const Vector3d edge = position(nodes, face.node[static_cast<std::size_t>((k + 1) % face.corners())]) -
                           position(nodes, face.node[static_cast<std::size_t>(k)]);

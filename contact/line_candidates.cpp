@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "contact/closest_segments.hpp"
 #include "contact/face_geometry.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 CaptureBox range_of(const Surface& surface, const Nodes& nodes, const Line& line, double reach) {
   const Vector3d a = position(nodes, surface.node[static_cast<std::size_t>(line.node[0])]);

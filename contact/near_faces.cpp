@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "contact/face_geometry.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -16,7 +16,6 @@ namespace {
 constexpr std::size_t faces_per_task = 128;
 /// The normal of a face whose diagonals are closer in direction than this is too uncertain to sleep by.
 constexpr double flattest = 1e-2;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Sweep {
   Vector3d start, end;

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 double comparisons_by_pairs(int bodies, int nodes_per_body) {
   const double both = 2.0 * nodes_per_body;

@@ -3,11 +3,11 @@
 /// neighbours in space.
 
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "contact/search.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -22,7 +22,6 @@ struct Bounds : CaptureBox {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
 };
 
 /// Centres of what the boxes share with `within`: not a number where they share nothing, and of infinite

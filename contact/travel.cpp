@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
 namespace {
 
 constexpr std::size_t slaves_per_task = 1024;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Spread nothing{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 /// Over magnitudes: hundreds of roundings of one distance; far less than any length that matters.
 constexpr double rounding_of_distance = 1e-13;

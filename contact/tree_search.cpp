@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "contact/overlap_bits.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -17,7 +18,6 @@ constexpr std::size_t group_size = 8;              // boxes that descend togethe
 constexpr std::size_t most_of_group = 512;         // nodes nearby beyond which a group is halved
 constexpr std::size_t most_ranked_by_count = 256;  // beyond, sorting costs less
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int tests_per_block = 6 * tree_width;
 
 /// The first `count` bits of sixteen.

@@ -9,6 +9,9 @@
 
 namespace brio {
 
+/// Deeper than this share of an edge something is inside; overlaps are removed to rounding.
+inline constexpr double deep_share = 0.1;
+
 /// Signed solid angle of a triangle, as a share of the full sphere (Van Oosterom and Strackee 1983).
 inline double solid_angle_share(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                 const Eigen::Vector3d& c) {

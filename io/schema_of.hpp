@@ -12,6 +12,7 @@
 
 #include "io/condition_words.hpp"
 #include "io/read_fields.hpp"
+#include "src/base/floating_point.hpp"
 #include "src/deck.hpp"
 
 namespace brio {
@@ -28,7 +29,6 @@ Schema schema_of(const Range& range) {
 }
 
 inline void limit(Schema& schema, const Range& range) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (range.lower != -infinity) schema[range.lower_open ? "exclusiveMinimum" : "minimum"] = range.lower;
   if (range.upper != infinity) schema[range.upper_open ? "exclusiveMaximum" : "maximum"] = range.upper;
 }

@@ -9,6 +9,8 @@
 
 namespace brio {
 
+inline Vector to_vector(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
 /// One component of motion of a list of nodes.
 struct PrescribedNodes {
   std::vector<int> nodes;

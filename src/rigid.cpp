@@ -13,8 +13,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-Vector to_vector(const Vector3d& v) { return {v[0], v[1], v[2]}; }
-
 Matrix3d cross_matrix(const Vector3d& v) {
   Matrix3d matrix;
   matrix << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;

@@ -75,8 +75,6 @@ double rub(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_veloci
   return change.norm() * inverse;
 }
 
-Vector to_vector(const Vector3d& v) { return {v[0], v[1], v[2]}; }
-
 void book(Reaction& reaction, const Vector3d& position, const Vector3d& impulse, const WallTouch& touch,
           const RigidMotion& motion) {
   reaction.impulse.add(to_vector(position), to_vector(impulse));

@@ -11,8 +11,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-Vector to_vector(const Vector3d& v) { return {v[0], v[1], v[2]}; }
-
 const Tie& tie_of(const Ties& ties, int node) {
   return ties.node[static_cast<std::size_t>(ties.of_node[static_cast<std::size_t>(node)])].tie;
 }

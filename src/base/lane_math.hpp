@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/base/floating_point.hpp"
 #include "src/base/lanes.hpp"
 
 namespace brio {
@@ -156,7 +157,6 @@ BRIO_INLINE Lanes<Real> scaled_exp(Lanes<Real> r, Lanes<Real> n) {
 template <Floating Real>
 BRIO_INLINE Lanes<Real> log(Lanes<Real> x) {
   using F = lane_math::Format<Real>;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto regular = (x > Lanes<Real>(0.0)) & (x < Lanes<Real>(infinity));
   const auto [k, f] = lane_math::split(where(regular, x, 1.0));
   const auto [half, product] = lane_math::log_terms(f);
@@ -184,7 +184,6 @@ BRIO_INLINE Lanes<Real> pow(Lanes<Real> x, Lanes<Real> y) {
   using F = lane_math::Format<Real>;
   constexpr double log2_e = 1.44269504088896340736;
   constexpr double ln_2 = 0.69314718055994530942;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Lanes<Real> zero(0.0);
   const auto regular = (x > zero) & (x < Lanes<Real>(infinity));
   const auto [k, f] = lane_math::split(where(regular, x, 1.0));

@@ -106,7 +106,6 @@ TYPED_TEST(LaneMath, PowerIsRightToAFewLastPlaces) {
 TYPED_TEST(LaneMath, EndsOfTheDomain) {
   using Real = TypeParam;
   using T = Lanes<Real>;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto least = static_cast<double>(std::numeric_limits<Real>::denorm_min());
   const auto largest = static_cast<double>(std::numeric_limits<Real>::max());

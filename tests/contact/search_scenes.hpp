@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/search.hpp"
+#include "src/base/floating_point.hpp"
 
 namespace brio {
 
@@ -89,7 +90,6 @@ class SceneMaker {
   }
   /// Boxes that are empty, flat, single points, infinite or not numbers; points likewise.
   SearchScene odd(int points) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
     constexpr double largest = std::numeric_limits<double>::max();
     SearchScene scene = uniform_cloud(points, points);

@@ -116,6 +116,8 @@ struct Hex8FullKernel : Hex8Full {
     HexahedronModes<T> f{};
     Increment<T> increment{T(0.0), T(0.0), T(0.0), T(0.0)};
     ElasticModuli<T> moduli = law.moduli(point[0].history);
+    const T least_determinant =
+        (least_volume_share / (hexahedron_points * point_volume)) * max(b.volume, T(0.0));
     T pressure_force(0.0);   // sum over the points of mean stress times volume
     T gradient_square(0.0);  // sum over the points and corners of volume |B|^2
     constexpr std::size_t pack_bytes = sizeof(Header<T, Law>) + hexahedron_points * sizeof(Point<T, Law>);
@@ -123,19 +125,21 @@ struct Hex8FullKernel : Hex8Full {
     for (int p = 0; p < hexahedron_points; ++p) {
       const double* xi = point_position[p];
       const PointGeometry<T> geometry = point_geometry(x, xi);
-      const MaskOf<T> has_volume = geometry.determinant > T(0.0);
+      const MaskOf<T> has_volume = geometry.determinant > least_determinant;
       const T inverse = 1.0 / where(has_volume, geometry.determinant, T(1.0));
       const T volume = point_volume * where(has_volume, geometry.determinant, T(1.0));
       Tensor<T> l = point_gradient(reference_gradient(v, xi), geometry, inverse);
       const T correction = (1.0 / 3.0) * (dilatation_rate - trace(l));
       for (int i = 0; i < 3; ++i) l.m[i][i] += correction;
       T determinant;
-      const Tensor<T> n = centered(half_step * l, determinant);
-      is_valid = is_valid & has_volume & (determinant > T(0.0));
+      Tensor<T> n = centered(half_step * l, determinant);
+      const MaskOf<T> is_followed =
+          has_volume & (determinant > T(0.0)) & (square(n) < T(most_step * most_step));
+      is_valid = is_valid & is_followed;
+      if (!all(is_followed)) [[unlikely]]
+        keep(is_followed, n);
       MaterialAxes<T> axes;
-      // Of a point with next to no volume left the strain of a step is more than can be followed.
       const T work = update(law, n, point[p], axes).work;
-      is_valid = is_valid & (work - work == T(0.0));
       increment.internal_energy += volume * where(determinant > T(0.0), determinant, T(1.0)) * work;
       fetch_ahead(reinterpret_cast<std::uintptr_t>(point + p) + pack_bytes, sizeof(Point<T, Law>));
       const SymmetricTensor<T> stress = fixed_stress(point[p], axes);
@@ -187,6 +191,24 @@ struct Hex8FullKernel : Hex8Full {
   }
 
  private:
+  // Of a point with next to no volume left, as a share of that of the mean point, the strain of one step is
+  // more than can be followed: N beyond this, a strain of 1.
+  static constexpr double least_volume_share = 1e-9, most_step = 0.5;
+
+  template <class T>
+  static BRIO_INLINE T square(const Tensor<T>& a) {
+    T sum(0.0);
+    for (const auto& row : a.m)
+      for (const T& component : row) sum += component * component;
+    return sum;
+  }
+  /// Zero elsewhere.
+  template <class T>
+  static BRIO_INLINE void keep(const MaskOf<T>& where_kept, Tensor<T>& a) {
+    for (auto& row : a.m)
+      for (T& component : row) component = where(where_kept, component, T(0.0));
+  }
+
   /// sum_k df/dxi_k (x) dxi_k/dx; both carry a factor that `inverse` = 1/determinant takes out.
   template <class T>
   static BRIO_INLINE Tensor<T> point_gradient(const ReferenceGradient<T>& f, const PointGeometry<T>& geometry,

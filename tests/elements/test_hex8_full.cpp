@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "elements/hex8_full_kernel.hpp"
 #include "materials/elastic.hpp"
+#include "tests/core/floating_point_traps.hpp"
 #include "tests/elements/hexahedra.hpp"
 
 namespace brio {
@@ -68,31 +70,38 @@ TEST(Hex8Full, BendingOfACubeIsThatOfTheExactIntegral) {
   EXPECT_NEAR(u.dot(k * u), 2 * (2.0 / 3 + 0.5) * 8.0 / 3, 1e-5);
 }
 
-// A point with next to no volume left strains by more than can be followed in a step, and again, until its
-// state is no number. The other points and the volume of the brick do not show it.
+// A point with next to no volume left strains by more than can be followed in a step. The other points and
+// the volume of the brick do not show it; followed on, its state would end as no number.
 TEST(Hex8Full, ABrickOfWhichAPointCannotBeFollowedCountsAsInverted) {
   const Elastic law{.density = 1, .youngs_modulus = 2.6, .poissons_ratio = 0.3};
   Noise noise(43);
   Corners crushed = test::box(1, 1, 1);
   crushed.col(6) *= -0.07;
-  FullElement element({}, law, test::box(1, 1, 1));
-  int followed = 0, inverted = 0, not_numbers = 0;
+  const auto crush = [&] {
+    FullElement element({}, law, test::box(1, 1, 1));
+    constexpr int steps = 50;
+    for (int step = 1; step <= steps; ++step)
+      element.move_to(test::box(1, 1, 1) + step / double{steps} * (crushed - test::box(1, 1, 1)), 1);
+    return element;
+  };
+  const test::FloatingPointTraps traps;
+  FullElement element = crush();
+  int followed = 0, inverted = 0;
   for (int step = 0; step < 3000; ++step) {
     const Corners x = crushed + 0.003 * noise.matrix<Corners>();
     element.move_to(x, 1);
-    const bool is_number = std::isfinite(element.increment.internal_energy);
+    ASSERT_TRUE(std::isfinite(element.increment.internal_energy)) << step;
     if (element.increment.stable_step > 0) {
       ++followed;
-      ASSERT_TRUE(is_number && element.force.allFinite()) << step;
+      ASSERT_TRUE(element.force.allFinite()) << step;
       continue;
     }
     ++inverted;
-    not_numbers += !is_number;
-    element = FullElement({}, law, test::box(1, 1, 1));
+    element = crush();
   }
+  std::printf("%d steps followed, %d not\n", followed, inverted);
   EXPECT_GT(followed, 100);
-  EXPECT_GT(inverted, not_numbers);
-  EXPECT_GT(not_numbers, 0);
+  EXPECT_GT(inverted, 100);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CASES = ROOT / "inputs/verification"
+SECOND_ORDER, CLOSE = 1.8, 1e-3  # order from here on, error up to here
 COLUMNS = ["case", "quantity", "reference", "fast", "balanced", "accurate", "tolerance", "within", "order"]
 RUNS = ["preset.fast", "default", "preset.accurate"]  # the default preset is `balanced`
 
@@ -63,6 +64,13 @@ def share(value):
     return f"{value:.1e}" if value < 1e-5 else f"{100 * value:.2g} %"
 
 
+def orders_of_differences(values):
+    """From the differences of neighbouring meshes, which know of no reference; nothing where they change sign."""
+    steps = [b - a for a, b in zip(values, values[1:])]
+    ratios = [a / b if b else 0 for a, b in zip(steps, steps[1:])]
+    return [math.log2(ratio) for ratio in ratios] if ratios and min(ratios) > 0 else []
+
+
 def orders(study, table, quantity):
     """Of knobs that refine the mesh, from each setting to the next; those of other knobs than the study's carry their name."""
     if "refined" not in study:
@@ -75,7 +83,11 @@ def orders(study, table, quantity):
         errors = [float(table[f"{knob}.{setting}"][quantity + "_error"]) for setting in settings]
         if min(errors) < 1e-9:  # rounding
             continue
-        text = ", ".join(f"{math.log2(a / b):.1f}" for a, b in zip(errors, errors[1:]))
+        found = [math.log2(a / b) for a, b in zip(errors, errors[1:])]
+        text = ", ".join(f"{order:.1f}" for order in found)
+        between = orders_of_differences([float(table[f"{knob}.{setting}"][quantity]) for setting in settings])
+        if errors[-1] < CLOSE and found[-1] < SECOND_ORDER and between and min(between) >= SECOND_ORDER:
+            text += " (differences: " + ", ".join(f"{order:.1f}" for order in between) + ")"
         told.append(text if knob == study["refined"] else f"{knob.replace('_', ' ')}: {text}")
     return "; ".join(told)
 

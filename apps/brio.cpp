@@ -85,7 +85,7 @@ void add_check_command(CLI::App& program) {
   };
   auto arguments = std::make_shared<Arguments>();
   brio::ForecastOptions& options = arguments->options;
-  options.pilot_s = 10;
+  options.pilot_s = 90;
   options.pilot_share = 0.4;
   CLI::App* command = program.add_subcommand(
       "check", "Read a deck, build its scene, say what it is and what a run of it would take");
@@ -95,10 +95,10 @@ void add_check_command(CLI::App& program) {
       ->add_option_function<std::string>(
           "--pilot", [&options](const std::string& budget) { set_pilot_budget(budget, options); },
           "time to foresee how the step falls, by coarser scenes and more steps: seconds, or P% of what the "
-          "run takes; 0: none; default: 10 s, but at most 40 % of the run")
+          "run takes; 0: none; default: 90 s, but at most 40 % of the run")
       ->type_name("SECONDS|P%")
       ->expected(0, 1)
-      ->default_str("10");
+      ->default_str("90");
   add_overrides(command, options.overrides);
   command->add_flag("--json", arguments->json, "print all of it as JSON");
   command->callback([arguments] { brio::check(arguments->options, arguments->json); });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -120,6 +121,16 @@ void print_forecast(const Forecast& forecast, int threads) {
                                         : "cost of a step changes with that of the pilot");
 }
 
+// What a terminal shows while pilots run.
+void tell_wait(const ForecastOptions& options) {
+  if (!(options.pilot_s > 0 && options.pilot_share > 0) || isatty(STDERR_FILENO) == 0) return;
+  std::string limits;
+  if (options.pilot_s < HUGE_VAL) limits = duration(options.pilot_s);
+  if (options.pilot_share < HUGE_VAL)
+    limits += fmt::format("{}{:g} % of the run", limits.empty() ? "" : " or ", 100 * options.pilot_share);
+  fmt::print(stderr, "marching to foretell the run, at most {} (--pilot=0: not at all)\n", limits);
+}
+
 }  // namespace
 
 void print_overlaps(std::span<const InitialOverlap> overlaps) {
@@ -135,7 +146,7 @@ void check(const ForecastOptions& options, bool json) {
     fmt::print("{}", check_json(check_deck(options)));
     return;
   }
-  const CheckReport report = check_deck(options, [](const CheckReport& scene) {
+  const CheckReport report = check_deck(options, [&options](const CheckReport& scene) {
     if (!scene.title.empty()) fmt::print("{}\n\n", scene.title);
     print_parts(scene);
     print_joints(scene);
@@ -144,6 +155,7 @@ void check(const ForecastOptions& options, bool json) {
     for (const SceneWarning& warning : scene.warnings)
       fmt::print("warning: {}: {}; {}\n", warning.subject, warning.what, warning.advice);
     std::fflush(stdout);
+    tell_wait(options);
   });
   print_built(report);
   print_forecast(report.forecast, report.threads);

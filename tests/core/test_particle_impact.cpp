@@ -174,10 +174,10 @@ void expect_shape_of_hexahedra(ParticleFrame kernel, double spacing, double radi
 TEST(ParticleTaylorBarSlow, KernelOfTheStartGivesTheShapeOfHexahedra) {
   expect_shape_of_hexahedra(ParticleFrame::total_lagrangian, 0.4e-3, 0.05);
 }
-// Nothing but viscosity holds what its velocity gradient does not see: the rim of the foot spreads by 5.1 %
-// too far (docs/particles.md).
+// Nothing but viscosity holds what its velocity gradient does not see: the foot is 5.4 % narrower at this
+// spacing, and wider by 5.1 % at 0.4 mm, in four times the time (docs/particles.md).
 TEST(ParticleTaylorBarSlow, KernelOfNowGivesTheShapeOfHexahedra) {
-  expect_shape_of_hexahedra(ParticleFrame::eulerian, 0.4e-3, 0.06);
+  expect_shape_of_hexahedra(ParticleFrame::eulerian, 0.5e-3, 0.06);
 }
 
 }  // namespace

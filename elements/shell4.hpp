@@ -7,7 +7,8 @@
 /// * Stable step and scaled rotational inertia: shell_step.hpp.
 /// * Drilling: a node has one moment of inertia about all axes, and strain takes only what lies in the
 ///   element's plane: it does not resist spin about the normal. Elements that are tilted against each other
-///   drive that spin and turn it into what bends, so a weak spring holds it (drilling_stiffness).
+///   drive that spin and turn it into what bends, so a weak spring and a damper hold it (drilling_stiffness,
+///   drilling_viscosity).
 
 #include <string_view>
 #include <tuple>
@@ -42,6 +43,7 @@ struct Shell4 {
   double hourglass_stiffness = 0.05;
   double hourglass_viscosity = 0;
   double drilling_stiffness = 0.001;
+  double drilling_viscosity = 1;
   double linear_bulk_viscosity = 0.06;
 
   static constexpr auto fields() {
@@ -63,6 +65,9 @@ struct Shell4 {
         optional("drilling_stiffness", &Shell4::drilling_stiffness, fraction,
                  "elastic resistance of nodes to spin about the normal, share of the square of the highest "
                  "frequency, -; yields at 0.01 rad"),
+        optional("drilling_viscosity", &Shell4::drilling_viscosity, fraction,
+                 "viscous resistance to spin about the normal, share of critical damping of the elastic one, "
+                 "with which it yields, -"),
         optional("linear_bulk_viscosity", &Shell4::linear_bulk_viscosity, fraction,
                  "membrane viscosity b1, share of critical damping of the fastest mode, -"),
     };
@@ -82,7 +87,8 @@ struct Shell4 {
     ReferenceShape<T> reference;
     T hourglass[3];  ///< generalized forces of the elastic hourglass control
     T rotation[2];
-    T drilling;  ///< moment about the normal
+    T drilling;          ///< elastic moment about the normal
+    T viscous_drilling;  ///< of the last step
   };
   template <class T, class Law>
   struct Point {
@@ -134,6 +140,7 @@ struct Shell4 {
     T damping = T(linear_bulk_viscosity);
     if (hourglass_viscosity > 0)
       damping += hourglass_viscosity * (1.0 + 0.5 * (square(g.skew[0]) + square(g.skew[1])));
+    if (drilling_stiffness > 0) damping += drilling_damping(g, header);
     increment.stable_step = where(g.is_valid, undamped * damped_share(damping), 0.0);
 
     // Viscosity as if the stiffness of equal stretch in both directions, E' (1 + nu) / 2, acted for b1 stable
@@ -261,7 +268,19 @@ struct Shell4 {
   template <class T, class Law>
   static BRIO_INLINE T drilling_frequency_square(const ShellGeometry<T>& g, T drill,
                                                  const Header<T, Law>& header) {
-    return (drill / header.mass) * (header.inverse_gyration + gradient_square(g));
+    return (drill / header.mass) * (header.inverse_gyration + 1.25 * gradient_square(g));
+  }
+
+  /// What damping of drilling adds to the ratio of damping. Strain meets the part of the mode that is the
+  /// material's spin, a share t = s r^2 of that of the nodes. For a mode p joined with strain by the root of
+  /// t p, all together is below the larger of (strain + 5/4 t p) and 5 p; 5 p is below 1 where the spring is
+  /// weak.
+  template <class T, class Law>
+  BRIO_INLINE T drilling_damping(const ShellGeometry<T>& g, const Header<T, Law>& header) const {
+    const double ratio = drilling_viscosity * std::sqrt(drilling_stiffness);
+    const T share = gradient_square(g) / header.inverse_gyration;
+    const bool is_weak = 5 * (drilling_stiffness + 2 * ratio) <= 1;
+    return is_weak ? (1.25 * ratio) * share : ratio * (1.0 + share);
   }
 
   /// Nodal spin about the normal bends no element that is flat, and nothing else would resist it; but moments
@@ -269,15 +288,21 @@ struct Shell4 {
   /// Brezzi 1989: a weak spring between the spin of the nodes and that of the material. One for the mean of
   /// the nodes, as one point of integration gives: nodes spin unequally where a warped surface bends, and one
   /// for each would lock it. It yields at a hundredth of a radian, so that it does not resist where the
-  /// corners of folds shear in their plane.)
+  /// corners of folds shear in their plane. Moments are not those of a potential in that spin: it swings up
+  /// in strips of short elements that are bent strongly, unless damped.)
   template <class T, class Law>
-  static BRIO_INLINE void resist_drilling(T drill, const ShellRates<T>& rates, T step, Header<T, Law>& header,
-                                          ShellRates<T>& result, Increment<T>& increment) {
+  BRIO_INLINE void resist_drilling(T drill, const ShellRates<T>& rates, T step, Header<T, Law>& header,
+                                   ShellRates<T>& result, Increment<T>& increment) const {
     const T before = header.drilling;
     const T most = drilling_limit * drill;
     header.drilling = min(max(before + drill * step * rates.drilling, -most), most);
-    result.drilling = header.drilling;
-    increment.hourglass_energy += (0.5 * step) * ((before + header.drilling) * rates.drilling);
+    const T damper = (2 * drilling_viscosity) * sqrt(drill * header.mass / header.inverse_gyration);
+    result.drilling = min(max(header.drilling + damper * rates.drilling, -most), most);
+    const T viscous = result.drilling - header.drilling;
+    const T half_turn = (0.5 * step) * rates.drilling;
+    increment.hourglass_energy += half_turn * (before + header.drilling);
+    increment.viscous_energy += half_turn * (header.viscous_drilling + viscous);
+    header.viscous_drilling = viscous;
   }
 
   /// Elastic and viscous hourglass forces (Belytschko, Ong, Liu & Kennedy 1984).
@@ -288,10 +313,11 @@ struct Shell4 {
                                     const ShellRates<T>& rates, T step, T undamped_step,
                                     Header<T, Law>& header, ShellRates<T>& result,
                                     Increment<T>& increment) const {
-    const HourglassStiffness<T> unit = brio::hourglass_stiffness(g, moduli, shear_factor, header.thickness);
-    const T in_plane = hourglass_stiffness * step * unit.membrane;
-    const T bow = hourglass_stiffness * step * unit.normal;
-    const T turning = hourglass_stiffness * step * unit.rotation;
+    const HourglassStiffness<T> stiffness =
+        brio::hourglass_stiffness(g, moduli, shear_factor, header.thickness, hourglass_stiffness);
+    const T in_plane = step * stiffness.membrane;
+    const T bow = step * stiffness.normal;
+    const T turning = step * stiffness.rotation;
     const T gain[3] = {in_plane, in_plane, bow};
     T work = T(0.0);
     for (int c = 0; c < 3; ++c) {

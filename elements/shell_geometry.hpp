@@ -140,6 +140,12 @@ BRIO_INLINE T smallest_corner(const ShellGeometry<T>& g) {
   return 0.5 * (1.0 - max(abs(g.skew[0]), abs(g.skew[1])));
 }
 
+/// Share of a diagonal that lies in the deflection's hourglass vector under curvature along it.
+template <class T>
+BRIO_INLINE T bow_share(const ShellGeometry<T>& g, int diagonal) {
+  return (diagonal == 0 ? 0.25 : -0.25) * (1.0 - square(g.skew[diagonal]));
+}
+
 /// Second derivatives of the middle surface's height over the plane, at the centre: 11, 22, 12 (1/length).
 /// The height is warp/4 xi eta in the element's own coordinates.
 template <class T>

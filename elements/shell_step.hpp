@@ -32,16 +32,21 @@ BRIO_INLINE PlaneStressModuli<T> plane_stress_moduli(const ElasticModuli<T>& mod
   return {2.0 * (moduli.shear * (1.0 + ratio)), moduli.shear, ratio, 2.0 * moduli.shear / (1.0 - ratio)};
 }
 
-/// Stiffnesses per generalized rate, for a coefficient of one (Belytschko, Ong, Liu & Kennedy 1984). Theirs
-/// for the deflection is kappa G h^3 s / 12, because their hourglass mode contains constant twist and must be
-/// soft. Here it does not (shell_strain.hpp), so that the mode can have the transverse shear stiffness of a
-/// square, less in slender elements where it would set the step. Measured on the pinched hemisphere of 8 x 8
-/// elements, h / R = 1/250: error 41 % with theirs, 2 % so.
+/// Stiffnesses per generalized rate (Belytschko, Ong, Liu & Kennedy 1984). Theirs for the deflection is kappa
+/// G h^3 s / 12, because their hourglass mode contains constant twist and must be soft. Here it does not
+/// (shell_strain.hpp), so that the mode can have the transverse shear stiffness of a square, less in slender
+/// elements where it would set the step. Measured on the pinched hemisphere of 8 x 8 elements, h / R = 1/250:
+/// error 41 % with theirs, 2 % so.
+///
+/// A strip one element wide has no other way to twist: nodes on both sides turn so that no curvature is seen,
+/// and the deflection's hourglass stiffness c k twists like G J = 3 c k (A / h)^2 / h per width, in series
+/// with its own G h^3 / 3. Below ten times its own the strip is too soft; the transverse shear of the element
+/// itself, kappa G h A s / 12, bounds what is added.
 template <class T>
 struct HourglassStiffness {
-  T membrane;  ///< E h A s / 8
-  T normal;    ///< kappa G h / (3 A s)
-  T rotation;  ///< E h^3 A s / 192
+  T membrane;  ///< c E h A s / 8
+  T normal;    ///< c kappa G h / (3 A s); at least 10/3 G h^3 / A, up to kappa G h A s / 24
+  T rotation;  ///< c E h^3 A s / 192
 };
 
 /// s: sum over nodes of the squared mean gradient, 1/area; 1 where there is no area.
@@ -52,15 +57,21 @@ BRIO_INLINE T gradient_square(const ShellGeometry<T>& g) {
   return where(g.is_valid, 2.0 * sum, 1.0);
 }
 
+/// Coefficient c from which on the deflection's stiffness is not below that of twisting.
+inline constexpr double full_twist_coefficient = 0.05;
+
 template <class T>
 BRIO_INLINE HourglassStiffness<T> hourglass_stiffness(const ShellGeometry<T>& g,
                                                       const PlaneStressModuli<T>& moduli, double shear_factor,
-                                                      T thickness) {
-  const T s = gradient_square(g);
-  const T membrane = 0.125 * (moduli.youngs * thickness) * (g.area * s);
-
-  return {membrane, (shear_factor / 3) * (moduli.shear * thickness) / (g.area * s),
-          (1.0 / 24) * (membrane * square(thickness))};
+                                                      T thickness, double coefficient) {
+  const T spread = g.area * gradient_square(g);
+  const T squared = square(thickness);
+  const T shear = moduli.shear * thickness;
+  const T membrane = (0.125 * coefficient) * (moduli.youngs * thickness) * spread;
+  const double share = coefficient < full_twist_coefficient ? coefficient / full_twist_coefficient : 1.0;
+  const T twisting = min((10.0 / 3 * share) * squared * g.inverse_area, (share * shear_factor / 24) * spread);
+  return {membrane, shear * max((coefficient * shear_factor / 3) / spread, twisting),
+          (1.0 / 24) * (membrane * squared)};
 }
 
 /// g of the membrane block, 1/area.
@@ -80,6 +91,27 @@ BRIO_INLINE T gyration_square(const ShellGeometry<T>& g, const PlaneStressModuli
   const T excess = max(moduli.stretch / (shear_factor * moduli.shear) - 1.0, 1.0);
   const T own = (second_moment > 1.0 / 12 ? second_moment : 1.0 / 12) * square(thickness);
   return max(own, 0.25 / (highest * excess));
+}
+
+/// Stiffness of bending times its g, as that of the membrane is E' g: moduli of equal curvature, E' (1 + nu)
+/// / 2, and of what differs from it, G, with what `bow` times the square of curvature in the deflection's
+/// hourglass mode adds to them.
+template <class T>
+BRIO_INLINE T bending_gradient(const ShellGeometry<T>& g, const PlaneStressModuli<T>& moduli, T s, T moment,
+                               T bow) {
+  T mode[3];
+  for (int c = 0; c < 3; ++c) {
+    const int a = c == 1 ? 1 : 0, b = c == 0 ? 0 : 1;
+    mode[c] = bow_share(g, 0) * (g.diagonal[0][a] * g.diagonal[0][b]) +
+              bow_share(g, 1) * (g.diagonal[1][a] * g.diagonal[1][b]);
+  }
+  const T equal = 0.5 * abs(mode[0] + mode[1]);
+  const T squared = 0.5 * square(mode[0] - mode[1]) + 2.0 * square(mode[2]);
+  const T both = equal * sqrt(squared);
+  const T first = 0.5 * (moduli.stretch * (1.0 + moduli.ratio)) * moment + bow * (square(equal) + both);
+  const T second = moduli.shear * moment + 0.5 * bow * (squared + both);
+  const T sum = max(first + second, vanishing<T>);
+  return sum * highest_gradient(g, s, (first - second) / sum);
 }
 
 /// Largest eigenvalue of [[a, .], [., d + c]] where the rows of the second block reach into the first with
@@ -106,24 +138,30 @@ BRIO_INLINE T highest_frequency_square(const ShellGeometry<T>& g, const PlaneStr
   const T skewness = square(g.skew[0]) + square(g.skew[1]);
 
   const T membrane = volume * moduli.stretch * highest;
-  const T bending = membrane * (moment * inverse_gyration);
   const T shear = volume * shear_modulus * (highest + 0.25 * inverse_gyration);
   // Shear from rotation in the middle of the diagonals.
   const T obliqueness =
       2.0 + square(g.diagonal[0][0] * g.diagonal[1][0] + g.diagonal[0][1] * g.diagonal[1][1]) *
                 square(g.inverse_area);
   const T oblique = volume * shear_modulus * (0.125 * skewness) * (obliqueness * inverse_gyration);
-  T plate = joined(shear, bending, oblique);
 
-  const HourglassStiffness<T> unit = hourglass_stiffness(g, moduli, shear_factor, thickness);
-  const T in_plane = (stiffness_coefficient * per_mass) * unit.membrane;
-  const T turning = (stiffness_coefficient * per_mass) * (unit.rotation * inverse_gyration);
-  const T bowing = (stiffness_coefficient * per_mass) * unit.normal;
-  // (u + v)(u + v)^T <= 4 u u^T + 4/3 v v^T, for u = (1, -1, 1, -1), which is orthogonal to all else, and v
-  // the rest.
-  const T curved = 2.0 * skewness + 0.25 * (square(g.area) * s) * (1.0 + square(skewness)) * inverse_gyration;
-  plate = plate + 4.0 * (turning * skewness) + (4.0 / 3) * (bowing * curved);
-  plate = max(plate, max(8.0 * turning, 16.0 * bowing));
+  const HourglassStiffness<T> hourglass =
+      hourglass_stiffness(g, moduli, shear_factor, thickness, stiffness_coefficient);
+  const T in_plane = per_mass * hourglass.membrane;
+  const T turning = per_mass * (hourglass.rotation * inverse_gyration);
+  const T bowing = per_mass * hourglass.normal;
+  // (u + v)(u + v)^T <= 5 u u^T + 5/4 v v^T, for u = (1, -1, 1, -1), which is orthogonal to all else, and v
+  // the rest: of the deflection, where the element is skew, and of curvature.
+  const T skewed = 2.0 * skewness;
+  const T curved = 0.25 * (square(g.area) * s) * (1.0 + square(skewness)) * inverse_gyration;
+  const T crossed = sqrt(skewed * curved);
+  const T bowed = 1.25 * bowing;
+  const T per_area = 1.25 * (1.0 + crossed / curved) * hourglass.normal / (g.area * thickness);
+  const T bending =
+      inverse_gyration * min(volume * bending_gradient(g, moduli, s, moment, per_area),
+                             membrane * moment + bowed * ((curved + crossed) / inverse_gyration));
+  T plate = joined(shear + bowed * (skewed + crossed), bending, oblique) + 4.0 * (turning * skewness);
+  plate = max(plate, max(8.0 * turning, 20.0 * bowing));
   T sheet = membrane;
   if (warping_projection) {
     // Curvature that membrane strain and spin give to a twisted element.
@@ -135,11 +173,12 @@ BRIO_INLINE T highest_frequency_square(const ShellGeometry<T>& g, const PlaneStr
   return max(sheet, 8.0 * in_plane);
 }
 
-/// Share of 2/omega that is left with the damping ratio xi: not above sqrt(1 + xi^2) - xi, by its series.
+/// Share of 2/omega that is left with the damping ratio xi: not above sqrt(1 + xi^2) - xi, by its series, or
+/// where that ends by 1 / (2 + 2 xi).
 template <class T>
 BRIO_INLINE T damped_share(T xi) {
   const T squared = square(xi);
-  return 1.0 - xi + 0.5 * squared - 0.125 * square(squared);
+  return max(1.0 - xi + 0.5 * squared - 0.125 * square(squared), 0.5 / (1.0 + xi));
 }
 
 }  // namespace brio

@@ -36,12 +36,6 @@ struct ShellRates {
   T drilling;      ///< mean of the nodes' spins about the normal, less that of the material
 };
 
-/// Share of a diagonal that lies in the deflection's hourglass vector under curvature along it.
-template <class T>
-BRIO_INLINE T bow_share(const ShellGeometry<T>& g, int diagonal) {
-  return (diagonal == 0 ? 0.25 : -0.25) * (1.0 - square(g.skew[diagonal]));
-}
-
 template <class T>
 BRIO_INLINE T along_diagonal(const T (&diagonal)[2], const T (&tensor)[3]) {
   return square(diagonal[0]) * tensor[0] + square(diagonal[1]) * tensor[1] +

@@ -140,21 +140,6 @@ void warn_of_long_elements(const Deck& deck, const Model& model, const Shapes& s
                           "ratios below " + number(aspect_limit)});
 }
 
-// Such elements give way where they are bent strongly: docs/extremes.md.
-void warn_of_short_shells(const Deck& deck, const Shapes& shapes, Warnings& warnings) {
-  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
-    const auto* shell = std::get_if<Shell4>(&deck.parts[p].element);
-    if (shell == nullptr) continue;
-    const auto is_short = [&](double length) { return length < shell->thickness; };
-    const auto count = std::count_if(shapes[p].length.begin(), shapes[p].length.end(), is_short);
-    if (count > 0)
-      warnings.push_back({"part '" + deck.parts[p].name + "'",
-                          std::to_string(count) + " shells have edges shorter than their thickness of " +
-                              number(shell->thickness) + ": bent strongly, such shells give way",
-                          "edges of two thicknesses and more, or solids"});
-  }
-}
-
 void warn_of_unused(const Deck& deck, const Model& model, Warnings& warnings) {
   for (const auto& [name, material] : deck.materials) {
     const auto uses = [&, &word = name](const Part& part) { return part.material == word; };
@@ -279,7 +264,6 @@ std::vector<SceneWarning> scene_warnings(const Deck& deck, const Model& model) {
   warn_of_meshes_in_contact(deck, model, shapes, warnings);
   warn_of_tiny_elements(deck, model, shapes, warnings);
   warn_of_long_elements(deck, model, shapes, warnings);
-  warn_of_short_shells(deck, shapes, warnings);
   warn_of_flowing_solids(deck, warnings);
   warn_of_output(deck, model, warnings);
   return warnings;

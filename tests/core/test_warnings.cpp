@@ -172,18 +172,6 @@ TEST(Warnings, OfLongElements) {
   EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(), is_long), 1);
 }
 
-TEST(Warnings, OfShellsShorterThanThick) {
-  Deck deck = blocks();
-  Shell4 shell;
-  shell.thickness = 0.11;  // edges of a tenth along the axis
-  deck.parts[1] = Part{"upper", CylinderMesh{0.5, 1, {24, 10}}, {}, shell, "material"};
-  deck.parts[1].placement.translate = {0, 0, 0.6};
-  expect_one(deck, "part 'upper'", "240 shells have edges shorter than their thickness of 0.11");
-  shell.thickness = 0.09;
-  deck.parts[1].element = shell;
-  expect_none(deck);
-}
-
 TEST(Warnings, OfParticlesOfNowThatAreSolid) {
   Deck deck = blocks();
   ParticleMesh mesh;

@@ -64,7 +64,7 @@ struct SingleShell {
 /// Tangent stiffness of an undeformed element: 12 translations, then 12 rotations; from forces of unit
 /// velocities over a step so short that the geometry does not change.
 inline Eigen::Matrix<double, 24, 24> stiffness_of(Shell4 shell, const Elastic& law, const Points4& x) {
-  shell.linear_bulk_viscosity = 0;  // viscous forces do not scale with the step
+  shell.linear_bulk_viscosity = shell.drilling_viscosity = 0;  // viscous forces do not scale with the step
   const SingleShell<> reference(shell, law, x);
   constexpr double step = 1e-30;
   Eigen::Matrix<double, 24, 24> stiffness;

@@ -21,6 +21,7 @@ TEST(Shell4Patch, LinearMembraneFieldsGiveUniformStressAndNoInnerForces) {
   Shell4 shell;
   shell.thickness = 0.05;
   shell.linear_bulk_viscosity = 0;
+  shell.drilling_viscosity = 0;
   ShellModel model(rectangle(1, 1, first, second, 0.3), shell, steel());
   const double exx = 1, eyy = -2, exy = 0.7, spin = 0.4;
   const int count = static_cast<int>(model.nodes.size());
@@ -56,6 +57,7 @@ void bend(ShellModel& model, double xx, double yy, double xy) {
 TEST(Shell4Patch, ConstantCurvatureGivesItsEnergyAndNoInnerForces) {
   Shell4 shell;
   shell.linear_bulk_viscosity = 0;
+  shell.drilling_viscosity = 0;
   shell.thickness = 0.01;  // shear that should not be there would outweigh bending by far
   const double rigidity = 200e9 * std::pow(shell.thickness, 3) / (12 * 0.91);
   for (const Vector3d& k :

@@ -207,6 +207,7 @@ TEST(Shell4Properties, SimpleShearFollowsGreenAndNaghdi) {
   Points4 x = start;
   Shell4 shell = sheet_element();
   shell.linear_bulk_viscosity = 0;
+  shell.drilling_viscosity = 0;
   SingleShell<> element(shell, steel(), start);
   const int steps = 2000;
   const double shear = 200e9 / 2.6;

@@ -10,6 +10,7 @@
 ///   drive that spin and turn it into what bends, so a weak spring and a damper hold it (drilling_stiffness,
 ///   drilling_viscosity).
 
+#include <cmath>
 #include <string_view>
 #include <tuple>
 

@@ -38,10 +38,10 @@ BRIO_INLINE PlaneStressModuli<T> plane_stress_moduli(const ElasticModuli<T>& mod
 /// elements where it would set the step. Measured on the pinched hemisphere of 8 x 8 elements, h / R = 1/250:
 /// error 41 % with theirs, 2 % so.
 ///
-/// A strip one element wide has no other way to twist: nodes on both sides turn so that no curvature is seen,
-/// and the deflection's hourglass stiffness c k twists like G J = 3 c k (A / h)^2 / h per width, in series
-/// with its own G h^3 / 3. Below ten times its own the strip is too soft; the transverse shear of the element
-/// itself, kappa G h A s / 12, bounds what is added.
+/// A strip one element wide can twist through that mode alone: nodes on both sides turn so that no curvature
+/// is seen. Its stiffness k then resists with k A per width, in series with the strip's own G h^3 / 3, and
+/// has to be well above it: ten times. Half of what transverse shear gives to the mode, kappa G h A s / 12,
+/// bounds it: more would set the step of thick elements.
 template <class T>
 struct HourglassStiffness {
   T membrane;  ///< c E h A s / 8
@@ -57,7 +57,7 @@ BRIO_INLINE T gradient_square(const ShellGeometry<T>& g) {
   return where(g.is_valid, 2.0 * sum, 1.0);
 }
 
-/// Coefficient c from which on the deflection's stiffness is not below that of twisting.
+/// Coefficient c from which on the deflection's stiffness has all of that floor; below, a share of it.
 inline constexpr double full_twist_coefficient = 0.05;
 
 template <class T>

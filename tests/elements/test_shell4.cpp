@@ -210,8 +210,10 @@ TEST(Shell4, BookedWorkMeetsTheNodesWorkToSecondOrderInTheStep) {
     EXPECT_LT(fine, 0.3 * coarse);
     EXPECT_LT(finest, 0.3 * fine);
     // Hourglass control and turning nodes leave a remainder of first order, hundredths of a strain increment.
-    EXPECT_LT(energy_gap(50, warping, 0.05, 0.5), 3e-4);
-    EXPECT_LT(energy_gap(200, warping, 0.05, 0.5), 6e-5);
+    // It goes with the stiffness of the deflection, which is that of a thick element here.
+    const double stiff = energy_gap(50, warping, 0.05, 0.5);
+    EXPECT_LT(stiff, 3e-4);
+    EXPECT_LT(energy_gap(200, warping, 0.05, 0.5), 0.3 * stiff);
     EXPECT_LT(energy_gap(50, warping, 0.0025, 0.5), 1e-4);
     EXPECT_LT(energy_gap(200, warping, 0.0025, 0.5), 1e-5);
   }

@@ -1,8 +1,6 @@
 #pragma once
 /// What a deck may say about contact beside the list of surfaces. Every default states its reason.
 
-#include <tuple>
-
 #include "contact/search.hpp"
 #include "src/base/fields.hpp"
 
@@ -41,7 +39,7 @@ struct ContactOptions {
   bool audit = false;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("friction", &ContactOptions::friction, non_negative, "Coulomb coefficient, -"),
         optional("passes", &ContactOptions::passes, at_least_one,
                  "sweeps back over the contact constraints of a step, and as many forth, -"),
@@ -63,7 +61,7 @@ struct ContactOptions {
                  "contact thickness over thickness of shells, -"),
         optional("initial_overlap_limit", &ContactOptions::initial_overlap_limit, fraction,
                  "deepest initial overlap removed by moving nodes, in edges or thicknesses, -"),
-        optional("audit", &ContactOptions::audit, any_number, "count missed contacts by brute force")};
+        optional("audit", &ContactOptions::audit, any_number, "count missed contacts by brute force"));
   }
 };
 

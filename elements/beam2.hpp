@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 #include "elements/beam_section.hpp"
 #include "materials/stress_state.hpp"
@@ -46,7 +45,7 @@ struct Beam2 {
   std::shared_ptr<const FibreSection> fibres;  ///< of the section, once `prepared`; no entry of a deck
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("section", &Beam2::section, any_number, "shape of the cross section"),
         optional("formulation", &Beam2::formulation, any_number,
                  "beam; truss: axial force alone; cable: tension alone"),
@@ -58,8 +57,7 @@ struct Beam2 {
                  "radius with which it touches; default: the outer one, of a section that is not round that "
                  "of a circle of the same area"),
         optional("linear_bulk_viscosity", &Beam2::linear_bulk_viscosity, fraction,
-                 "axial viscosity b1, share of critical damping of the fastest mode, -"),
-    };
+                 "axial viscosity b1, share of critical damping of the fastest mode, -"));
   }
   constexpr std::string_view fault() const {
     if (orientation && (*orientation)[0] == 0 && (*orientation)[1] == 0 && (*orientation)[2] == 0)

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
-#include <tuple>
 #include <variant>
 
 #include "src/base/fields.hpp"
@@ -29,9 +28,9 @@ struct CircleSection {
   double radius = 0;
   std::array<int, 2> fibres{2, 12};
   static constexpr auto fields() {
-    return std::tuple{required("radius", &CircleSection::radius, positive, "radius"),
-                      optional("fibres", &CircleSection::fibres, round_fibre_range,
-                               "rings (2 to 9), fibres around each (even)")};
+    return field_table(required("radius", &CircleSection::radius, positive, "radius"),
+                       optional("fibres", &CircleSection::fibres, round_fibre_range,
+                                "rings (2 to 9), fibres around each (even)"));
   }
   constexpr std::string_view fault() const {
     if (!ring_range.contains(fibres[0])) return "fibres have 2 to 9 rings";
@@ -47,10 +46,11 @@ struct TubeSection {
   double inner_radius = 0;
   std::array<int, 2> fibres{2, 12};
   static constexpr auto fields() {
-    return std::tuple{required("outer_radius", &TubeSection::outer_radius, positive, "radius of the outside"),
-                      required("inner_radius", &TubeSection::inner_radius, positive, "radius of the inside"),
-                      optional("fibres", &TubeSection::fibres, round_fibre_range,
-                               "rings (2 to 9), fibres around each (even)")};
+    return field_table(
+        required("outer_radius", &TubeSection::outer_radius, positive, "radius of the outside"),
+        required("inner_radius", &TubeSection::inner_radius, positive, "radius of the inside"),
+        optional("fibres", &TubeSection::fibres, round_fibre_range,
+                 "rings (2 to 9), fibres around each (even)"));
   }
   constexpr std::string_view fault() const {
     if (outer_radius <= inner_radius)
@@ -66,10 +66,10 @@ struct RectangleSection {
   double height = 0;
   std::array<int, 2> fibres{4, 4};
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("width", &RectangleSection::width, positive, "across the orientation"),
         required("height", &RectangleSection::height, positive, "along the orientation"),
-        optional("fibres", &RectangleSection::fibres, fibre_range, "fibres over width and height (even)")};
+        optional("fibres", &RectangleSection::fibres, fibre_range, "fibres over width and height (even)"));
   }
   constexpr std::string_view fault() const {
     if (fibres[0] % 2 != 0 || fibres[1] % 2 != 0) return "the numbers of fibres are even";
@@ -86,13 +86,13 @@ struct ISection {
   double flange_thickness = 0;
   std::array<int, 2> fibres{4, 2};
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("width", &ISection::width, positive, "of the flanges, across the orientation"),
         required("height", &ISection::height, positive, "in all, along the orientation"),
         required("web_thickness", &ISection::web_thickness, positive, "thickness of the web"),
         required("flange_thickness", &ISection::flange_thickness, positive, "thickness of each flange"),
         optional("fibres", &ISection::fibres, fibre_range,
-                 "fibres along and through each of flanges and web (even)")};
+                 "fibres along and through each of flanges and web (even)"));
   }
   constexpr std::string_view fault() const {
     if (2 * flange_thickness >= height) return "no web is left; height must exceed twice flange_thickness";

@@ -5,7 +5,6 @@
 #include <array>
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 #include "src/base/fields.hpp"
 
@@ -30,7 +29,7 @@ struct Deletion {
   std::optional<double> debris_radius{};
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("minimum_step", &Deletion::minimum_step, positive,
                  "an element whose stable step falls below it is deleted, time"),
         optional("inverted", &Deletion::inverted, any_number,
@@ -48,8 +47,7 @@ struct Deletion {
                  "whether nodes that have lost all their elements fly on with their mass or leave the run"),
         optional("debris_radius", &Deletion::debris_radius, positive,
                  "distance at which nodes that have lost all their elements touch surfaces; without it they "
-                 "touch nothing, length"),
-    };
+                 "touch nothing, length"));
   }
 
   constexpr bool names_a_criterion() const {

@@ -3,7 +3,6 @@
 /// hex8_kernel.hpp.
 
 #include <string_view>
-#include <tuple>
 
 #include "elements/objective_rate.hpp"
 #include "elements/solid.hpp"
@@ -28,7 +27,7 @@ struct Hex8 {
   double quadratic_bulk_viscosity = 1.2;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("objective_rate", &Hex8::objective_rate, any_number, "how stress follows rotation"),
         optional("hourglass_stiffness", &Hex8::hourglass_stiffness, hourglass_stiffness_range,
                  "elastic hourglass control, share of the modulus of bending, -; at 1/9 an elastic box bends "
@@ -38,8 +37,7 @@ struct Hex8 {
         optional("linear_bulk_viscosity", &Hex8::linear_bulk_viscosity, non_negative,
                  "bulk viscosity b1, share of critical damping of dilatation, -"),
         optional("quadratic_bulk_viscosity", &Hex8::quadratic_bulk_viscosity, non_negative,
-                 "bulk viscosity b2, for shocks, in compression only, -"),
-    };
+                 "bulk viscosity b2, for shocks, in compression only, -"));
   }
 };
 

@@ -3,7 +3,6 @@
 /// hex8_full_kernel.hpp.
 
 #include <string_view>
-#include <tuple>
 
 #include "elements/objective_rate.hpp"
 #include "elements/solid.hpp"
@@ -23,13 +22,12 @@ struct Hex8Full {
   double quadratic_bulk_viscosity = 1.2;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("objective_rate", &Hex8Full::objective_rate, any_number, "how stress follows rotation"),
         optional("linear_bulk_viscosity", &Hex8Full::linear_bulk_viscosity, non_negative,
                  "bulk viscosity b1, share of critical damping of dilatation, -"),
         optional("quadratic_bulk_viscosity", &Hex8Full::quadratic_bulk_viscosity, non_negative,
-                 "bulk viscosity b2, for shocks, in compression only, -"),
-    };
+                 "bulk viscosity b2, for shocks, in compression only, -"));
   }
 };
 

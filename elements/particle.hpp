@@ -5,7 +5,6 @@
 #include <array>
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 #include "elements/solid.hpp"
 #include "src/base/fields.hpp"
@@ -38,7 +37,7 @@ struct Particle {
   double quadratic_bulk_viscosity = 1.2;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("kernel", &Particle::kernel, any_number,
                  "total_lagrangian: between the neighbours of the start, for bodies that deform; eulerian: "
                  "between those of now, for bodies that flow, mix and part"),
@@ -62,8 +61,7 @@ struct Particle {
         optional("linear_bulk_viscosity", &Particle::linear_bulk_viscosity, non_negative,
                  "bulk viscosity b1, on the spacing of the particles, -"),
         optional("quadratic_bulk_viscosity", &Particle::quadratic_bulk_viscosity, non_negative,
-                 "bulk viscosity b2, for shocks, in compression only, -"),
-    };
+                 "bulk viscosity b2, for shocks, in compression only, -"));
   }
   constexpr std::string_view fault() const {
     if (kernel == ParticleFrame::total_lagrangian &&

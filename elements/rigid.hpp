@@ -5,7 +5,6 @@
 #include <array>
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 #include "src/base/fields.hpp"
 
@@ -24,7 +23,7 @@ struct Rigid {
   std::optional<std::array<double, 3>> centre;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("thickness", &Rigid::thickness, positive, "of the shells of a shell mesh, length"),
         optional("mass", &Rigid::mass, positive,
                  "mass; default: that of the mesh. The inertia of the mesh is scaled alike"),
@@ -33,8 +32,7 @@ struct Rigid {
             "xx yy zz xy yz xz of the inertia tensor about the centre, as it lies at the start; default: "
             "that of the mesh"),
         optional("centre", &Rigid::centre, any_number,
-                 "centre of mass at the start; default: that of the mesh. Needs an inertia of its own"),
-    };
+                 "centre of mass at the start; default: that of the mesh. Needs an inertia of its own"));
   }
   constexpr std::string_view fault() const {
     if (centre && !inertia) return "a centre of its own needs an inertia of its own; inertia is missing";

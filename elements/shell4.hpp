@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <string_view>
-#include <tuple>
 
 #include "elements/shell_step.hpp"
 #include "elements/shell_strain.hpp"
@@ -48,7 +47,7 @@ struct Shell4 {
   double linear_bulk_viscosity = 0.06;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("thickness", &Shell4::thickness, positive, "initial thickness, length"),
         optional("thickness_points", &Shell4::thickness_points,
                  Range{.lower = 1, .upper = most_thickness_points}, "points through the thickness, 1 to 9"),
@@ -70,8 +69,7 @@ struct Shell4 {
                  "viscous resistance to spin about the normal, share of critical damping of the elastic one, "
                  "with which it yields, -"),
         optional("linear_bulk_viscosity", &Shell4::linear_bulk_viscosity, fraction,
-                 "membrane viscosity b1, share of critical damping of the fastest mode, -"),
-    };
+                 "membrane viscosity b1, share of critical damping of the fastest mode, -"));
   }
 
   static constexpr int most_points = most_thickness_points;

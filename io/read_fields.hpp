@@ -144,8 +144,9 @@ void read_value(const YamlNode& node, const Slot& slot, std::optional<T>& value)
 /// The keys of a struct's table.
 template <HasFields T>
 std::vector<std::string_view> keys_of() {
-  return std::apply([](const auto&... field) { return std::vector<std::string_view>{field.key...}; },
-                    T::fields());
+  std::vector<std::string_view> keys;
+  T::fields()([&](const auto& field) { keys.push_back(field.key); });
+  return keys;
 }
 
 /// Reads the entries of a map into a struct, in the order of its table.
@@ -170,7 +171,7 @@ void read_fields(const YamlNode& map, const Slot& slot, T& value,
                                         "' has no value; expected: " + std::string(field.meaning));
     read_value(*entry->value, Slot{field.key, field.range, slot.known}, value.*field.member);
   };
-  std::apply([&](const auto&... field) { (read_field(field), ...); }, T::fields());
+  T::fields()(read_field);
   if constexpr (HasFault<T>) {
     if (const std::string_view fault = value.fault(); !fault.empty())
       throw DeckError(map.place, std::string(fault));

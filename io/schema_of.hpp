@@ -48,7 +48,7 @@ Schema object_of() {
     }
     object["properties"][std::string(field.key)] = std::move(property);
   };
-  std::apply([&](const auto&... field) { (add(field), ...); }, T::fields());
+  T::fields()(add);
   object["additionalProperties"] = false;
   return object;
 }

@@ -2,7 +2,6 @@
 /// Isotropic linear elasticity in rate form.
 
 #include <string_view>
-#include <tuple>
 
 #include "materials/elastic_constants.hpp"
 
@@ -15,11 +14,10 @@ struct Elastic {
   double poissons_ratio = 0;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("density", &Elastic::density, positive, "mass per reference volume"),
         required("youngs_modulus", &Elastic::youngs_modulus, positive, "Young's modulus, stress"),
-        required("poissons_ratio", &Elastic::poissons_ratio, poissons_ratio_range, "Poisson's ratio, -"),
-    };
+        required("poissons_ratio", &Elastic::poissons_ratio, poissons_ratio_range, "Poisson's ratio, -"));
   }
 
   template <class T>

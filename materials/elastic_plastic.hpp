@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 #include "materials/failure.hpp"
 #include "materials/plastic_flow.hpp"
@@ -28,7 +27,7 @@ struct ElasticPlastic {
   std::optional<Failure> failure{};
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("density", &ElasticPlastic::density, positive, "mass per reference volume"),
         required("youngs_modulus", &ElasticPlastic::youngs_modulus, positive, "Young's modulus, stress"),
         required("poissons_ratio", &ElasticPlastic::poissons_ratio, poissons_ratio_range,
@@ -38,8 +37,7 @@ struct ElasticPlastic {
                  "slope of uniaxial stress over plastic strain, stress"),
         optional("hardening_mix", &ElasticPlastic::hardening_mix, fraction,
                  "share of the hardening that moves the yield surface: 0 isotropic, 1 kinematic, -"),
-        optional("failure", &ElasticPlastic::failure, any_number, "how the material fails; absent: never"),
-    };
+        optional("failure", &ElasticPlastic::failure, any_number, "how the material fails; absent: never"));
   }
   constexpr std::string_view fault() const { return fault_without_rate(failure); }
 

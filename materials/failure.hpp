@@ -4,7 +4,6 @@
 #include <array>
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 #include "src/base/fields.hpp"
 
@@ -36,7 +35,7 @@ struct JohnsonCookFracture {
   std::optional<double> least_triaxiality{};
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("d1", &JohnsonCookFracture::d1, any_number,
                  "D1 of (D1 + D2 exp(D3 triaxiality)) (1 + D4 ln rate*) (1 + D5 T*), -"),
         required("d2", &JohnsonCookFracture::d2, any_number, "D2, -"),
@@ -51,8 +50,7 @@ struct JohnsonCookFracture {
         optional("least_strain", &JohnsonCookFracture::least_strain, positive,
                  "bound below which the failure strain does not fall, -"),
         optional("least_triaxiality", &JohnsonCookFracture::least_triaxiality, any_number,
-                 "triaxiality at and below which nothing is damaged, such as -0.33; absent: none, -"),
-    };
+                 "triaxiality at and below which nothing is damaged, such as -0.33; absent: none, -"));
   }
   constexpr std::string_view fault() const {
     if (d1 <= 0 && d2 <= 0) return "with d1 and d2 <= 0 no failure strain is positive";
@@ -75,7 +73,7 @@ struct Failure {
   double failed_points = 1;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("strain", &Failure::strain, positive,
                  "equivalent plastic strain beyond which the material fails in tension, -"),
         optional("tearing_parameter", &Failure::tearing_parameter, positive,
@@ -96,8 +94,7 @@ struct Failure {
                  "damage at which a point carries nothing any more; default: 0.9, or 1 where failure is "
                  "sudden, -"),
         optional("failed_points", &Failure::failed_points, share_range,
-                 "share of an element's points that must have failed for it to be deleted, -"),
-    };
+                 "share of an element's points that must have failed for it to be deleted, -"));
   }
 
   constexpr std::string_view fault() const {

@@ -10,7 +10,6 @@
 #include <limits>
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 #include "materials/failure.hpp"
 #include "materials/plastic_flow.hpp"
@@ -29,19 +28,17 @@ struct ThermalSoftening {
   double heat_fraction = 0.9;
 
   static constexpr auto fields() {
-    return std::tuple{
-        required("specific_heat", &ThermalSoftening::specific_heat, positive,
-                 "heat per mass and degree, length^2 per time^2 per degree"),
-        required("melting_temperature", &ThermalSoftening::melting_temperature, any_number,
-                 "temperature at which nothing is carried, degree"),
-        required("reference_temperature", &ThermalSoftening::reference_temperature, any_number,
-                 "temperature of the other constants, degree"),
-        optional("initial_temperature", &ThermalSoftening::initial_temperature, any_number,
-                 "at the start; default: reference_temperature, degree"),
-        required("exponent", &ThermalSoftening::exponent, positive, "m of 1 - T*^m, -"),
-        optional("heat_fraction", &ThermalSoftening::heat_fraction, fraction,
-                 "share of plastic work that becomes heat, -"),
-    };
+    return field_table(required("specific_heat", &ThermalSoftening::specific_heat, positive,
+                                "heat per mass and degree, length^2 per time^2 per degree"),
+                       required("melting_temperature", &ThermalSoftening::melting_temperature, any_number,
+                                "temperature at which nothing is carried, degree"),
+                       required("reference_temperature", &ThermalSoftening::reference_temperature, any_number,
+                                "temperature of the other constants, degree"),
+                       optional("initial_temperature", &ThermalSoftening::initial_temperature, any_number,
+                                "at the start; default: reference_temperature, degree"),
+                       required("exponent", &ThermalSoftening::exponent, positive, "m of 1 - T*^m, -"),
+                       optional("heat_fraction", &ThermalSoftening::heat_fraction, fraction,
+                                "share of plastic work that becomes heat, -"));
   }
   constexpr std::string_view fault() const {
     if (melting_temperature <= reference_temperature)
@@ -135,7 +132,7 @@ struct JohnsonCook {
   double time_step = 0;  ///< of the present step; no entry of a deck
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("density", &JohnsonCook::density, positive, "mass per reference volume"),
         required("youngs_modulus", &JohnsonCook::youngs_modulus, positive, "Young's modulus, stress"),
         required("poissons_ratio", &JohnsonCook::poissons_ratio, poissons_ratio_range, "Poisson's ratio, -"),
@@ -151,8 +148,7 @@ struct JohnsonCook {
                  "plastic strain rate at and below which A and B were measured, 1/time"),
         optional("thermal", &JohnsonCook::thermal, any_number,
                  "softening by the heat of plastic flow; absent: none"),
-        optional("failure", &JohnsonCook::failure, any_number, "how the material fails; absent: never"),
-    };
+        optional("failure", &JohnsonCook::failure, any_number, "how the material fails; absent: never"));
   }
   constexpr std::string_view fault() const {
     if (failure && failure->johnson_cook && failure->johnson_cook->d5 != 0 && !thermal)

@@ -5,7 +5,6 @@
 /// form at large strain.
 
 #include <string_view>
-#include <tuple>
 
 #include "materials/elastic_constants.hpp"
 #include "src/base/lane_math.hpp"
@@ -19,13 +18,11 @@ struct NeoHookean {
   double poissons_ratio = 0;
 
   static constexpr auto fields() {
-    return std::tuple{
-        required("density", &NeoHookean::density, positive, "mass per reference volume"),
-        required("youngs_modulus", &NeoHookean::youngs_modulus, positive,
-                 "Young's modulus at small strain, stress"),
-        required("poissons_ratio", &NeoHookean::poissons_ratio, poissons_ratio_range,
-                 "Poisson's ratio at small strain, -"),
-    };
+    return field_table(required("density", &NeoHookean::density, positive, "mass per reference volume"),
+                       required("youngs_modulus", &NeoHookean::youngs_modulus, positive,
+                                "Young's modulus at small strain, stress"),
+                       required("poissons_ratio", &NeoHookean::poissons_ratio, poissons_ratio_range,
+                                "Poisson's ratio at small strain, -"));
   }
 
   /// How far the moduli have moved from those at rest; zero before the first update.

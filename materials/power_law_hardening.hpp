@@ -3,7 +3,6 @@
 
 #include <optional>
 #include <string_view>
-#include <tuple>
 
 #include "materials/failure.hpp"
 #include "materials/plastic_flow.hpp"
@@ -23,7 +22,7 @@ struct PowerLawHardening {
   std::optional<Failure> failure{};
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("density", &PowerLawHardening::density, positive, "mass per reference volume"),
         required("youngs_modulus", &PowerLawHardening::youngs_modulus, positive, "Young's modulus, stress"),
         required("poissons_ratio", &PowerLawHardening::poissons_ratio, poissons_ratio_range,
@@ -35,8 +34,8 @@ struct PowerLawHardening {
                  "exponent of the plastic strain, -"),
         optional("luders_strain", &PowerLawHardening::luders_strain, non_negative,
                  "plastic strain at which hardening sets in, -"),
-        optional("failure", &PowerLawHardening::failure, any_number, "how the material fails; absent: never"),
-    };
+        optional("failure", &PowerLawHardening::failure, any_number,
+                 "how the material fails; absent: never"));
   }
   constexpr std::string_view fault() const { return fault_without_rate(failure); }
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -30,9 +29,9 @@ struct Rotation {
   Triple axis{};
   double degrees = 0;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("axis", &Rotation::axis, any_number, "direction of the axis through the origin"),
-        required("degrees", &Rotation::degrees, any_number, "angle, right-handed")};
+        required("degrees", &Rotation::degrees, any_number, "angle, right-handed"));
   }
   constexpr std::string_view fault() const {
     return is_zero(axis) ? "the axis has no direction; at least one component must differ from 0" : "";
@@ -44,8 +43,9 @@ struct Placement {
   std::optional<Rotation> rotate;
   Triple translate{};
   static constexpr auto fields() {
-    return std::tuple{optional("rotate", &Placement::rotate, any_number, "turn before moving"),
-                      optional("translate", &Placement::translate, any_number, "move after turning, length")};
+    return field_table(
+        optional("rotate", &Placement::rotate, any_number, "turn before moving"),
+        optional("translate", &Placement::translate, any_number, "move after turning, length"));
   }
 };
 
@@ -57,12 +57,12 @@ struct Part {
   std::string material;
   std::optional<Deletion> deletion{};
   static constexpr auto fields() {
-    return std::tuple{required("mesh", &Part::mesh, any_number, "shape and number of elements"),
-                      optional("placement", &Part::placement, any_number, "where the shape is put"),
-                      required("element", &Part::element, any_number, "kind of element"),
-                      required("material", &Part::material, any_number, "name of one of the materials"),
-                      optional("deletion", &Part::deletion, any_number,
-                               "when elements are deleted, besides by failure of the material")};
+    return field_table(required("mesh", &Part::mesh, any_number, "shape and number of elements"),
+                       optional("placement", &Part::placement, any_number, "where the shape is put"),
+                       required("element", &Part::element, any_number, "kind of element"),
+                       required("material", &Part::material, any_number, "name of one of the materials"),
+                       optional("deletion", &Part::deletion, any_number,
+                                "when elements are deleted, besides by failure of the material"));
   }
 };
 
@@ -76,9 +76,9 @@ struct BoxRegion {
   Triple lower{};
   Triple upper{};
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("lower", &BoxRegion::lower, any_number, "corner with the least coordinates"),
-        required("upper", &BoxRegion::upper, any_number, "corner with the largest coordinates")};
+        required("upper", &BoxRegion::upper, any_number, "corner with the largest coordinates"));
   }
   constexpr std::string_view fault() const {
     const bool ordered = lower[0] <= upper[0] && lower[1] <= upper[1] && lower[2] <= upper[2];
@@ -92,10 +92,10 @@ struct PlaneRegion {
   Triple normal{};
   double tolerance = 0;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("point", &PlaneRegion::point, any_number, "a point of the plane"),
         required("normal", &PlaneRegion::normal, any_number, "normal of the plane"),
-        required("tolerance", &PlaneRegion::tolerance, non_negative, "distance within which nodes belong")};
+        required("tolerance", &PlaneRegion::tolerance, non_negative, "distance within which nodes belong"));
   }
   constexpr std::string_view fault() const {
     return is_zero(normal) ? "the normal has no direction; at least one component must differ from 0" : "";
@@ -107,8 +107,8 @@ struct SphereRegion {
   Triple centre{};
   double radius = 0;
   static constexpr auto fields() {
-    return std::tuple{required("centre", &SphereRegion::centre, any_number, "centre"),
-                      required("radius", &SphereRegion::radius, positive, "radius")};
+    return field_table(required("centre", &SphereRegion::centre, any_number, "centre"),
+                       required("radius", &SphereRegion::radius, positive, "radius"));
   }
 };
 /// In a deck: `set: can.bottom`, or `set: {box: {...}, part: can}`.
@@ -139,9 +139,9 @@ struct Spin {
   Triple point{};
   Triple angular_velocity{};
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("point", &Spin::point, any_number, "a point of the axis"),
-        required("angular_velocity", &Spin::angular_velocity, any_number, "vector, radian per time")};
+        required("angular_velocity", &Spin::angular_velocity, any_number, "vector, radian per time"));
   }
 };
 
@@ -152,10 +152,10 @@ struct RadialVelocity {
   Triple axis{};
   double speed = 0;
   static constexpr auto fields() {
-    return std::tuple{required("point", &RadialVelocity::point, any_number, "a point of the axis"),
-                      required("axis", &RadialVelocity::axis, any_number, "direction of the axis"),
-                      required("speed", &RadialVelocity::speed, any_number,
-                               "away from the axis; below 0: towards it, length per time")};
+    return field_table(required("point", &RadialVelocity::point, any_number, "a point of the axis"),
+                       required("axis", &RadialVelocity::axis, any_number, "direction of the axis"),
+                       required("speed", &RadialVelocity::speed, any_number,
+                                "away from the axis; below 0: towards it, length per time"));
   }
   constexpr std::string_view fault() const {
     return is_zero(axis) ? "the axis has no direction; at least one component must differ from 0" : "";
@@ -168,12 +168,12 @@ struct InitialCondition {
   std::optional<Spin> spin;
   std::optional<RadialVelocity> radial{};
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("velocity", &InitialCondition::velocity, any_number,
                  "velocity at the start, length per time"),
         optional("spin", &InitialCondition::spin, any_number, "turning at the start, added to the velocity"),
         optional("radial", &InitialCondition::radial, any_number,
-                 "away from an axis at the start, added to the velocity; not of rigid parts")};
+                 "away from an axis at the start, added to the velocity; not of rigid parts"));
   }
 };
 
@@ -201,10 +201,10 @@ struct RigidWall {
   Triple velocity{};
   double friction = 0;
   static constexpr auto fields() {
-    return std::tuple{required("point", &RigidWall::point, any_number, "a point of the plane at the start"),
-                      required("normal", &RigidWall::normal, any_number, "points into the free side"),
-                      optional("velocity", &RigidWall::velocity, any_number, "velocity of the wall"),
-                      optional("friction", &RigidWall::friction, non_negative, "Coulomb coefficient, -")};
+    return field_table(required("point", &RigidWall::point, any_number, "a point of the plane at the start"),
+                       required("normal", &RigidWall::normal, any_number, "points into the free side"),
+                       optional("velocity", &RigidWall::velocity, any_number, "velocity of the wall"),
+                       optional("friction", &RigidWall::friction, non_negative, "Coulomb coefficient, -"));
   }
   constexpr std::string_view fault() const {
     return is_zero(normal) ? "the normal has no direction; at least one component must differ from 0" : "";
@@ -223,9 +223,9 @@ struct Gravity {
   Triple acceleration{};
   Curve factor{{{0, 1}}};
   static constexpr auto fields() {
-    return std::tuple{required("gravity", &Gravity::acceleration, any_number,
-                               "acceleration of everything, length per time^2"),
-                      optional("factor", &Gravity::factor, any_number, "multiplies it, -")};
+    return field_table(required("gravity", &Gravity::acceleration, any_number,
+                                "acceleration of everything, length per time^2"),
+                       optional("factor", &Gravity::factor, any_number, "multiplies it, -"));
   }
 };
 /// `force: [x, y, z]` on every node of a set, times `factor` (a curve).
@@ -236,9 +236,9 @@ struct NodalForce {
   Triple force{};
   Curve factor{{{0, 1}}};
   static constexpr auto fields() {
-    return std::tuple{required("set", &NodalForce::where, any_number, "nodes that are pushed"),
-                      required("force", &NodalForce::force, any_number, "on each of the nodes"),
-                      optional("factor", &NodalForce::factor, any_number, "multiplies it, -")};
+    return field_table(required("set", &NodalForce::where, any_number, "nodes that are pushed"),
+                       required("force", &NodalForce::force, any_number, "on each of the nodes"),
+                       optional("factor", &NodalForce::factor, any_number, "multiplies it, -"));
   }
 };
 /// `pressure: CURVE` on a named side set, pushing against the outward normal; follows the surface.
@@ -248,10 +248,10 @@ struct Pressure {
   std::string side_set;  ///< "part.set"
   Curve pressure;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("side_set", &Pressure::side_set, any_number, "sides of elements that are pushed, part.set"),
         required("pressure", &Pressure::pressure, any_number,
-                 "against the outward normal; follows the surface")};
+                 "against the outward normal; follows the surface"));
   }
 };
 
@@ -268,10 +268,10 @@ struct Merge {
   double tolerance = 0;
   std::string place;  ///< in the deck
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("merge", &Merge::parts, any_number,
                  "two parts; nodes of the second become nodes of the first"),
-        required("tolerance", &Merge::tolerance, positive, "largest distance of two nodes that become one")};
+        required("tolerance", &Merge::tolerance, positive, "largest distance of two nodes that become one"));
   }
 };
 
@@ -283,10 +283,10 @@ struct TieToSurface {
   double tolerance = 0;
   std::string place;  ///< in the deck
   static constexpr auto fields() {
-    return std::tuple{required("tie", &TieToSurface::names, any_number,
-                               "a part or a set whose nodes are held, and the part whose faces hold them"),
-                      required("tolerance", &TieToSurface::tolerance, positive,
-                               "largest distance of a node that is held from the surface")};
+    return field_table(required("tie", &TieToSurface::names, any_number,
+                                "a part or a set whose nodes are held, and the part whose faces hold them"),
+                       required("tolerance", &TieToSurface::tolerance, positive,
+                                "largest distance of a node that is held from the surface"));
   }
 };
 
@@ -301,9 +301,9 @@ struct ContactPair {
   std::optional<double> friction{};
   bool touch = true;
   static constexpr auto fields() {
-    return std::tuple{optional("friction", &ContactPair::friction, non_negative,
-                               "Coulomb coefficient between the two in place of that of all, -"),
-                      optional("touch", &ContactPair::touch, any_number, "false: the two never touch")};
+    return field_table(optional("friction", &ContactPair::friction, non_negative,
+                                "Coulomb coefficient between the two in place of that of all, -"),
+                       optional("touch", &ContactPair::touch, any_number, "false: the two never touch"));
   }
   constexpr std::string_view fault() const {
     if (touch && !friction) return "nothing is said of the pair; accepted: friction, touch: false";
@@ -324,11 +324,11 @@ struct MassScaling {
   double step = 0;
   double largest_share = 0.05;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("step", &MassScaling::step, positive,
                  "step that elements get mass for, before and during the run, time"),
         optional("largest_share", &MassScaling::largest_share, positive,
-                 "mass added over mass of all elements at which the run stops with exit code 3, -")};
+                 "mass added over mass of all elements at which the run stops with exit code 3, -"));
   }
 };
 
@@ -339,7 +339,7 @@ struct TimeSection {
   double step_growth = 1.05;
   std::optional<MassScaling> mass_scaling{};
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("end", &TimeSection::end, positive, "time at which the run ends"),
         optional("step_scale", &TimeSection::step_scale, Range{.lower = 0, .upper = 1, .lower_open = true},
                  "share of the stable step that is used, -"),
@@ -347,7 +347,7 @@ struct TimeSection {
         optional("step_growth", &TimeSection::step_growth, Range{.lower = 1, .lower_open = true},
                  "largest ratio of a step to the one before, -"),
         optional("mass_scaling", &TimeSection::mass_scaling, any_number,
-                 "mass added to small elements so that they do not set the step; absent: none")};
+                 "mass added to small elements so that they do not set the step; absent: none"));
   }
 };
 
@@ -356,9 +356,9 @@ struct FieldOutput {
   std::optional<double> every;
   std::vector<double> times;
   static constexpr auto fields() {
-    return std::tuple{optional("every", &FieldOutput::every, positive,
-                               "time between dumps; default: a twentieth of the end time"),
-                      optional("times", &FieldOutput::times, non_negative, "times of dumps instead")};
+    return field_table(optional("every", &FieldOutput::every, positive,
+                                "time between dumps; default: a twentieth of the end time"),
+                       optional("times", &FieldOutput::times, non_negative, "times of dumps instead"));
   }
   std::string_view fault() const {
     return every && !times.empty() ? "both 'every' and 'times' are given; one of them is accepted" : "";
@@ -370,9 +370,9 @@ struct Probe {
   Triple point{};
   std::optional<std::string> part;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("point", &Probe::point, any_number, "the node that is nearest to it at the start"),
-        optional("part", &Probe::part, any_number, "of this part only; default: of all")};
+        optional("part", &Probe::part, any_number, "of this part only; default: of all"));
   }
 };
 
@@ -380,20 +380,20 @@ struct HistoryOutput {
   std::optional<double> every;
   std::vector<Probe> probes;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("every", &HistoryOutput::every, positive,
                  "time between rows; default: a thousandth of the end time"),
         optional("probes", &HistoryOutput::probes, any_number,
-                 "a map of names to nodes whose displacement and velocity are written as well")};
+                 "a map of names to nodes whose displacement and velocity are written as well"));
   }
 };
 struct OutputSection {
   FieldOutput fields_;
   HistoryOutput history;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("fields", &OutputSection::fields_, any_number, "when fields are written"),
-        optional("history", &OutputSection::history, any_number, "when energies and momenta are written")};
+        optional("history", &OutputSection::history, any_number, "when energies and momenta are written"));
   }
 };
 
@@ -408,12 +408,12 @@ struct NumericsSection {
   Precision precision = Precision::double_precision;
   double energy_error_limit = 0.1;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("preset", &NumericsSection::preset, any_number,
                  "settings for what the deck leaves open; balanced: the defaults of this reference"),
         optional("precision", &NumericsSection::precision, any_number, "of element and material kernels"),
         optional("energy_error_limit", &NumericsSection::energy_error_limit, positive,
-                 "relative energy error at which the run stops with exit code 3, -")};
+                 "relative energy error at which the run stops with exit code 3, -"));
   }
 };
 
@@ -433,7 +433,7 @@ struct Deck {
   OutputSection output;
   NumericsSection numerics;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("title", &Deck::title, any_number, "one line, for people"),
         optional("units", &Deck::units, any_number, "labels such as {length: mm}; nothing is converted"),
         required("materials", &Deck::materials, any_number, "a map of names to laws"),
@@ -446,7 +446,7 @@ struct Deck {
         optional("contact", &Deck::contact, any_number, "what may touch; absent: nothing is searched"),
         required("time", &Deck::time, any_number, "how long and in which steps"),
         optional("output", &Deck::output, any_number, "what is written, and when"),
-        optional("numerics", &Deck::numerics, any_number, "how the computer does it")};
+        optional("numerics", &Deck::numerics, any_number, "how the computer does it"));
   }
 };
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <tuple>
 #include <variant>
 
 #include "src/base/fields.hpp"
@@ -31,8 +30,8 @@ struct BoxMesh {
   Triple size{};
   std::array<int, 3> elements{};
   static constexpr auto fields() {
-    return std::tuple{required("size", &BoxMesh::size, positive, "edge lengths along x, y, z"),
-                      required("elements", &BoxMesh::elements, at_least_one, "elements along x, y, z")};
+    return field_table(required("size", &BoxMesh::size, positive, "edge lengths along x, y, z"),
+                       required("elements", &BoxMesh::elements, at_least_one, "elements along x, y, z"));
   }
   constexpr std::string_view fault() const { return fault_of_size(elements[0], elements[1], elements[2]); }
 };
@@ -44,8 +43,8 @@ struct PlateMesh {
   std::array<double, 2> size{};
   std::array<int, 2> elements{};
   static constexpr auto fields() {
-    return std::tuple{required("size", &PlateMesh::size, positive, "edge lengths along x, y"),
-                      required("elements", &PlateMesh::elements, at_least_one, "elements along x, y")};
+    return field_table(required("size", &PlateMesh::size, positive, "edge lengths along x, y"),
+                       required("elements", &PlateMesh::elements, at_least_one, "elements along x, y"));
   }
   constexpr std::string_view fault() const { return fault_of_size(elements[0], elements[1], 1); }
 };
@@ -61,14 +60,14 @@ struct CylinderMesh {
   std::array<int, 2> elements{};
   std::optional<double> arc{};
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("radius", &CylinderMesh::radius, positive, "radius of the middle surface"),
         required("height", &CylinderMesh::height, positive, "length along z"),
         required("elements", &CylinderMesh::elements, at_least_one, "elements around (at least 3), along z"),
         optional(
             "arc", &CylinderMesh::arc,
             Range{.lower = 0, .upper = 360, .lower_open = true, .upper_open = true},
-            "part of the circle, from the x axis towards the y axis, degrees; absent: the whole circle")};
+            "part of the circle, from the x axis towards the y axis, degrees; absent: the whole circle"));
   }
   constexpr std::string_view fault() const {
     if (!arc && elements[0] < 3)
@@ -88,11 +87,11 @@ struct TubeMesh {
   double height = 0;
   std::array<int, 3> elements{};
   static constexpr auto fields() {
-    return std::tuple{required("inner_radius", &TubeMesh::inner_radius, positive, "radius of the inside"),
-                      required("outer_radius", &TubeMesh::outer_radius, positive, "radius of the outside"),
-                      required("height", &TubeMesh::height, positive, "length along z"),
-                      required("elements", &TubeMesh::elements, at_least_one,
-                               "elements around (at least 3), along z, through the wall")};
+    return field_table(required("inner_radius", &TubeMesh::inner_radius, positive, "radius of the inside"),
+                       required("outer_radius", &TubeMesh::outer_radius, positive, "radius of the outside"),
+                       required("height", &TubeMesh::height, positive, "length along z"),
+                       required("elements", &TubeMesh::elements, at_least_one,
+                                "elements around (at least 3), along z, through the wall"));
   }
   constexpr std::string_view fault() const {
     if (outer_radius <= inner_radius)
@@ -112,13 +111,13 @@ struct RodMesh {
   std::array<int, 2> elements{};
   bool keep_volume = false;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("radius", &RodMesh::radius, positive, "radius"),
         required("length", &RodMesh::length, positive, "length along z"),
         required("elements", &RodMesh::elements, at_least_one,
                  "elements across the diameter (even), along z"),
         optional("keep_volume", &RodMesh::keep_volume, any_number,
-                 "set the outer nodes out so far that the facets enclose the volume of the round rod")};
+                 "set the outer nodes out so far that the facets enclose the volume of the round rod"));
   }
   constexpr std::string_view fault() const {
     if (elements[0] % 2 != 0) return "the number of elements across the diameter is odd; it must be even";
@@ -140,7 +139,7 @@ struct WedgeMesh {
   double tip_width = 0;
   std::array<int, 3> elements{};
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("thickness", &WedgeMesh::thickness, positive, "width along x above the edge"),
         required("height", &WedgeMesh::height, positive, "from the tip at z = 0 to the top"),
         required("length", &WedgeMesh::length, positive, "along y, centred on the origin"),
@@ -149,7 +148,7 @@ struct WedgeMesh {
                  "between a flank of the edge and the z axis, degrees"),
         optional("tip_width", &WedgeMesh::tip_width, non_negative,
                  "width of the flat tip; 0: a sharp edge of degenerate hexahedra"),
-        required("elements", &WedgeMesh::elements, at_least_one, "elements across, up, along the edge")};
+        required("elements", &WedgeMesh::elements, at_least_one, "elements across, up, along the edge"));
   }
   /// Height at which the full thickness is reached.
   double shoulder() const;
@@ -164,11 +163,11 @@ struct SphereMesh {
   int elements = 0;
   bool keep_volume = false;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("radius", &SphereMesh::radius, positive, "radius"),
         required("elements", &SphereMesh::elements, at_least_one, "elements across the diameter (even)"),
         optional("keep_volume", &SphereMesh::keep_volume, any_number,
-                 "draw it so much larger that its elements fill the volume of the round one")};
+                 "draw it so much larger that its elements fill the volume of the round one"));
   }
   constexpr std::string_view fault() const {
     if (elements % 2 != 0) return "the number of elements across the diameter is odd; it must be even";
@@ -183,9 +182,10 @@ struct HollowSphereMesh {
   double radius = 0;
   int elements = 0;
   static constexpr auto fields() {
-    return std::tuple{required("radius", &HollowSphereMesh::radius, positive, "radius of the middle surface"),
-                      required("elements", &HollowSphereMesh::elements, at_least_one,
-                               "elements over a quarter of the equator; there are six times its square")};
+    return field_table(
+        required("radius", &HollowSphereMesh::radius, positive, "radius of the middle surface"),
+        required("elements", &HollowSphereMesh::elements, at_least_one,
+                 "elements over a quarter of the equator; there are six times its square"));
   }
   constexpr std::string_view fault() const { return fault_of_size(elements, elements, 6); }
 };
@@ -198,9 +198,9 @@ struct LineMesh {
   Triple end{};
   int elements = 0;
   static constexpr auto fields() {
-    return std::tuple{required("start", &LineMesh::start, any_number, "one end"),
-                      required("end", &LineMesh::end, any_number, "the other end"),
-                      required("elements", &LineMesh::elements, at_least_one, "elements along the line")};
+    return field_table(required("start", &LineMesh::start, any_number, "one end"),
+                       required("end", &LineMesh::end, any_number, "the other end"),
+                       required("elements", &LineMesh::elements, at_least_one, "elements along the line"));
   }
   constexpr std::string_view fault() const {
     if (start == end) return "the line has no length; its end must differ from its start";
@@ -213,9 +213,9 @@ struct ParticleBox {
   Triple size{};
   double spacing = 0;
   static constexpr auto fields() {
-    return std::tuple{required("size", &ParticleBox::size, positive, "edge lengths along x, y, z"),
-                      required("spacing", &ParticleBox::spacing, positive,
-                               "of the particles; rounded to what divides the edges")};
+    return field_table(required("size", &ParticleBox::size, positive, "edge lengths along x, y, z"),
+                       required("spacing", &ParticleBox::spacing, positive,
+                                "of the particles; rounded to what divides the edges"));
   }
 };
 /// Sets: bottom top (the outermost layers), all.
@@ -225,12 +225,12 @@ struct ParticleCylinder {
   double spacing = 0;
   double inner_radius = 0;
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         required("radius", &ParticleCylinder::radius, positive, "radius"),
         required("height", &ParticleCylinder::height, positive, "length along z"),
         required("spacing", &ParticleCylinder::spacing, positive,
                  "of the particles; along z rounded to what divides the height"),
-        optional("inner_radius", &ParticleCylinder::inner_radius, non_negative, "radius of a hole")};
+        optional("inner_radius", &ParticleCylinder::inner_radius, non_negative, "radius of a hole"));
   }
   constexpr std::string_view fault() const {
     return radius <= inner_radius ? "the wall has no thickness; radius must exceed inner_radius" : "";
@@ -241,8 +241,8 @@ struct ParticleSphere {
   double radius = 0;
   double spacing = 0;
   static constexpr auto fields() {
-    return std::tuple{required("radius", &ParticleSphere::radius, positive, "radius"),
-                      required("spacing", &ParticleSphere::spacing, positive, "of the particles")};
+    return field_table(required("radius", &ParticleSphere::radius, positive, "radius"),
+                       required("spacing", &ParticleSphere::spacing, positive, "of the particles"));
   }
 };
 
@@ -255,10 +255,10 @@ struct ParticleMesh {
   std::optional<ParticleCylinder> cylinder;
   std::optional<ParticleSphere> sphere;
   static constexpr auto fields() {
-    return std::tuple{optional("box", &ParticleMesh::box, any_number, "a box centred on the origin"),
-                      optional("cylinder", &ParticleMesh::cylinder, any_number,
-                               "a cylinder or a tube about the z axis, from z = 0 to the height"),
-                      optional("sphere", &ParticleMesh::sphere, any_number, "a sphere about the origin")};
+    return field_table(optional("box", &ParticleMesh::box, any_number, "a box centred on the origin"),
+                       optional("cylinder", &ParticleMesh::cylinder, any_number,
+                                "a cylinder or a tube about the z axis, from z = 0 to the height"),
+                       optional("sphere", &ParticleMesh::sphere, any_number, "a sphere about the origin"));
   }
   std::string_view fault() const;
 };

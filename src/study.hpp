@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -56,7 +55,7 @@ struct Quantity {
   std::string source;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("history", &Quantity::history, any_number, "column of the history"),
         optional("field", &Quantity::field, any_number,
                  "field of the results, or `position`: where points are now"),
@@ -82,7 +81,7 @@ struct Quantity {
                  "what it should be: exact or published; default: that of the reference run"),
         optional("scale", &Quantity::scale, positive, "errors are over this; default: over the reference"),
         optional("tolerance", &Quantity::tolerance, positive, "error up to which a run passes, -"),
-        optional("source", &Quantity::source, any_number, "where the reference is from, for people")};
+        optional("source", &Quantity::source, any_number, "where the reference is from, for people"));
   }
   constexpr std::string_view fault() const {
     if (int{history.has_value()} + int{field.has_value()} + int{summary.has_value()} != 1)
@@ -122,7 +121,7 @@ struct Study {
   int repeats = 1;
 
   static constexpr auto fields() {
-    return std::tuple{
+    return field_table(
         optional("title", &Study::title, any_number, "one line, for people"),
         optional("advice", &Study::advice, any_number, "what follows from the table, for people"),
         required("deck", &Study::deck, any_number, "the deck, from the folder of the study"),
@@ -141,7 +140,7 @@ struct Study {
             "refined", &Study::refined, any_number,
             "a knob whose settings halve the mesh size one after the other: orders of convergence are told"),
         optional("threads", &Study::threads, at_least_one, "of each run"),
-        optional("repeats", &Study::repeats, at_least_one, "of each run; the cheapest counts")};
+        optional("repeats", &Study::repeats, at_least_one, "of each run; the cheapest counts"));
   }
 };
 

@@ -130,12 +130,12 @@ struct Hex8Kernel : Hex8 {
                                                        const HourglassAxes<T>& hourglass_axes,
                                                        const HourglassVectors<T>& q,
                                                        HourglassState<T>& state) const {
-    const T old_energy = state.energy;
     if constexpr (!flows<Law>) {
       const T work = stretch_hourglass(state.force, hourglass_axes, stiffness, q);
       state.energy += work;
       return {work, T(0.0)};
     } else {
+      const T old_energy = state.energy;
       const auto hardening = law.hardening();
       const T plastic_strain = point.history.equivalent_plastic_strain;
       const MaskOf<T> has_flowed = plastic_strain > step.old_plastic_strain;

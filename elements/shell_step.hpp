@@ -58,7 +58,7 @@ BRIO_INLINE T gradient_square(const ShellGeometry<T>& g) {
 }
 
 /// Coefficient c from which on the deflection's stiffness has all of that floor; below, a share of it.
-inline constexpr double full_twist_coefficient = 0.05;
+inline constexpr double full_twist_coefficient = 0.01;
 
 template <class T>
 BRIO_INLINE HourglassStiffness<T> hourglass_stiffness(const ShellGeometry<T>& g,
@@ -94,8 +94,8 @@ BRIO_INLINE T gyration_square(const ShellGeometry<T>& g, const PlaneStressModuli
 }
 
 /// Stiffness of bending times its g, as that of the membrane is E' g: moduli of equal curvature, E' (1 + nu)
-/// / 2, and of what differs from it, G, with what `bow` times the square of curvature in the deflection's
-/// hourglass mode adds to them.
+/// / 2, and of what differs from it, G, times `moment`, with what `bow` times the square of curvature in the
+/// deflection's hourglass mode adds to them.
 template <class T>
 BRIO_INLINE T bending_gradient(const ShellGeometry<T>& g, const PlaneStressModuli<T>& moduli, T s, T moment,
                                T bow) {
@@ -156,10 +156,9 @@ BRIO_INLINE T highest_frequency_square(const ShellGeometry<T>& g, const PlaneStr
   const T curved = 0.25 * (square(g.area) * s) * (1.0 + square(skewness)) * inverse_gyration;
   const T crossed = sqrt(skewed * curved);
   const T bowed = 1.25 * bowing;
-  const T per_area = 1.25 * (1.0 + crossed / curved) * hourglass.normal / (g.area * thickness);
-  const T bending =
-      inverse_gyration * min(volume * bending_gradient(g, moduli, s, moment, per_area),
-                             membrane * moment + bowed * ((curved + crossed) / inverse_gyration));
+  const T with_twist =
+      bending_gradient(g, moduli, s, volume * moment, bowed * (1.0 + crossed / curved)) * inverse_gyration;
+  const T bending = min(with_twist, membrane * moment * inverse_gyration + bowed * (curved + crossed));
   T plate = joined(shear + bowed * (skewed + crossed), bending, oblique) + 4.0 * (turning * skewness);
   plate = max(plate, max(8.0 * turning, 20.0 * bowing));
   T sheet = membrane;

@@ -1,16 +1,19 @@
 /// The command line.
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
 #include <exception>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "apps/commands.hpp"
+#include "apps/streams.hpp"
 #include "io/closest_word.hpp"
 #include "io/deck_error.hpp"
 #include "io/file_error.hpp"
@@ -19,14 +22,19 @@
 namespace {
 
 int complain(const std::string& fault, int exit_code) {
-  std::fprintf(stderr, "%s\n", fault.c_str());
+  brio::write_error("{}\n", fault);
   return exit_code;
 }
 
 /// Help and version go to standard output with exit code 0; everything else is a bad command.
 int end_of_parsing(const CLI::App& program, const CLI::ParseError& end, int argument_count,
                    char** arguments) {
-  if (end.get_exit_code() == 0) return program.exit(end) == 0 ? brio::exit_good : brio::exit_bad_input;
+  if (end.get_exit_code() == 0) {
+    std::ostringstream asked_for;
+    program.exit(end, asked_for, asked_for);
+    brio::write_out_text(asked_for.str());
+    return brio::exit_good;
+  }
   std::string fault = "brio: " + std::string(end.what());
   const std::string first = argument_count > 1 ? arguments[1] : "";
   std::vector<std::string_view> names;
@@ -58,6 +66,8 @@ void add_run_command(CLI::App& program, int& exit_code) {
   command->add_option("--output", options.output, "result folder; default NAME.results here");
   add_threads(command, options.threads);
   add_overrides(command, options.overrides);
+  command->add_flag("--overwrite", options.overwrite,
+                    "remove the results of an earlier run; default: they are moved to FOLDER.previous");
   command->add_flag("--quiet", arguments->quiet, "print nothing but faults");
   command->add_flag("--json", arguments->json, "print the summary as JSON");
   command->callback([arguments, &exit_code] { exit_code = brio::run(*arguments); });
@@ -121,9 +131,11 @@ void add_study_command(CLI::App& program, int& exit_code) {
 
 void add_info_command(CLI::App& program) {
   auto path = std::make_shared<std::filesystem::path>();
+  auto verify = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand("info", "Say what is in a result");
   command->add_option("result", *path, "result folder or .vtkhdf file")->required();
-  command->callback([path] { brio::print_info(*path); });
+  command->add_flag("--verify", *verify, "read all of it and compare every dump with its checksums");
+  command->callback([path, verify] { brio::print_info(*path, *verify); });
 }
 
 void add_schema_command(CLI::App& program) {
@@ -136,10 +148,7 @@ void add_schema_command(CLI::App& program) {
   command->callback([of_study, markdown] { brio::print_schema(*of_study, *markdown); });
 }
 
-}  // namespace
-
-int main(int argument_count, char** arguments) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a file error like any other, not the end
+int run_command(int argument_count, char** arguments) {
   CLI::App program("Brio: explicit transient dynamics of solids, shells and beams with contact", "brio");
   int exit_code = brio::exit_good;
   program.require_subcommand(1);
@@ -155,14 +164,48 @@ int main(int argument_count, char** arguments) {
     program.parse(argument_count, arguments);
   } catch (const CLI::ParseError& end) {
     return end_of_parsing(program, end, argument_count, arguments);
+  }
+  return exit_code;
+}
+
+/// The one place where what went wrong becomes a message and an exit code.
+/// \pre an exception is being handled
+int end_of_exception() {
+  try {
+    throw;
   } catch (const brio::DeckError& fault) {
     return complain(fault.what(), brio::exit_bad_input);
   } catch (const brio::Breakdown& failure) {
     return complain(std::string("brio: ") + failure.what(), brio::exit_numerical_failure);
   } catch (const brio::FileError& fault) {
     return complain(std::string("brio: ") + fault.what(), brio::exit_file_failure);
+  } catch (const std::system_error& fault) {  // files, threads, processes
+    return complain(std::string("brio: ") + fault.what(), brio::exit_file_failure);
   } catch (const std::bad_alloc&) {
-    return complain("brio: not enough memory", brio::exit_bad_input);
+    return complain("brio: not enough memory", brio::exit_file_failure);
+  } catch (const std::exception& defect) {
+    return complain(std::string("brio: a defect of this program: ") + defect.what(), brio::exit_defect);
+  } catch (...) {
+    return complain("brio: a defect of this program", brio::exit_defect);
   }
-  return exit_code;
+}
+
+// What is thrown where nothing can catch it ends the program all the same with a message and an exit code.
+[[noreturn]] void end_at_once() { _exit(std::current_exception() ? end_of_exception() : brio::exit_defect); }
+
+}  // namespace
+
+int main(int argument_count, char** arguments) {
+  brio::prepare_streams();
+  std::set_terminate(end_at_once);
+  int exit_code = brio::exit_good;
+  try {
+    exit_code = run_command(argument_count, arguments);
+  } catch (...) {
+    exit_code = end_of_exception();
+  }
+  const std::string fault = brio::finish_output();
+  if (fault.empty()) return exit_code;
+  complain("brio: " + fault, exit_code);
+  return exit_code == brio::exit_good ? brio::exit_file_failure : exit_code;
 }

@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "apps/commands.hpp"
+#include "apps/streams.hpp"
 
 namespace brio {
 
@@ -16,35 +16,35 @@ namespace {
 
 void print_parts(const CheckReport& report) {
   constexpr const char* line = "{:<20} {:<10} {:<22} {:>10} {:>10} {:>12.5g}\n";
-  fmt::print("{:<20} {:<10} {:<22} {:>10} {:>10} {:>12}\n", "part", "element", "material", "elements",
-             "nodes", "mass");
+  write_out("{:<20} {:<10} {:<22} {:>10} {:>10} {:>12}\n", "part", "element", "material", "elements", "nodes",
+            "mass");
   double mass = 0;
   for (const PartReport& part : report.parts) {
-    fmt::print(line, part.name, part.element, part.material, part.elements, part.nodes, part.mass);
+    write_out(line, part.name, part.element, part.material, part.elements, part.nodes, part.mass);
     mass += part.mass;
   }
-  fmt::print(line, "all", "", "", "", report.nodes, mass);
+  write_out(line, "all", "", "", "", report.nodes, mass);
 }
 
 void print_joints(const CheckReport& report) {
   for (const MergedParts& merged : report.merged)
-    fmt::print("merged: {} nodes of '{}' are nodes of '{}', from up to {:.3g} away\n", merged.nodes,
-               merged.second, merged.first, merged.farthest);
+    write_out("merged: {} nodes of '{}' are nodes of '{}', from up to {:.3g} away\n", merged.nodes,
+              merged.second, merged.first, merged.farthest);
   for (const TiedParts& tied : report.tied)
-    fmt::print("tied: {} nodes of '{}' to the surface of '{}', from up to {:.3g} away\n", tied.count,
-               tied.nodes, tied.surface, tied.largest_gap);
+    write_out("tied: {} nodes of '{}' to the surface of '{}', from up to {:.3g} away\n", tied.count,
+              tied.nodes, tied.surface, tied.largest_gap);
   if (report.step_share_of_ties < 1)
-    fmt::print(
+    write_out(
         "tied: nodes away from their faces take the stable step down to {:.3g} of that of the elements\n",
         report.step_share_of_ties);
 }
 
 void print_step(const CheckReport& report) {
   if (std::isfinite(report.stable_step)) {
-    fmt::print("\nstable step {:.4g}, set by element {} of part '{}'; first step {:.4g}\n",
-               report.stable_step, report.critical_element, report.critical_part, report.first_step);
+    write_out("\nstable step {:.4g}, set by element {} of part '{}'; first step {:.4g}\n", report.stable_step,
+              report.critical_element, report.critical_part, report.first_step);
   } else {
-    fmt::print("\nall parts are rigid; step {:.4g}\n", report.first_step);
+    write_out("\nall parts are rigid; step {:.4g}\n", report.first_step);
   }
 }
 
@@ -54,14 +54,14 @@ std::string memory(std::size_t bytes) {
 }
 
 void print_built(const CheckReport& report) {
-  fmt::print("\nswitched on: {}\n\n", fmt::join(report.active_features, " "));
+  write_out("\nswitched on: {}\n\n", fmt::join(report.active_features, " "));
   for (const BuiltFeature& feature : report.built) {
-    fmt::print("  {}: because of {}", feature.name, feature.because);
-    if (!feature.detail.empty()) fmt::print("; {}", feature.detail);
-    if (feature.bytes > 0) fmt::print("; {}", memory(feature.bytes));
-    fmt::print("\n");
+    write_out("  {}: because of {}", feature.name, feature.because);
+    if (!feature.detail.empty()) write_out("; {}", feature.detail);
+    if (feature.bytes > 0) write_out("; {}", memory(feature.bytes));
+    write_out("\n");
   }
-  if (!report.not_built.empty()) fmt::print("  not built: {}\n", fmt::join(report.not_built, ", "));
+  if (!report.not_built.empty()) write_out("  not built: {}\n", fmt::join(report.not_built, ", "));
 }
 
 std::string duration(double seconds) {
@@ -74,51 +74,51 @@ std::string duration(double seconds) {
 void print_steps(const Forecast& forecast) {
   const StepForecast& steps = forecast.steps;
   if (steps.exact) {
-    fmt::print("  steps      {:.0f}, all of them marched\n", steps.steps);
+    write_out("  steps      {:.0f}, all of them marched\n", steps.steps);
   } else if (forecast.pilot_factors.empty()) {
-    fmt::print("  steps      {:.0f} if the step stays as it is; a scene that is crushed takes more\n",
-               steps.steps);
+    write_out("  steps      {:.0f} if the step stays as it is; a scene that is crushed takes more\n",
+              steps.steps);
   } else {
-    fmt::print(
+    write_out(
         "  steps      {:.0f}, between {:.0f} and {:.0f}, as told by a pilot with elements {:g} times "
         "as long\n",
         steps.steps, steps.least, steps.most, forecast.pilot_factors.back());
   }
-  if (!forecast.pilot_fault.empty()) fmt::print("             of the pilots: {}\n", forecast.pilot_fault);
+  if (!forecast.pilot_fault.empty()) write_out("             of the pilots: {}\n", forecast.pilot_fault);
 }
 
 void print_results(const Forecast& forecast) {
   const OutputCost& output = forecast.output;
   if (!forecast.output_fault.empty()) {
-    fmt::print("  results    not measured: {}\n", forecast.output_fault);
+    write_out("  results    not measured: {}\n", forecast.output_fault);
     return;
   }
-  fmt::print("  results    {:.1f} MB: {:.0f} dumps of {:.2f} MB", forecast.result_bytes * 1e-6, output.dumps,
-             output.dump_bytes * 1e-6);
+  write_out("  results    {:.1f} MB: {:.0f} dumps of {:.2f} MB", forecast.result_bytes * 1e-6, output.dumps,
+            output.dump_bytes * 1e-6);
   if (forecast.new_topologies > 0)
-    fmt::print(", {:.0f} of them with {:.2f} MB more after deletions", forecast.new_topologies,
-               output.topology_bytes * 1e-6);
-  fmt::print(", {:.0f} rows of history\n", output.rows);
+    write_out(", {:.0f} of them with {:.2f} MB more after deletions", forecast.new_topologies,
+              output.topology_bytes * 1e-6);
+  write_out(", {:.0f} rows of history\n", output.rows);
 }
 
 void print_forecast(const Forecast& forecast, int threads) {
   const March& march = forecast.march;
   if (march.steps.empty()) return;
-  fmt::print("\nforecast for {} thread{}, from {} steps to time {:.4g}, marched in {:.2f} s:\n", threads,
-             threads == 1 ? "" : "s", march.steps.size(), march.time, march.wall_seconds);
-  if (!march.breakdown.empty()) fmt::print("  breakdown  {}\n", march.breakdown);
+  write_out("\nforecast for {} thread{}, from {} steps to time {:.4g}, marched in {:.2f} s:\n", threads,
+            threads == 1 ? "" : "s", march.steps.size(), march.time, march.wall_seconds);
+  if (!march.breakdown.empty()) write_out("  breakdown  {}\n", march.breakdown);
   print_steps(forecast);
-  fmt::print("  wall time  {}: {} to build, {} for steps, {} for output", duration(forecast.seconds()),
-             duration(forecast.build_seconds), duration(forecast.steps.seconds),
-             duration(forecast.output.seconds()));
+  write_out("  wall time  {}: {} to build, {} for steps, {} for output", duration(forecast.seconds()),
+            duration(forecast.build_seconds), duration(forecast.steps.seconds),
+            duration(forecast.output.seconds()));
   if (march.waiting() > 1.1)
-    fmt::print("; with the machine as busy as now {}", duration(forecast.seconds() * march.waiting()));
-  fmt::print("\n  memory     {:.1f} MB at its peak\n", forecast.peak_memory_mb);
+    write_out("; with the machine as busy as now {}", duration(forecast.seconds() * march.waiting()));
+  write_out("\n  memory     {:.1f} MB at its peak\n", forecast.peak_memory_mb);
   print_results(forecast);
   if (!forecast.steps.exact)
-    fmt::print("  assumed    {}\n", forecast.pilot_factors.empty()
-                                        ? "step, contact and cost of a step stay as they were marched"
-                                        : "cost of a step changes with that of the pilot");
+    write_out("  assumed    {}\n", forecast.pilot_factors.empty()
+                                       ? "step, contact and cost of a step stay as they were marched"
+                                       : "cost of a step changes with that of the pilot");
 }
 
 // What a terminal shows while pilots run.
@@ -128,14 +128,14 @@ void tell_wait(const ForecastOptions& options) {
   if (options.pilot_s < HUGE_VAL) limits = duration(options.pilot_s);
   if (options.pilot_share < HUGE_VAL)
     limits += fmt::format("{}{:g} % of the run", limits.empty() ? "" : " or ", 100 * options.pilot_share);
-  fmt::print(stderr, "marching to foretell the run, at most {} (--pilot=0: not at all)\n", limits);
+  write_error("marching to foretell the run, at most {} (--pilot=0: not at all)\n", limits);
 }
 
 }  // namespace
 
 void print_overlaps(std::span<const InitialOverlap> overlaps) {
   for (const InitialOverlap& overlap : overlaps)
-    fmt::print(
+    write_out(
         "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
         "{:.3g}\n",
         overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
@@ -143,18 +143,18 @@ void print_overlaps(std::span<const InitialOverlap> overlaps) {
 
 void check(const ForecastOptions& options, bool json) {
   if (json) {
-    fmt::print("{}", check_json(check_deck(options)));
+    write_out("{}", check_json(check_deck(options)));
     return;
   }
   const CheckReport report = check_deck(options, [&options](const CheckReport& scene) {
-    if (!scene.title.empty()) fmt::print("{}\n\n", scene.title);
+    if (!scene.title.empty()) write_out("{}\n\n", scene.title);
     print_parts(scene);
     print_joints(scene);
     print_step(scene);
     print_overlaps(scene.initial_overlaps);
     for (const SceneWarning& warning : scene.warnings)
-      fmt::print("warning: {}: {}; {}\n", warning.subject, warning.what, warning.advice);
-    std::fflush(stdout);
+      write_out("warning: {}: {}; {}\n", warning.subject, warning.what, warning.advice);
+    flush_output();
     tell_wait(options);
   });
   print_built(report);

@@ -18,7 +18,9 @@ namespace brio {
 inline constexpr int exit_good = 0;
 inline constexpr int exit_bad_input = 2;          ///< bad command, deck or mesh: nothing was computed
 inline constexpr int exit_numerical_failure = 3;  ///< the last good state was written
-inline constexpr int exit_file_failure = 4;       ///< what was written before stays readable
+inline constexpr int exit_file_failure = 4;       ///< the system refused a file, memory or a thread: what was
+                                                  ///< written before stays readable
+inline constexpr int exit_defect = 70;            ///< the program itself is at fault
 
 /// A line for each pair of parts whose nodes were moved apart before the first step.
 void print_overlaps(std::span<const InitialOverlap> overlaps);
@@ -37,7 +39,8 @@ struct StudyArguments {
 /// \return the exit code.
 int study(StudyArguments& arguments);
 void check(const ForecastOptions& options, bool json);
-void print_info(const std::filesystem::path& result);
+/// \param verify whether everything is read and compared with its checksums as well
+void print_info(const std::filesystem::path& result, bool verify);
 void print_schema(bool of_study, bool markdown);
 
 }  // namespace brio

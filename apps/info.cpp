@@ -1,10 +1,15 @@
-#include <fmt/format.h>
-
 #include "apps/commands.hpp"
+#include "apps/streams.hpp"
+#include "io/read_apart.hpp"
 #include "io/read_info.hpp"
 
 namespace brio {
 
-void print_info(const std::filesystem::path& result) { fmt::print("{}", info_text(read_info(result))); }
+void print_info(const std::filesystem::path& result, bool verify) {
+  write_out_text(read_apart(result, [&] {
+    std::string text = info_text(read_info(result));
+    return verify ? text + verify_result(result) : text;
+  }));
+}
 
 }  // namespace brio

@@ -1,21 +1,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
-#include <csignal>
-#include <cstdio>
 #include <fstream>
-#include <iostream>
+#include <sstream>
+#include <string>
 
 #include "apps/commands.hpp"
+#include "apps/streams.hpp"
 
 namespace brio {
 
 namespace {
-
-std::atomic<int> stop_signal{0};
-
-void stop_after_this_step(int signal) { stop_signal = signal; }
 
 std::string duration(double seconds) {
   const auto whole = static_cast<long>(seconds + 0.5);
@@ -37,12 +32,11 @@ class ProgressLine {
         duration(progress.remaining_s), 100 * progress.energy_error);
     if (progress.deleted > 0) line += fmt::format("  deleted {}", progress.deleted);
     if (on_terminal_) {
-      fmt::print(stderr, "\r{:<118}", line);
-      if (finished) fmt::print(stderr, "\n");
+      write_error("\r{:<118}", line);
+      if (finished) write_error("\n");
     } else {
-      fmt::print(stderr, "{}\n", line);
+      write_error("{}\n", line);
     }
-    std::fflush(stderr);
   }
 
  private:
@@ -53,11 +47,11 @@ class ProgressLine {
 void print_outcome(const RunOutcome& outcome) {
   print_overlaps(outcome.initial_overlaps);
   const Summary& summary = outcome.summary;
-  fmt::print("{} at time {:.6g} after {} steps, {} ({:.3g} million element updates a second)\n",
-             summary.status, summary.time, summary.steps, duration(summary.wall_s.total),
-             summary.element_updates_per_s * 1e-6);
+  write_out("{} at time {:.6g} after {} steps, {} ({:.3g} million element updates a second)\n",
+            summary.status, summary.time, summary.steps, duration(summary.wall_s.total),
+            summary.element_updates_per_s * 1e-6);
   const Summary::Energies& energy = summary.energy;
-  fmt::print(
+  write_out(
       "energy: kinetic {:.4g}, internal {:.4g}, hourglass {:.3g}, viscous {:.3g}, contact {:.3g}, friction "
       "{:.3g}; "
       "error {:+.3f} %\n",
@@ -65,30 +59,38 @@ void print_outcome(const RunOutcome& outcome) {
       100 * energy.error_relative);
   const std::int64_t deleted = summary.deleted.hex8 + summary.deleted.shell4 + summary.deleted.beam2;
   if (deleted > 0)
-    fmt::print("deleted: {} elements, energy {:.4g}; free nodes: mass {:.4g} flying, {:.4g} dropped\n",
-               deleted, energy.deleted, summary.mass.debris, summary.mass.deleted);
+    write_out("deleted: {} elements, energy {:.4g}; free nodes: mass {:.4g} flying, {:.4g} dropped\n",
+              deleted, energy.deleted, summary.mass.debris, summary.mass.deleted);
   if (summary.mass_scaling)
-    fmt::print("mass added to small elements: {:.4g}, {:.3g} % of the mass\n", summary.mass_scaling->added,
-               100 * summary.mass_scaling->share);
-  fmt::print("wall time by stage:");
+    write_out("mass added to small elements: {:.4g}, {:.3g} % of the mass\n", summary.mass_scaling->added,
+              100 * summary.mass_scaling->share);
+  write_out("wall time by stage:");
   for (const auto& [stage, seconds] : summary.wall_s.by_stage)
-    if (seconds > 0) fmt::print(" {} {:.2f} s", stage, seconds);
-  fmt::print("\nresults: {} (ParaView 5.12 or later), {} (ParaView 5.11)\n", outcome.vtkhdf.string(),
-             outcome.xdmf.string());
+    if (seconds > 0) write_out(" {} {:.2f} s", stage, seconds);
+  write_out("\nresults: {} (ParaView 5.12 or later), {} (ParaView 5.11)\n", outcome.vtkhdf.string(),
+            outcome.xdmf.string());
 }
 
 }  // namespace
 
 int run(RunArguments& arguments) {
-  std::signal(SIGINT, stop_after_this_step);
-  std::signal(SIGTERM, stop_after_this_step);
-  arguments.options.stop = &stop_signal;
+  arguments.options.stop = &noted_signal();
+  arguments.options.built = note_signals;  // until then there is nothing to close
   ProgressLine line;
   if (!arguments.quiet) arguments.options.progress = [&](const Progress& progress) { line(progress); };
+  arguments.options.moved_aside = [&](const std::filesystem::path& to, bool lost) {
+    if (arguments.quiet && !lost) return;
+    write_error("results of an earlier run were moved to {}{}\n", to.string(),
+                lost ? ", in place of those that were there" : "");
+  };
   const RunOutcome outcome = run_deck(arguments.options);
-  if (!outcome.message.empty()) fmt::print(stderr, "\nbrio: {}\n", outcome.message);
+  if (!outcome.message.empty()) write_error("\nbrio: {}\n", outcome.message);
   if (!arguments.quiet && !arguments.json) print_outcome(outcome);
-  if (arguments.json) std::cout << std::ifstream(outcome.summary_file).rdbuf();
+  if (arguments.json) {
+    std::ostringstream summary;
+    summary << std::ifstream(outcome.summary_file).rdbuf();
+    write_out_text(summary.str());
+  }
   return outcome.summary.exit_code;
 }
 

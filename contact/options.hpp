@@ -41,11 +41,12 @@ struct ContactOptions {
   static constexpr auto fields() {
     return field_table(
         optional("friction", &ContactOptions::friction, non_negative, "Coulomb coefficient, -"),
-        optional("passes", &ContactOptions::passes, at_least_one,
+        optional("passes", &ContactOptions::passes, Range{.lower = 1, .upper = 1000},
                  "sweeps back over the contact constraints of a step, and as many forth, -"),
         optional("search", &ContactOptions::search, any_number,
                  "how candidates are found; the pairs are the same"),
-        optional("reach_buffer", &ContactOptions::reach_buffer, positive,
+        optional("reach_buffer", &ContactOptions::reach_buffer,
+                 Range{.lower = 0, .upper = 10, .lower_open = true},
                  "growth of capture boxes that lets the search be skipped, in mean edges, -"),
         optional("velocity_check", &ContactOptions::velocity_check, any_number,
                  "find first touches along the motion of a step"),

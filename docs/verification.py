@@ -45,7 +45,9 @@ def run_study(name, options):
     if options.jobs:
         command += ["--jobs", str(options.jobs)]
     print(name, file=sys.stderr, flush=True)
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    end = subprocess.run(command, check=False, stdout=subprocess.DEVNULL)
+    if end.returncode not in (0, 3):  # 3: a run failed, which its row says
+        sys.exit(f"{name}: brio study ended with {end.returncode}")
     with open(folder / f"{name}.study.csv", newline="") as table:
         return {row["run"]: row for row in csv.DictReader(table)}
 

@@ -1,8 +1,12 @@
-// The pictures of a study. What gnuplot is told stays beside them, to be drawn anew by hand.
+// The pictures of a study. What gnuplot is told stays beside them, to be drawn anew by hand. Gnuplot runs
+// what stands in backquotes, in text between double quotes as well: text of a study stands between single
+// quotes, where nothing is expanded, or in data. Names of files begin with `./`: one that begins with `|` is
+// a command.
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <system_error>
 
@@ -18,21 +22,37 @@ bool can_be_drawn(const StudyRow& row) {
   return row.exit_code == 0 && row.processor_s > 0 && std::isfinite(row.error) && row.error > 0;
 }
 
-std::string quoted(std::string text) {
-  std::replace(text.begin(), text.end(), '"', '\'');
-  std::replace(text.begin(), text.end(), '\\', '/');
-  return '"' + text + '"';
+// In one line.
+std::string without_control(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return text;
 }
 
-// The name of a file, as it is.
-std::string literal(const std::string& name) {
+// A field of a block of data.
+std::string data_field(std::string text) {
+  std::replace(text.begin(), text.end(), '"', '\'');
+  std::replace(text.begin(), text.end(), '\\', '/');
+  return '"' + without_control(text) + '"';
+}
+
+// Name of a file in a command. One that begins with a quote would be misread: it begins with `./`.
+std::string literal(const std::string& words) {
   std::string text = "'";
-  for (const char c : name) text.append(c == '\'' ? 2 : 1, c);
+  for (const char c : without_control(words)) text.append(c == '\'' ? 2 : 1, c);
+  return text + '\'';
+}
+
+// Text in a command, with apostrophes as they are printed.
+std::string text_literal(const std::string& words) {
+  std::string text = "'";
+  for (const char c : without_control(words))
+    text += c == '\'' ? std::string("\xE2\x80\x99") : std::string(1, c);
   return text + '\'';
 }
 
 std::string line_of(const StudyRow& row, const std::string& label) {
-  return fmt::format("{:.6g} {:.6g} {}\n", row.processor_s, 100 * row.error, quoted(label));
+  return fmt::format("{:.6g} {:.6g} {}\n", row.processor_s, 100 * row.error, data_field(label));
 }
 
 // A block of data that plots name.
@@ -83,8 +103,8 @@ Drawing drawing(const StudyTable& table) {
     result.data += block(name, rows, true);
     if (has_default) rows.push_back(&table.rows[0]);
     result.data += block(name + "_line", rows, true);
-    result.front +=
-        fmt::format(", ${} using 1:2 with points pt 7 ps 0.9 lc {} title {}", name, colour, quoted(title));
+    result.front += fmt::format(", ${} using 1:2 with points pt 7 ps 0.9 lc {} title {}", name, colour,
+                                text_literal(title));
     return true;
   };
   std::size_t number = 0;
@@ -96,7 +116,7 @@ Drawing drawing(const StudyTable& table) {
     result.knobs += fmt::format(
         "set title {}\nplot ${}_line using 1:2 with linespoints pt 7 ps 0.9 lc {} notitle, "
         "${} using 1:2:3 with labels left offset 0.7,0.4 font ',9' notitle",
-        quoted(knob), name, colour, name);
+        text_literal(knob), name, colour, name);
     if (has_default) result.knobs += ", $default using 1:2 with points pt 3 ps 1.5 lc rgb 'black' notitle";
     result.knobs += "\n";
   }
@@ -116,7 +136,7 @@ std::string script(const StudyTable& table, const std::string& name) {
   }
   const std::size_t across = std::min<std::size_t>(3, std::max<std::size_t>(1, parts.panels));
   const std::size_t down = (parts.panels + across - 1) / std::max<std::size_t>(1, across);
-  std::string text = "# gnuplot " + name + ".gp\nset encoding utf8\n" + parts.data;
+  std::string text = "# gnuplot " + without_control(name) + ".gp\nset encoding utf8\n" + parts.data;
   text += fmt::format(
       "set logscale xy\nset grid lc rgb 'gray85'\nset xrange {}\nset yrange {}\nset format y '%g'\nset "
       "format x "
@@ -127,14 +147,14 @@ std::string script(const StudyTable& table, const std::string& name) {
     text += fmt::format(
         "set terminal {} size {},{}\nset output {}\nset title {}\nset xlabel 'cost: processor "
         "seconds'\nset ylabel 'error, %'\nset key outside right top\n{}\n",
-        kind, 900, 560, literal(name + ".front." + end),
-        quoted(table.study.title.empty() ? name : table.study.title), parts.front);
+        kind, 900, 560, literal("./" + name + ".front." + end),
+        text_literal(table.study.title.empty() ? name : table.study.title), parts.front);
     if (parts.panels == 0) continue;
     text += fmt::format(
         "set terminal {} size {},{}\nset output {}\nunset key\nset multiplot layout "
         "{},{}\n{}unset "
         "multiplot\n",
-        kind, 420 * across, 320 * down, literal(name + ".knobs." + end), down, across, parts.knobs);
+        kind, 420 * across, 320 * down, literal("./" + name + ".knobs." + end), down, across, parts.knobs);
   }
   return text + "unset output\n";
 }
@@ -146,10 +166,12 @@ std::string draw_study(const StudyTable& table, const std::filesystem::path& fol
   if (rows_where(table, [](const StudyRow&) { return true; }).empty())
     return "no run has an error to be drawn";
   replace_text_file(folder / (name + ".gp"), {script(table, name)});
+  for (const char* end : {".front.svg", ".front.png", ".knobs.svg", ".knobs.png"})
+    remove_file(folder / (name + end));  // gnuplot would follow a symbolic link
   const std::filesystem::path faults = folder / "gnuplot.txt";
   int exit_code = 0;
   try {
-    run_processes({{{"gnuplot", name + ".gp"}, faults, folder}}, 1, nullptr,
+    run_processes({{{"gnuplot", "./" + name + ".gp"}, faults, folder}}, 1, nullptr,
                   [&](const Ended& ended) { exit_code = ended.exit_code; });
   } catch (const std::system_error& fault) {
     if (fault.code() != std::errc::no_such_file_or_directory) throw;

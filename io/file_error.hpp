@@ -11,12 +11,13 @@ namespace brio {
 class FileError : public std::runtime_error {
  public:
   FileError(const std::filesystem::path& path, const std::string& reason)
-      : std::runtime_error(path.string() + ": " + reason), path_(path.string()) {}
+      : std::runtime_error(path.string() + ": " + reason), path_(path.string()), reason_(reason) {}
 
   const std::string& path() const { return path_; }
+  const std::string& reason() const { return reason_; }
 
  private:
-  std::string path_;
+  std::string path_, reason_;
 };
 
 }  // namespace brio

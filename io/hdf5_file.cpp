@@ -8,8 +8,11 @@
 #include <cassert>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
+#include "io/checksum.hpp"
 #include "io/hdf5_transaction.hpp"
+#include "io/text_file.hpp"
 
 namespace brio {
 namespace {
@@ -67,7 +70,7 @@ hid_t Hdf5File::check(hid_t result, const string& doing) const {
 
 Hdf5File Hdf5File::open_to_read(const std::filesystem::path& path) {
   keep_quiet();
-  try_to_open(path, O_RDONLY);
+  try_to_open(path, O_RDONLY | O_NONBLOCK);  // a pipe would wait for its other end
   must_be_hdf5(path);
   Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (file.id() < 0) throw FileError(path, "cannot open as HDF5: " + library_reason());
@@ -76,20 +79,21 @@ Hdf5File Hdf5File::open_to_read(const std::filesystem::path& path) {
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   keep_quiet();
-  try_to_open(path, O_RDWR | O_CREAT | O_TRUNC);
+  ::close(new_file(path));
   const Hdf5Handle access = transaction_properties(path);
   Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (file.id() < 0) throw FileError(path, "cannot create as HDF5: " + library_reason());
   return {path, std::move(file)};
 }
 
-Hdf5File Hdf5File::open_to_append(const std::filesystem::path& path) {
+Hdf5File Hdf5File::open_to_append(const std::filesystem::path& path, bool sync) {
   keep_quiet();
-  try_to_open(path, O_RDWR);
+  try_to_open(path, O_RDWR | O_NOFOLLOW | O_NONBLOCK);
   must_be_hdf5(path);
   const Hdf5Handle access = transaction_properties(path);
   Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose);
   if (file.id() < 0) throw FileError(path, "cannot open as HDF5: " + library_reason());
+  if (sync) transaction_sync(file.id());
   return {path, std::move(file)};
 }
 
@@ -183,6 +187,9 @@ std::int64_t Hdf5File::append_rows(const string& table, hsize_t rows, hid_t memo
   const Hdf5Handle memory = checked(H5Screate_simple(rank, count.data(), nullptr), H5Sclose, doing);
   check(H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), doing);
   check(H5Dwrite(dataset.id(), memory_type, memory.id(), space.id(), H5P_DEFAULT, data), doing);
+  const std::size_t bytes = rows * (rank == 2 ? size[1] : 1) * H5Tget_size(memory_type);
+  appended_.push_back({table, static_cast<std::int64_t>(start[0]), static_cast<std::int64_t>(rows),
+                       brio::checksum(data, bytes)});
   return static_cast<std::int64_t>(start[0]);
 }
 
@@ -201,7 +208,11 @@ std::size_t Hdf5File::columns_of(const string& table, std::int64_t first, std::i
     throw FileError(path_,
                     table + " has " + std::to_string(size[0]) + " rows, too few for what the file says");
   }
-  return size.size() == 2 ? static_cast<std::size_t>(size[1]) : 1;
+  const std::int64_t columns = size.size() == 2 ? size[1] : 1;
+  constexpr std::int64_t most_values = std::numeric_limits<std::int64_t>::max() / 8;
+  if (rows > 0 && (columns < 0 || columns > most_values / rows))
+    throw FileError(path_, table + " claims more values than any file holds");
+  return static_cast<std::size_t>(columns);
 }
 
 void Hdf5File::read_table(const string& table, std::int64_t first, std::int64_t rows, hid_t memory_type,
@@ -230,6 +241,19 @@ std::vector<std::int64_t> Hdf5File::read_integers(const string& table, std::int6
   std::vector<std::int64_t> values(columns_of(table, first, rows) * static_cast<std::size_t>(rows));
   if (!values.empty()) read_table(table, first, rows, H5T_NATIVE_INT64, values.data());
   return values;
+}
+
+std::uint64_t Hdf5File::checksum_of_rows(const string& table, std::int64_t first, std::int64_t rows) const {
+  const std::size_t values = columns_of(table, first, rows) * static_cast<std::size_t>(rows);
+  const Hdf5Handle dataset = open_dataset(table);
+  const Hdf5Handle stored = checked(H5Dget_type(dataset.id()), H5Tclose, "read " + table);
+  for (const hid_t type : {H5T_IEEE_F32LE, H5T_IEEE_F64LE, H5T_STD_I64LE, H5T_STD_U8LE}) {
+    if (H5Tequal(stored.id(), type) <= 0) continue;
+    std::vector<unsigned char> bytes(values * H5Tget_size(type));
+    if (!bytes.empty()) read_table(table, first, rows, type, bytes.data());
+    return brio::checksum(bytes.data(), bytes.size());
+  }
+  throw FileError(path_, table + " does not hold numbers of a type that brio writes");
 }
 
 }  // namespace brio

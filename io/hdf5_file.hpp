@@ -53,12 +53,20 @@ struct TableShape {
   int compression = 0;  ///< gzip level after shuffling, 0 for none
 };
 
+/// Rows that were appended to a table, and the checksum of their bytes as stored.
+struct AppendedRows {
+  std::string table;
+  std::int64_t first = 0, rows = 0;
+  std::uint64_t checksum = 0;
+};
+
 class Hdf5File {
  public:
   static Hdf5File open_to_read(const std::filesystem::path& path);
-  /// Replaces a file that is there.
+  /// Replaces a file that is there; a symbolic link is replaced, not followed.
   static Hdf5File create(const std::filesystem::path& path);
-  static Hdf5File open_to_append(const std::filesystem::path& path);
+  /// \param sync whether every commit is forced to the disk
+  static Hdf5File open_to_append(const std::filesystem::path& path, bool sync = false);
   /// Without `close()` before it, what came after the last commit is taken back.
   ~Hdf5File();
   Hdf5File(Hdf5File&&) noexcept = default;
@@ -82,6 +90,11 @@ class Hdf5File {
   /// stays unused. \param data rows x columns values of `memory_type`. \return the row at which they now
   /// begin.
   std::int64_t append_rows(const std::string& table, hsize_t rows, hid_t memory_type, const void* data);
+  /// What was appended to tables since the file was opened.
+  const std::vector<AppendedRows>& appended() const { return appended_; }
+  /// Of rows of a table as they are stored. \throws FileError where it is no table of numbers as they are
+  /// written here.
+  std::uint64_t checksum_of_rows(const std::string& table, std::int64_t first, std::int64_t rows) const;
   /// Dimensions of a dataset; empty for a single value.
   std::vector<std::int64_t> dimensions(const std::string& dataset) const;
   /// Rows [first, first + rows) of a table, all columns, converted to double (integers up to 2^53 exactly).
@@ -123,6 +136,7 @@ class Hdf5File {
 
   std::filesystem::path path_;
   Hdf5Handle file_;
+  std::vector<AppendedRows> appended_;
 };
 
 }  // namespace brio

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstddef>
+#include <limits>
 
 #include "io/hdf5_file.hpp"
 
@@ -55,14 +57,18 @@ void Hdf5File::write_texts(const string& dataset, const std::vector<string>& tex
 
 std::vector<string> Hdf5File::read_texts(const string& dataset) const {
   const string doing = "read " + dataset;
-  std::size_t count = 1;
-  for (const std::int64_t extent : dimensions(dataset)) count *= static_cast<std::size_t>(extent);
+  const std::vector<std::int64_t> size = dimensions(dataset);
+  if (size.size() > 1) throw FileError(path_, dataset + " is not a list of texts");
+  const std::size_t count = size.empty() ? 1 : static_cast<std::size_t>(size[0]);
   const Hdf5Handle opened = open_dataset(dataset);
   const Hdf5Handle type = checked(H5Dget_type(opened.id()), H5Tclose, doing);
   if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0) {
     throw FileError(path_, dataset + " is not text of fixed length");
   }
   const std::size_t length = H5Tget_size(type.id());
+  constexpr std::size_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max();
+  if (count > most_bytes / std::max<std::size_t>(1, length))
+    throw FileError(path_, dataset + " claims more text than any file holds");
   string padded(count * length, '\0');
   if (count > 0) check(H5Dread(opened.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()), doing);
   std::vector<string> texts;

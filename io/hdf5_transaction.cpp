@@ -34,6 +34,8 @@ struct TransactionFile : H5FD_t {
   std::vector<Piece> waiting;
   int error = 0;
   bool discarded = false;
+  bool synchronous = false;  ///< commits are forced to the disk
+  bool changed = false;      ///< since the last commit
 
   bool lost() const { return error != 0 || discarded; }
 };
@@ -64,6 +66,11 @@ bool set_length(TransactionFile& file, haddr_t length) {
   }
   file.end_of_file = length;
   return true;
+}
+
+void sync_if_wanted(TransactionFile& file) {
+  if (file.synchronous && file.changed && file.error == 0 && fdatasync(file.descriptor) != 0)
+    file.error = errno;
 }
 
 /// Remember a change of committed bytes; changes that touch each other become one.
@@ -120,7 +127,10 @@ void commit(TransactionFile& file) {
   const bool locked =
       flock(file.descriptor, LOCK_EX | LOCK_NB) == 0;  // a reader that is there already may stay
   if (file.end_of_file < file.end_of_allocation) set_length(file, file.end_of_allocation);
+  sync_if_wanted(file);
   if (file.error == 0) apply_waiting(file);
+  sync_if_wanted(file);
+  file.changed = false;
   if (locked) flock(file.descriptor, LOCK_UN);
 }
 
@@ -129,7 +139,7 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
   if ((flags & H5F_ACC_TRUNC) != 0) mode |= O_TRUNC;
   if ((flags & H5F_ACC_CREAT) != 0) mode |= O_CREAT;
   if ((flags & H5F_ACC_EXCL) != 0) mode |= O_EXCL;
-  const int descriptor = open(name, mode | O_CLOEXEC, 0666);
+  const int descriptor = open(name, mode | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) return nullptr;
   struct stat status {};
   auto* file = fstat(descriptor, &status) == 0 ? new (std::nothrow) TransactionFile{} : nullptr;
@@ -205,6 +215,7 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, size_t size, void*
 herr_t write(H5FD_t* base, H5FD_mem_t kind, hid_t, haddr_t address, size_t size, const void* buffer) {
   TransactionFile& file = self(base);
   if (file.lost()) return 0;
+  file.changed = true;
   const auto* const bytes = static_cast<const unsigned char*>(buffer);
   std::size_t waits = 0;  // leading bytes that must wait
   if (kind != H5FD_MEM_DRAW && address < file.committed)
@@ -269,6 +280,10 @@ hid_t transaction_access() {
 int transaction_error(hid_t file) {
   const TransactionFile* const found = transaction(file);
   return found == nullptr ? 0 : found->error;
+}
+
+void transaction_sync(hid_t file) {
+  if (TransactionFile* const found = transaction(file)) found->synchronous = true;
 }
 
 void transaction_discard(hid_t file) {

@@ -16,7 +16,10 @@
 ///     committed length. HDF5 is not told of the failure: it closes in peace, and the owner asks afterwards.
 /// A reader that opens the file meets a lock only while changes are applied.
 ///
-/// This guards against the death of the process, not of the machine: nothing is forced out to the disk.
+/// This guards against the death of the process. Against that of the machine, `transaction_sync` has every
+/// commit forced to the disk, new bytes before the changes that refer to them: what was committed then stays,
+/// unless the machine dies within the milliseconds in which changes are applied. Without it a crash of the
+/// machine can take what the system had not written yet, up to the whole file.
 
 #include <hdf5.h>
 
@@ -28,6 +31,9 @@ hid_t transaction_access();
 /// The error number (errno) of the first write that failed in `file`, which was opened with
 /// `transaction_access()`; 0 when there was none.
 int transaction_error(hid_t file);
+
+/// Force every commit to the disk from now on.
+void transaction_sync(hid_t file);
 
 /// Do not write anything any more; on closing, return to the last committed state.
 void transaction_discard(hid_t file);

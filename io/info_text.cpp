@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "io/read_info.hpp"
 
 namespace brio {
@@ -30,9 +33,7 @@ std::string dump_lines(const ResultInfo& info) {
   return text;
 }
 
-}  // namespace
-
-std::string info_text(const ResultInfo& info) {
+std::string all_lines(const ResultInfo& info) {
   std::string text = run_lines(info) + dump_lines(info);
   text += fmt::format("  history    {} rows of {} columns{}\n", info.history_rows,
                       info.history_columns.size(), info.history_last.empty() ? "" : "; the last:");
@@ -41,6 +42,17 @@ std::string info_text(const ResultInfo& info) {
   }
   if (!info.energies.empty()) text += "  energies at the end\n";
   for (const auto& [name, value] : info.energies) text += fmt::format("    {:<36} {:>13.6g}\n", name, value);
+  return text;
+}
+
+}  // namespace
+
+std::string info_text(const ResultInfo& info) {
+  std::string text = all_lines(info);
+  // What a file holds may be anything: it gives no orders to a terminal.
+  std::replace_if(
+      text.begin(), text.end(),
+      [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0 && c != '\n'; }, '?');
   return text;
 }
 

@@ -3,6 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <string>
 #include <system_error>
@@ -20,7 +23,12 @@ namespace fs = std::filesystem;
 // A folder that is gone when this is.
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(fs::temp_directory_path() / ("brio-output-" + std::to_string(getpid()))) {}
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "brio-output-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw FileError(pattern, std::string("cannot make the folder: ") + std::strerror(errno));
+    path_ = pattern;
+  }
   ~TemporaryFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);

@@ -61,6 +61,7 @@ void read_where(const YamlNode& node, const Slot& slot, const std::string& condi
     read_value(*set->value, Slot{"set", any_number, slot.known}, where);
   } else {
     read_value(*part->value, Slot{"part", any_number, slot.known}, where.set);
+    where.place = to_string(part->value->place);
     slot.known.part(*part->value, where.set);
   }
 }
@@ -113,6 +114,7 @@ void read_part_names(const YamlNode& node, const Slot& slot, std::vector<std::st
 }  // namespace
 
 void read_value(const YamlNode& node, const Slot& slot, NodeSelection& selection) {
+  selection.place = to_string(node.place);
   if (node.is_scalar()) {
     check_set(node, slot, node_set_names);
     selection.set = node.text;
@@ -223,10 +225,7 @@ void read_value(const YamlNode& node, const Slot& slot, Connection& connection) 
   require_map(node, slot);
   for (const std::string_view name : names_of(connection)) {
     if (node.find(name) == nullptr) continue;
-    choose_alternative(connection, name, [&](auto& chosen) {
-      read_connection(node, slot, chosen);
-      chosen.place = to_string(node.place);
-    });
+    choose_alternative(connection, name, [&](auto& chosen) { read_connection(node, slot, chosen); });
     return;
   }
   throw DeckError(node.place,
@@ -245,6 +244,7 @@ void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair) {
 }
 
 void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact) {
+  contact.place = to_string(node.place);
   read_fields(node, slot, contact.options, {"surfaces", "exclude", "pairs"});
   const YamlEntry* surfaces = node.find("surfaces");
   if (surfaces == nullptr)

@@ -35,6 +35,11 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
   deck.file = name;
   const KnownNames known(deck);
   read_fields(*root, Slot{"deck", any_number, known}, deck);
+  if (deck.parts.empty())
+    throw DeckError(
+        root->find("parts")->value->place,
+        "'parts' is empty; at least one part is expected, such as {cube: {mesh: ..., element: ..., "
+        "material: ...}}");
   check_precision(deck, *root);
   deck.text = overrides.empty() && root == as_said ? text : write_yaml(*root);
   return deck;

@@ -79,6 +79,11 @@ template <class T>
 concept HasFault = requires(const T& value) {
   std::string_view(value.fault());
 };
+/// A thing that refusals after the deck was read refer to.
+template <class T>
+concept HasPlace = requires(T& value) {
+  value.place = std::string();
+};
 /// A thing that is called by its key in a map, such as a part.
 template <class T>
 concept HasOwnName = requires(T& value) {
@@ -120,6 +125,7 @@ void read_value(const YamlNode& node, const Slot& slot, std::vector<T>& values) 
       T& value = values.emplace_back();
       value.name = entry.key;
       read_value(*entry.value, {entry.key, any_number, slot.known}, value);
+      if constexpr (HasPlace<T>) value.place = to_string(entry.place);
     }
   } else {
     if (!node.is_sequence()) refuse(node, slot, "a list");
@@ -155,6 +161,7 @@ template <HasFields T>
 void read_fields(const YamlNode& map, const Slot& slot, T& value,
                  const std::vector<std::string_view>& besides = {}) {
   require_map(map, slot);
+  if constexpr (HasPlace<T>) value.place = to_string(map.place);
   std::vector<std::string_view> accepted = besides;
   for (const std::string_view key : keys_of<T>()) accepted.push_back(key);
   check_keys(map, accepted);

@@ -1,14 +1,17 @@
 #include "io/read_info.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "io/dump_checksums.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/text_file.hpp"
 #include "src/snapshot.hpp"
 
 namespace brio {
@@ -121,10 +124,9 @@ void read_history(const Hdf5File& file, ResultInfo& info) {
 void read_summary(ResultInfo& info) {
   std::filesystem::path path = info.file;
   path.replace_extension(".summary.json");
-  std::ifstream text(path);
-  if (!text) return;
+  if (!std::filesystem::exists(path)) return;
   try {
-    const auto json = nlohmann::ordered_json::parse(text);
+    const auto json = nlohmann::ordered_json::parse(read_small_file(path));
     info.status = json.at("status").get<string>();
     info.exit_code = json.at("exit_code").get<std::int64_t>();
     info.steps = json.at("steps").get<std::int64_t>();
@@ -143,6 +145,7 @@ ResultInfo read_file(const std::filesystem::path& path) {
   must_be_result(file);
   info.title = file.read_text("/deck/title");
   info.deck_path = file.read_text("/deck/path");
+  info.deck_text = file.read_text("/deck/text");
   info.version = file.read_text("/deck/version");
   info.overrides = file.read_texts("/deck/overrides");
   info.threads = file.read_integer_attribute("/deck", "threads");
@@ -152,11 +155,11 @@ ResultInfo read_file(const std::filesystem::path& path) {
   return info;
 }
 
-}  // namespace
-
-ResultInfo read_info(const std::filesystem::path& path) {
+/// What a file can do to its reader becomes a FileError.
+template <class Work>
+auto guarded(const std::filesystem::path& path, const Work& work) {
   try {
-    return read_file(path);
+    return work();
   } catch (const std::bad_alloc&) {  // a damaged file may claim any size
     throw FileError(path, "the file claims more data than memory can hold");
   } catch (const std::length_error&) {
@@ -164,6 +167,30 @@ ResultInfo read_info(const std::filesystem::path& path) {
   } catch (const std::filesystem::filesystem_error& error) {
     throw FileError(path, error.code().message());
   }
+}
+
+string verify_file(const std::filesystem::path& path) {
+  const Hdf5File file = Hdf5File::open_to_read(result_file(path));
+  must_be_result(file);
+  const std::vector<string> faults = verify_checksums(file);
+  if (faults.empty())
+    return fmt::format("  checksums  {} dumps and {} rows of history are as they were written\n",
+                       rows_of(file, "/VTKHDF/Steps/Values"), rows_of(file, "/history/values"));
+  constexpr std::size_t most = 10;
+  string told = "is damaged";
+  for (std::size_t i = 0; i < std::min(most, faults.size()); ++i) told += "\n  " + faults[i];
+  if (faults.size() > most) told += fmt::format("\n  and {} more", faults.size() - most);
+  throw FileError(file.path(), told);
+}
+
+}  // namespace
+
+ResultInfo read_info(const std::filesystem::path& path) {
+  return guarded(path, [&] { return read_file(path); });
+}
+
+string verify_result(const std::filesystem::path& path) {
+  return guarded(path, [&] { return verify_file(path); });
 }
 
 }  // namespace brio

@@ -22,7 +22,7 @@ struct FieldInfo {
 
 struct ResultInfo {
   std::filesystem::path file;
-  std::string title, deck_path, version;
+  std::string title, deck_path, deck_text, version;
   std::vector<std::string> overrides;
   std::int64_t threads = 0;
   std::vector<double> times;  ///< of the complete dumps
@@ -41,6 +41,10 @@ struct ResultInfo {
 /// \param path a `.vtkhdf` file or a result folder with one of them.
 /// \throws FileError when there is none or it is something else.
 ResultInfo read_info(const std::filesystem::path& path);
+
+/// Reads all of a result and compares it with its checksums.
+/// \return one line that says what was compared. \throws FileError naming the dumps and tables that differ.
+std::string verify_result(const std::filesystem::path& path);
 
 /// For reading on a terminal; several lines.
 std::string info_text(const ResultInfo& info);

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "io/hdf5_file.hpp"
+#include "io/text_file.hpp"
 
 namespace brio {
 
@@ -110,10 +110,9 @@ ReadHistory ResultReader::history() const {
 nlohmann::json read_summary(const std::filesystem::path& file) {
   std::filesystem::path path = file;
   path.replace_extension(".summary.json");
-  std::ifstream text(path);
-  if (!text) throw FileError(path, "there is no summary");
+  if (!std::filesystem::exists(path)) throw FileError(path, "there is no summary");
   try {
-    return nlohmann::json::parse(text);
+    return nlohmann::json::parse(read_small_file(path));
   } catch (const nlohmann::json::exception& error) {
     throw FileError(path, std::string("not a summary of brio: ") + error.what());
   }

@@ -8,6 +8,7 @@
 #include "io/deck_error.hpp"
 #include "io/generate_mesh.hpp"
 #include "io/read_deck.hpp"
+#include "io/scene_size.hpp"
 #include "io/write_results.hpp"
 #include "src/advance.hpp"
 #include "src/build.hpp"
@@ -127,13 +128,16 @@ std::string march(const Deck& deck, const RunOptions& options, Model& model, Out
 }  // namespace
 
 Model build_scene(const Deck& deck) {
-  std::vector<Mesh> meshes;
-  meshes.reserve(deck.parts.size());
-  for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
+  check_scene_size(deck);
   try {
+    std::vector<Mesh> meshes;
+    meshes.reserve(deck.parts.size());
+    for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
     return build(deck, meshes);
   } catch (const BuildError& fault) {
     throw DeckError((fault.place.empty() ? deck.file : fault.place) + ": " + fault.what());
+  } catch (const std::bad_alloc&) {
+    refuse_memory(deck);
   }
 }
 
@@ -147,17 +151,20 @@ RunOutcome run_deck(const RunOptions& options) {
   const auto start = Clock::now();
   Model model;
   const Deck deck = load_deck(options.deck, options.overrides, model);
+  if (options.built) options.built();
   const std::string name = options.deck.stem().string();
   RunOutcome outcome;
   outcome.folder = options.output.empty() ? std::filesystem::path(name + ".results") : options.output;
-  ResultWriter writer(outcome.folder, name,
-                      {.title = deck.title,
-                       .deck_path = options.deck.string(),
-                       .deck_text = deck.text,
-                       .overrides = options.overrides,
-                       .version = BRIO_VERSION,
-                       .threads = options.threads},
-                      history_columns(model));
+  ResultWriter writer(
+      outcome.folder, name,
+      {.title = deck.title,
+       .deck_path = options.deck.string(),
+       .deck_text = deck.text,
+       .overrides = options.overrides,
+       .version = BRIO_VERSION,
+       .threads = options.threads},
+      history_columns(model),
+      {.sync = deck.output.sync, .overwrite = options.overwrite, .moved_aside = options.moved_aside});
   outcome.vtkhdf = writer.vtkhdf();
   outcome.xdmf = writer.xdmf();
   outcome.summary_file = writer.summary();

@@ -31,7 +31,10 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE
   std::filesystem::path output;        ///< result folder; empty: NAME.results where the program runs
   int threads = 1;
+  bool overwrite = false;  ///< whether results of an earlier run are removed, not moved aside
+  std::function<void(const std::filesystem::path& to, bool lost)> moved_aside{};  ///< as of ResultSettings
   const std::atomic<int>* stop = nullptr;  ///< set to a signal's number to end the run after the present step
+  std::function<void()> built;             ///< called before the first file is made
   std::function<void(const Progress&)> progress;  ///< called about ten times a second
 };
 

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -11,10 +14,13 @@
 
 #include "io/file_error.hpp"
 #include "io/measure_quantity.hpp"
+#include "io/read_apart.hpp"
+#include "io/read_info.hpp"
 #include "io/read_result.hpp"
 #include "io/read_study.hpp"
 #include "io/run_processes.hpp"
 #include "io/text_file.hpp"
+#include "io/utf8.hpp"
 #include "src/pareto.hpp"
 
 namespace brio {
@@ -28,6 +34,46 @@ std::string contents(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
+}
+
+// A run that was stopped, or that the file system failed, is not remembered: it is made again next time.
+bool is_final(int exit_code) { return exit_code == 0 || exit_code == 3; }
+
+// The last line that a run wrote before it failed.
+std::string last_line(const fs::path& file) {
+  std::string text;
+  try {
+    text = read_small_file(file);
+  } catch (const FileError&) {
+    return {};
+  }
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  text.erase(0, text.rfind('\n') + 1);
+  for (char& c : text)
+    if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
+  return as_utf8(text);
+}
+
+// Numbers on their way from the process that read them.
+std::string packed(const std::vector<double>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+}
+std::vector<double> unpacked(const std::string& bytes) {
+  std::vector<double> values(bytes.size() / sizeof(double));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+  return values;
+}
+
+// All that a later call builds upon. \throws FileError
+void check_result(const fs::path& file, const std::string& deck_text) {
+  const ResultInfo info = read_info(file);
+  if (info.status != "finished" || info.exit_code != 0) throw FileError(file, "the run did not finish");
+  if (info.deck_text != deck_text || info.version != BRIO_VERSION)
+    throw FileError(file, "the result is of another deck or version");
+  for (const char* ending : {".xdmf2", ".history.csv"})
+    if (!fs::is_regular_file(fs::path(file).replace_extension(ending)))
+      throw FileError(file, std::string("the result has no ") + ending);
+  verify_result(file);
 }
 
 // FNV-1a, 64 bits.
@@ -51,12 +97,14 @@ class StudyInRun {
   }
 
   StudyOutcome outcome() {
+    make_folder(folder_);
+    lock_ = std::make_shared<const FolderLock>(folder_);
     make_runs();
     for (StudyRow& row : table_.rows) measure(row);
     // One result that lacks something is told in its row; where all do, what was asked for is wrong.
     if (measured_ == 0 && fault_) std::rethrow_exception(fault_);
     judge();
-    return {std::move(table_), folder_, complete_};
+    return {std::move(table_), folder_, lock_};
   }
 
  private:
@@ -70,18 +118,49 @@ class StudyInRun {
     return fmt::format("{:016x}", fingerprint(settings, program_print_));
   }
 
+  // The record of an earlier call, if it is one and of this run.
+  std::optional<StudyRow> read_record(std::size_t run) const {
+    nlohmann::json record;
+    try {
+      record = nlohmann::json::parse(read_small_file(folder_of(run) / "run.json"), nullptr, false);
+    } catch (const FileError&) {
+      return {};
+    }
+    const auto text = [&](const char* name) {
+      return record.contains(name) && record[name].is_string() ? record[name].get<std::string>() : "";
+    };
+    const auto number = [&](const char* name) {
+      const bool is_number = record.contains(name) && record[name].is_number();
+      return is_number && record[name] >= 0.0 ? record[name].get<double>() : nothing;
+    };
+    if (!record.is_object() || text("key") != key(run)) return {};
+    StudyRow row = table_.rows[run];
+    const double exit_code = number("exit_code");
+    row.exit_code = exit_code == 0 || exit_code == 3 ? static_cast<int>(exit_code) : -1;
+    row.message = text("message");
+    row.processor_s = number("processor_s");
+    row.wall_s = number("wall_s");
+    row.peak_memory_mb = number("peak_memory_mb");
+    row.has_run = row.reused = true;
+    if (!is_final(row.exit_code) || !std::isfinite(row.processor_s + row.wall_s + row.peak_memory_mb))
+      return {};
+    return row;
+  }
+
   bool take_earlier(std::size_t run) {
     if (options_.again) return false;
-    std::ifstream text(folder_of(run) / "run.json");
-    const nlohmann::json record = nlohmann::json::parse(text, nullptr, false);
-    if (!record.is_object() || record.value("key", "") != key(run)) return false;
-    StudyRow& row = table_.rows[run];
-    row.exit_code = record.value("exit_code", 0);
-    row.message = record.value("message", "");
-    row.processor_s = record.value("processor_s", 0.0);
-    row.wall_s = record.value("wall_s", 0.0);
-    row.peak_memory_mb = record.value("peak_memory_mb", 0.0);
-    row.reused = true;
+    const std::optional<StudyRow> earlier = read_record(run);
+    if (!earlier) return false;
+    try {
+      if (earlier->exit_code == 0)
+        read_apart(result_of(run), [&] {
+          check_result(result_of(run), checked_.texts[run]);
+          return std::string();
+        });
+    } catch (const FileError&) {
+      return false;
+    }
+    table_.rows[run] = *earlier;
     return true;
   }
 
@@ -95,7 +174,8 @@ class StudyInRun {
                                         {"wall_s", row.wall_s},
                                         {"peak_memory_mb", row.peak_memory_mb},
                                         {"key", key(run)}};
-    replace_text_file(folder_of(run) / "run.json", {record.dump(1), "\n"});
+    replace_text_file(folder_of(run) / "run.json",
+                      {record.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), "\n"});
   }
 
   Command command(std::size_t run) const {
@@ -108,7 +188,9 @@ class StudyInRun {
                         folder_of(run).string(),
                         "--threads",
                         std::to_string(checked_.study.threads),
-                        "--quiet"};
+                        "--quiet",
+                        "--overwrite"};
+    result.shared_descriptor = lock_->descriptor();
     for (const std::string& setting : table_.rows[run].run.overrides)
       result.arguments.insert(result.arguments.end(), {"--set", setting});
     return result;
@@ -127,19 +209,14 @@ class StudyInRun {
   void take(std::size_t run, const Ended& end) {
     StudyRow& row = table_.rows[run];
     const bool first = row.processor_s == 0;
+    row.has_run = true;
     row.exit_code = end.exit_code;
     row.processor_s = first ? end.processor_s : std::min(row.processor_s, end.processor_s);
     row.wall_s = first ? end.wall_s : std::min(row.wall_s, end.wall_s);
     row.peak_memory_mb = std::max(row.peak_memory_mb, end.peak_memory_mb);
     if (end.exit_code == 0) return;
-    row.message = contents(folder_of(run) / "faults.txt");
-    while (!row.message.empty() && std::isspace(static_cast<unsigned char>(row.message.back())))
-      row.message.pop_back();
-    row.message.erase(0, row.message.rfind('\n') + 1);
+    row.message = last_line(folder_of(run) / "faults.txt");
   }
-
-  // A run that was stopped, or that the file system failed, is not remembered: it is made again next time.
-  static bool is_final(int exit_code) { return exit_code == 0 || exit_code == 3; }
 
   void make_runs() {
     const auto begin = std::chrono::steady_clock::now();
@@ -147,10 +224,8 @@ class StudyInRun {
     std::vector<Command> commands;
     for (const std::size_t run : order()) {
       if (take_earlier(run)) continue;
-      std::error_code fault;
-      fs::create_directories(folder_of(run), fault);
-      if (fault) throw FileError(folder_of(run), "cannot make the folder: " + fault.message());
-      fs::remove(folder_of(run) / "run.json", fault);
+      make_folder(folder_of(run));
+      remove_file(folder_of(run) / "run.json");
       for (int i = 0; i < checked_.study.repeats; ++i) {
         run_of_command.push_back(run);
         commands.push_back(command(run));
@@ -163,7 +238,6 @@ class StudyInRun {
     run_processes(commands, jobs, options_.stop, [&](const Ended& end) {
       const std::size_t run = run_of_command[end.command];
       take(run, end);
-      if (!is_final(end.exit_code)) complete_ = false;
       if (--left[run] == 0 && is_final(end.exit_code)) remember(run);
       ++done;
       const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -172,21 +246,31 @@ class StudyInRun {
                            elapsed / static_cast<double>(done) * static_cast<double>(commands.size() - done),
                            table_.rows[run]});
     });
-    if (done < commands.size()) complete_ = false;
   }
 
   void measure(StudyRow& row) {
     const auto run = static_cast<std::size_t>(&row - table_.rows.data());
-    if (row.exit_code != 0 || !fs::exists(result_of(run))) return;
+    if (!row.has_run || row.exit_code != 0) return;
     try {
-      row.figures = measure_quantities(checked_.study.quantities, result_of(run), checked_.parts);
+      std::vector<double> figures =
+          unpacked(read_apart(result_of(run), [&] { return packed(measured(run)); }));
+      row.steps = figures.at(row.figures.size());
+      figures.pop_back();
+      row.figures = std::move(figures);
     } catch (const FileError& fault) {
       row.message = fault.what();
       fault_ = std::current_exception();
       return;
     }
     ++measured_;
-    row.steps = read_summary(result_of(run)).at("steps").get<double>();
+  }
+
+  // One figure a quantity, then the number of steps.
+  std::vector<double> measured(std::size_t run) const {
+    std::vector<double> figures =
+        measure_quantities(checked_.study.quantities, result_of(run), checked_.parts);
+    figures.push_back(read_summary(result_of(run)).at("steps").get<double>());
+    return figures;
   }
 
   void judge() {
@@ -220,13 +304,20 @@ class StudyInRun {
   CheckedStudy checked_;
   StudyTable table_;
   fs::path folder_;
+  std::shared_ptr<const FolderLock> lock_;
   std::uint64_t program_print_ = 0;
-  bool complete_ = true;
   std::size_t measured_ = 0;
   std::exception_ptr fault_;
 };
 
 }  // namespace
+
+int StudyOutcome::exit_code() const {
+  int worst = 0;
+  for (const StudyRow& row : table.rows)
+    if (row.exit_code != 0) worst = std::max(worst, row.exit_code == 4 ? 4 : 3);
+  return worst;
+}
 
 StudyOutcome run_study(const StudyOptions& options) { return StudyInRun(options).outcome(); }
 

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "io/folder_lock.hpp"
 #include "src/study.hpp"
 
 namespace brio {
@@ -16,8 +18,9 @@ namespace brio {
 struct StudyRow {
   StudyRun run;
   int exit_code = 0;
-  std::string message;  ///< why it failed
-  bool reused = false;  ///< the result of an earlier call was still good
+  std::string message;   ///< why it failed
+  bool has_run = false;  ///< in this call or an earlier one
+  bool reused = false;   ///< the result of an earlier call was still good
   bool is_reference = false;
   double processor_s = 0, wall_s = 0, peak_memory_mb = 0;
   double steps = 0;
@@ -57,10 +60,15 @@ struct StudyOptions {
 struct StudyOutcome {
   StudyTable table;
   std::filesystem::path folder;
-  bool complete = true;  ///< false where it was stopped
+  std::shared_ptr<const FolderLock> lock;  ///< of the folder, for what is still to be written there
+
+  /// 0, or that of a run that failed: 4 where the file system did, else 3.
+  int exit_code() const;
 };
 
-/// Runs what has not been run with this program and these settings before. \throws DeckError, FileError
+/// Runs what has not been run with this program and these settings before. An earlier result is taken where
+/// its record, its summary and every checksum of it are as they should be; else the run is made again. One
+/// that fails does not keep the others from being run. \throws DeckError, FileError
 StudyOutcome run_study(const StudyOptions& options);
 
 }  // namespace brio

@@ -16,10 +16,10 @@ using Point3 = std::array<double, 3>;
 using Place3 = std::array<int, 3>;  // of the grid on a cube with m elements an edge
 
 /// Share of the radius at which the corners of the core lie, by the share of the elements that are layers.
-double core_radius_share(int across, int layers) { return 1 - 0.8 * (2.0 * layers / across); }
+double ball_core_radius_share(int across, int layers) { return 1 - 0.8 * (2.0 * layers / across); }
 /// How far the sides of the core lean from the cube towards the sphere: with 0.45 the corners of the core and
 /// those of the layers around them are about equally far from right angles.
-constexpr double core_bulge = 0.45;
+constexpr double ball_core_bulge = 0.45;
 
 /// Unit vector towards a point of the surface of the cube [-1, 1]^3, equally spaced in angle along each side.
 Point3 direction_of_cube(const Point3& p) {
@@ -162,7 +162,7 @@ Mesh sphere_mesh(double radius, int across, bool keep_volume) {
   if (layers == 0) {
     add_core(mesh, m, radius, 1, true);
   } else {
-    add_core(mesh, m, core_radius_share(across, layers) * radius, core_bulge, false);
+    add_core(mesh, m, ball_core_radius_share(across, layers) * radius, ball_core_bulge, false);
     add_layers(mesh, m, layers, radius);
   }
   add_sets(mesh);

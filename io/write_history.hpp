@@ -19,6 +19,9 @@ void append_history(Hdf5File& file, const History& history);
 /// \throws FileError
 void create_history_csv(const std::filesystem::path& path, const std::vector<std::string>& columns);
 /// \throws FileError; the table then ends with the last row before.
-void append_history_csv(const std::filesystem::path& path, const History& history);
+void append_history_csv(const std::filesystem::path& path, const History& history, bool sync = false);
+
+/// A field of a CSV file, quoted where it must be (RFC 4180).
+std::string csv_field(const std::string& text);
 
 }  // namespace brio

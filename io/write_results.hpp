@@ -8,15 +8,21 @@
 /// Every call opens, appends and closes, so that a running job can be looked at; a process that is killed at
 /// any moment leaves files that read up to the last complete dump, and a full disk takes back only the dump
 /// that did not fit. The results of an earlier run under the same name stay until the first dump of the new
-/// run is complete; until then the new files end in `.partial`. Other files of the folder are not touched.
+/// run is complete, and are then moved to the folder NAME.previous beside this one, or removed if that was
+/// asked for; until then the new files end in `.partial`. Other files of the folder are not touched. A folder
+/// in which another process writes is refused.
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "io/file_error.hpp"
+#include "io/folder_lock.hpp"
 #include "io/write_vtkhdf.hpp"
 #include "io/write_xdmf.hpp"
+#include "src/deck.hpp"
 #include "src/history.hpp"
 #include "src/snapshot.hpp"
 #include "src/summary.hpp"
@@ -33,13 +39,21 @@ struct RunRecord {
   int threads = 1;
 };
 
+struct ResultSettings {
+  int compression = 0;  ///< gzip level of points and fields; 0 is about ten times faster
+  Sync sync = Sync::never;
+  bool overwrite = false;  ///< whether results of an earlier run are removed, not moved aside
+  /// Called when results of an earlier run were moved aside. \param lost whether others, which had been moved
+  /// aside before, were removed for them.
+  std::function<void(const std::filesystem::path& to, bool lost)> moved_aside{};
+};
+
 class ResultWriter {
  public:
   /// Makes the folder and the files under their `.partial` names, so that a folder that cannot be written is
-  /// known before anything is computed. \param compression gzip level of points and fields; 0, the default,
-  /// is about ten times faster. \throws FileError
+  /// known before anything is computed. Copies of a writer hold the folder together. \throws FileError
   ResultWriter(std::filesystem::path folder, const std::string& name, const RunRecord& record,
-               const std::vector<std::string>& history_columns, int compression = 0);
+               const std::vector<std::string>& history_columns, ResultSettings settings = {});
 
   /// Append a dump. \throws FileError; dumps before stay readable.
   void write(const Snapshot& snapshot);
@@ -47,7 +61,7 @@ class ResultWriter {
   /// Append the pending rows to the result file and the CSV file, and clear them. \throws FileError
   void write(History& history);
 
-  /// \throws FileError
+  /// The end of the run. \throws FileError
   void write(const Summary& summary) const;
 
   std::filesystem::path vtkhdf() const { return path(".vtkhdf"); }
@@ -60,9 +74,14 @@ class ResultWriter {
   /// Where the file grows at present.
   std::filesystem::path current(const char* ending) const;
   void publish();
+  void remove_earlier() const;
+  void move_earlier_aside() const;
+  bool sync_each_time() const { return settings_.sync == Sync::dumps; }
 
   std::filesystem::path folder_;
   std::string name_;
+  ResultSettings settings_;
+  std::shared_ptr<const FolderLock> lock_;
   bool published_ = false;
   VtkhdfWriter dumps_;
   XdmfWriter xdmf_;

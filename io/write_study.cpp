@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/text_file.hpp"
+#include "io/write_history.hpp"
 
 namespace brio {
 
@@ -17,23 +18,15 @@ std::string percent(double share) {
 }
 std::string figure(double value) { return std::isfinite(value) ? fmt::format("{:.5g}", value) : "-"; }
 
-// A field of a CSV file; quoted where it must be.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 std::string csv(const StudyTable& table) {
   std::string text = "run,knob,setting,exit_code,processor_s,wall_s,peak_memory_mb,steps,error";
   for (const Quantity& quantity : table.study.quantities)
-    text += fmt::format(",{0},{0}_error", field(quantity.name));
+    text += fmt::format(",{},{}", csv_field(quantity.name), csv_field(quantity.name + "_error"));
   text += ",on_front,beats_default\n";
   for (const StudyRow& row : table.rows) {
-    text += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.0f},{:.6g}", field(row.run.name),
-                        field(row.run.knob), field(row.run.label), row.exit_code, row.processor_s, row.wall_s,
-                        row.peak_memory_mb, row.steps, row.error);
+    text += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.0f},{:.6g}", csv_field(row.run.name),
+                        csv_field(row.run.knob), csv_field(row.run.label), row.exit_code, row.processor_s,
+                        row.wall_s, row.peak_memory_mb, row.steps, row.error);
     for (std::size_t q = 0; q < row.figures.size(); ++q)
       text += fmt::format(",{:.9g},{:.6g}", row.figures[q], row.errors[q]);
     text += fmt::format(",{:d},{:d}\n", row.on_front, row.beats_default);
@@ -43,7 +36,9 @@ std::string csv(const StudyTable& table) {
 
 std::string remarks(const StudyTable& table, const StudyRow& row) {
   std::vector<std::string> remarks;
-  if (row.exit_code != 0) {
+  if (!row.has_run) {
+    remarks.emplace_back("not run");
+  } else if (row.exit_code != 0) {
     remarks.push_back(fmt::format("ended with {}: {}", row.exit_code, row.message));
   } else if (!row.message.empty()) {
     remarks.push_back("not measured: " + row.message);

@@ -90,8 +90,8 @@ std::string summary_json(const Summary& summary) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void write_summary(const std::filesystem::path& path, const Summary& summary) {
-  replace_text_file(path, {summary_json(summary)});
+void write_summary(const std::filesystem::path& path, const Summary& summary, bool sync) {
+  replace_text_file(path, {summary_json(summary)}, sync);
 }
 
 }  // namespace brio

@@ -12,6 +12,6 @@ namespace brio {
 std::string summary_json(const Summary& summary);
 
 /// \throws FileError; a summary that was there is then untouched.
-void write_summary(const std::filesystem::path& path, const Summary& summary);
+void write_summary(const std::filesystem::path& path, const Summary& summary, bool sync = false);
 
 }  // namespace brio

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <utility>
 
+#include "io/checksum.hpp"
+#include "io/dump_checksums.hpp"
 #include "io/hdf5_file.hpp"
 
 namespace brio {
@@ -241,6 +243,9 @@ StoredDump VtkhdfWriter::append(Hdf5File& file, const Snapshot& snapshot) {
   append_number(file, steps + "/PointOffsets", point_row);
   append_number(file, steps + "/CellOffsets", next.cell_row);
   append_number(file, steps + "/ConnectivityIdOffsets", next.connectivity_row);
+  std::vector<AppendedRows> rows = file.appended();
+  rows.push_back({steps + "/Values", next.steps, 1, checksum(&snapshot.time, sizeof snapshot.time)});
+  append_dump_checksums(file, next.steps, rows);
   file.commit();
   ++next.steps;
   file.write_attribute(steps, "NSteps", next.steps);

@@ -92,8 +92,8 @@ void XdmfWriter::append(const StoredDump& dump) {
   steps_ += "</Grid>\n";
 }
 
-void XdmfWriter::write(const std::filesystem::path& path) const {
-  replace_text_file(path, {head, steps_, tail});
+void XdmfWriter::write(const std::filesystem::path& path, bool sync) const {
+  replace_text_file(path, {head, steps_, tail}, sync);
 }
 
 }  // namespace brio

@@ -20,7 +20,7 @@ class XdmfWriter {
 
   /// Write all dumps so far to a temporary name beside `path` and rename it: a reader sees the old text or
   /// the new. \throws FileError
-  void write(const std::filesystem::path& path) const;
+  void write(const std::filesystem::path& path, bool sync = false) const;
 
  private:
   std::string slab(const StoredArray& array) const;

@@ -9,6 +9,9 @@ namespace {
 
 using NodePointer = std::shared_ptr<const YamlNode>;
 
+/// More than a deck is deep: what works it in calls itself once a key.
+constexpr std::size_t deepest_path = 64;
+
 /// A key path and what is set there, as `--set` names them.
 struct Override {
   Place place;
@@ -18,7 +21,9 @@ struct Override {
 
 Override parse_override(const std::string& setting) {
   Override result;
-  const std::string name = "--set " + setting;
+  constexpr std::size_t longest = 200;
+  const std::string name =
+      "--set " + (setting.size() > longest ? setting.substr(0, longest) + "..." : setting);
   result.place = {std::make_shared<const std::string>(name), 0, 0};
   const std::size_t equals = setting.find('=');
   if (equals == std::string::npos || equals == 0)
@@ -29,6 +34,10 @@ Override parse_override(const std::string& setting) {
     result.path.push_back(setting.substr(start, end - start));
     start = end + 1;
   }
+  if (result.path.size() > deepest_path)
+    throw DeckError(result.place, "a path of " + std::to_string(result.path.size()) +
+                                      " keys leads nowhere in a deck; at most " +
+                                      std::to_string(deepest_path) + " are accepted");
   result.value = parse_yaml(setting.substr(equals + 1), name, true);
   return result;
 }

@@ -13,6 +13,8 @@
 #include <sstream>
 #include <unordered_set>
 
+#include "io/utf8.hpp"
+
 namespace brio {
 
 namespace {
@@ -45,6 +47,9 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     check_tag(mark, tag);
+    for (std::size_t i = 0; i < value.size(); i += utf8_length(value, i))  // escapes can say any character
+      if (utf8_length(value, i) == 0 || is_control(value, i))
+        throw DeckError(place_of(mark), "the text holds a control character; text without them is accepted");
     auto node = std::make_shared<YamlNode>();
     node->kind = YamlNode::Kind::scalar;
     node->place = place_of(mark);
@@ -137,11 +142,13 @@ class TreeBuilder : public YAML::EventHandler {
     if (found == map.entries.end()) return;
     const YamlEntry merged = *found;
     map.entries.erase(found);
+    std::unordered_set<std::string> named;
+    for (const YamlEntry& entry : map.entries) named.insert(entry.key);
     const auto add = [&](const YamlNode& other) {
       if (!other.is_map())
         throw DeckError(merged.place, "'<<' takes a map or a list of maps, not " + describe(other));
       for (const YamlEntry& entry : other.entries)
-        if (map.find(entry.key) == nullptr) map.entries.push_back(entry);
+        if (named.insert(entry.key).second) map.entries.push_back(entry);
     };
     if (merged.value->is_sequence()) {
       for (const NodePointer& item : merged.value->items) add(*item);
@@ -157,27 +164,12 @@ class TreeBuilder : public YAML::EventHandler {
   std::map<YAML::anchor_t, NodePointer> anchored_;
 };
 
-/// Bytes of the UTF-8 sequence that starts at `text[i]`, or 0 if it is not one.
-std::size_t utf8_length(const std::string& text, std::size_t i) {
-  const auto lead = static_cast<unsigned char>(text[i]);
-  const std::size_t length = lead < 0x80       ? 1
-                             : lead >> 5 == 6  ? 2
-                             : lead >> 4 == 14 ? 3
-                             : lead >> 3 == 30 ? 4
-                                               : 0;
-  if (length == 0 || i + length > text.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k)
-    if ((static_cast<unsigned char>(text[i + k]) & 0xC0) != 0x80) return 0;
-  return length;
-}
-
 void check_is_text(const std::string& text, const TreeBuilder& builder) {
   YAML::Mark mark;
   for (std::size_t i = 0; i < text.size();) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const std::size_t length = utf8_length(text, i);
-    const bool control = (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7F;
-    if (length == 0 || control)
+    if (length == 0 || is_control(text, i))
       throw DeckError(builder.place_of(mark), "not a text file; a deck is YAML in UTF-8");
     i += length;
     ++mark.column;
@@ -231,6 +223,9 @@ std::string describe(const YamlNode& node) {
 }
 
 std::string read_text_file(const std::string& path) {
+  if (!is_printable(std::filesystem::path(path).filename().string()))
+    throw DeckError(as_utf8(path) +
+                    ": the name of the file is not UTF-8 or holds control characters; results bear it");
   std::error_code failure;
   if (std::filesystem::is_directory(path, failure))
     throw DeckError(path + ": is a folder; a deck is a YAML file");

@@ -7,6 +7,7 @@
 #include "elements/bad_element.hpp"
 #include "src/build_rigid.hpp"
 #include "src/build_ties.hpp"
+#include "src/contact_thickness.hpp"
 #include "src/part_index.hpp"
 #include "src/particles.hpp"
 
@@ -24,7 +25,7 @@ namespace {
 
 const Material& law_of(const Part& part, const Deck& deck) {
   if (const Material* material = material_of(deck, part)) return *material;
-  throw BuildError("part '" + part.name + "': no material is named '" + part.material + "'");
+  throw BuildError("part '" + part.name + "': no material is named '" + part.material + "'", part.place);
 }
 
 // Elements in memory order, with nodes numbered in the order in which those elements first touch them.
@@ -61,7 +62,9 @@ std::size_t place_parts(const Deck& deck, std::span<const Mesh> meshes, const Sh
       }
     }
     for (int node : part.node)
-      if (node < 0) throw BuildError("part '" + part.name + "' has a node that belongs to no element");
+      if (node < 0)
+        throw BuildError("part '" + part.name + "' has a node that belongs to no element",
+                         deck.parts[p].place);
     connectivity.push_back(std::move(nodes));
     model.part_number.emplace(part.name, p);
     model.parts.push_back(std::move(part));
@@ -100,7 +103,7 @@ void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connecti
       model.blocks.push_back(make_block(part.name, part.element, law_of(part, deck), deck.numerics.precision,
                                         connectivity[p], part.deletion));
     } catch (const std::invalid_argument& fault) {
-      throw BuildError("part '" + part.name + "': " + fault.what());
+      throw BuildError("part '" + part.name + "': " + fault.what(), part.place);
     }
   }
 }
@@ -112,7 +115,7 @@ std::vector<double> particle_volumes(const Mesh& mesh, const PartInModel& part) 
   return volume;
 }
 
-void lump_masses(std::span<const Mesh> meshes, Model& model) {
+void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   Nodes& nodes = model.nodes;
   for (std::size_t p = 0; p < model.blocks.size(); ++p) {
     if (model.parts[p].rigid >= 0) continue;
@@ -122,9 +125,10 @@ void lump_masses(std::span<const Mesh> meshes, Model& model) {
       model.blocks[p].kernel.initialize(model.blocks[p], nodes);
     } catch (const BadElement& fault) {
       throw BuildError("element " + std::to_string(model.parts[p].element_order[fault.place]) + " of part '" +
-                       model.parts[p].name + "' " + fault.rule);
+                           model.parts[p].name + "' " + fault.rule,
+                       deck.parts[p].place);
     } catch (const std::invalid_argument& fault) {
-      throw BuildError(fault.what());
+      throw BuildError(fault.what(), deck.parts[p].place);
     }
   }
   for (PartInModel& part : model.parts) {
@@ -140,14 +144,15 @@ void lump_masses(std::span<const Mesh> meshes, Model& model) {
   }
 }
 
-Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record) {
+Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record, const std::string& place) {
   Vector arm{};
   for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - radial.point[i];
   const double along = dot(arm, radial.axis) / dot(radial.axis, radial.axis);
   for (std::size_t i = 0; i < 3; ++i) arm[i] -= along * radial.axis[i];
   const double distance = std::sqrt(dot(arm, arm));
   if (!(distance > 0))
-    throw BuildError("a node on the axis of 'radial' in initial_conditions has no direction to move in");
+    throw BuildError("a node on the axis of 'radial' in initial_conditions has no direction to move in",
+                     place);
   for (double& component : arm) component *= radial.speed / distance;
   return arm;
 }
@@ -155,7 +160,7 @@ Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record) {
 void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   for (const InitialCondition& condition : deck.initial_conditions) {
     std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
-    take_rigid(nodes, model);
+    take_rigid(nodes, condition.where, model);
     for (int entry : nodes) {
       const auto node = static_cast<std::size_t>(entry);
       NodeRecord& record = model.nodes.record[node];
@@ -168,15 +173,17 @@ void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, Mode
           for (std::size_t i = 0; i < 3; ++i)
             model.nodes.angular_velocity[node].component[i] = condition.spin->angular_velocity[i];
       }
-      if (condition.radial) add_to(velocity, radial_velocity(*condition.radial, record));
+      if (condition.radial)
+        add_to(velocity, radial_velocity(*condition.radial, record, condition.where.place));
       for (std::size_t i = 0; i < 3; ++i) record.velocity[i] = velocity[i];
     }
   }
 }
 
-Vector unit(const Triple& direction) {
+Vector unit_normal(const RigidWall& wall) {
+  const Triple& direction = wall.normal;
   const double size = std::sqrt(dot(direction, direction));
-  if (!(size > 0)) throw BuildError("a rigid wall has a normal without length");
+  if (!(size > 0)) throw BuildError("a rigid wall has a normal without length", wall.place);
   return {direction[0] / size, direction[1] / size, direction[2] / size};
 }
 
@@ -184,12 +191,12 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   for (const BoundaryCondition& condition : deck.boundary_conditions) {
     if (const auto* wall = std::get_if<RigidWall>(&condition)) {
       model.walls.push_back({*wall});
-      model.walls.back().wall.normal = unit(wall->normal);
+      model.walls.back().wall.normal = unit_normal(*wall);
       continue;
     }
     const auto& motion = std::get<PrescribedMotion>(condition);
     std::vector<int> nodes = select_nodes(motion.where, deck, meshes, model);
-    for (const std::size_t b : take_rigid(nodes, model))
+    for (const std::size_t b : take_rigid(nodes, motion.where, model))
       for (const PrescribedComponent& component : motion.components)
         model.rigid.body[b].given.push_back({motion.kind, component.axis, component.curve});
     if (nodes.empty()) continue;
@@ -201,8 +208,9 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   }
 }
 
-PressureLoad pressure_on(const std::string& side_set, const Curve& pressure, const Deck& deck,
-                         std::span<const Mesh> meshes, const Model& model) {
+PressureLoad pressure_on(const Pressure& load_entry, const Deck& deck, std::span<const Mesh> meshes,
+                         const Model& model) {
+  const std::string& side_set = load_entry.side_set;
   const std::size_t dot_at = side_set.find('.');
   const std::string name = side_set.substr(0, dot_at);
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
@@ -211,7 +219,7 @@ PressureLoad pressure_on(const std::string& side_set, const Curve& pressure, con
     const auto found = mesh.side_sets.find(side_set.substr(dot_at + 1));
     if (found == mesh.side_sets.end()) break;
     const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
-    PressureLoad load{{}, pressure, static_cast<int>(p), {}};
+    PressureLoad load{{}, load_entry.pressure, static_cast<int>(p), {}};
     for (const ElementSide& side : found->second) {
       std::array<int, 4> nodes{};
       for (std::size_t k = 0; k < 4; ++k) {
@@ -226,23 +234,7 @@ PressureLoad pressure_on(const std::string& side_set, const Curve& pressure, con
     }
     return load;
   }
-  throw BuildError("no side set is named '" + side_set + "'");
-}
-
-// Thickness or diameter with which each element touches; of solids nothing. A particle touches as far as half
-// its share of the lattice.
-std::vector<double> contact_thickness(const Element& element, const Mesh& mesh) {
-  if (mesh.nodes_per_element == 8) return {};
-  std::vector<double> thickness(mesh.element_count(), 0);
-  if (const auto* shell = std::get_if<Shell4>(&element))
-    std::fill(thickness.begin(), thickness.end(), shell->thickness);
-  if (const auto* rigid = std::get_if<Rigid>(&element))
-    std::fill(thickness.begin(), thickness.end(), rigid->thickness.value_or(0));
-  if (const auto* beam = std::get_if<Beam2>(&element))
-    std::fill(thickness.begin(), thickness.end(),
-              2 * beam->contact_radius.value_or(fibres_of(beam->section).radius));
-  for (std::size_t e = 0; e < mesh.volume.size(); ++e) thickness[e] = edge_of_cube(mesh.volume[e]);
-  return thickness;
+  throw BuildError("no side set is named '" + side_set + "'", load_entry.place);
 }
 
 double debris_radius(const Part& part) {
@@ -252,22 +244,24 @@ double debris_radius(const Part& part) {
 void check_debris_in_contact(const Deck& deck) {
   for (const Part& part : deck.parts)
     if (debris_radius(part) > 0 && !is_in_contact(deck, part.name))
-      throw BuildError("part '" + part.name +
-                       "' has a debris_radius but is not in contact; accepted are parts that are");
+      throw BuildError(
+          "part '" + part.name + "' has a debris_radius but is not in contact; accepted are parts that are",
+          part.place);
 }
 
 std::vector<PairRule> pair_rules(const ContactSection& contact, std::span<const SurfacePart> parts) {
-  const auto number = [&](const std::string& name) {
+  const auto number = [&](const std::string& name, const ContactPair& pair) {
     const auto found =
         std::find_if(parts.begin(), parts.end(), [&](const SurfacePart& part) { return part.name == name; });
     if (found == parts.end())
-      throw BuildError("a pair of contact names part '" + name +
-                       "', which is not in contact; accepted are parts that are");
+      throw BuildError(
+          "a pair of contact names part '" + name + "', which is not in contact; accepted are parts that are",
+          pair.place);
     return static_cast<int>(found - parts.begin());
   };
   std::vector<PairRule> rules;
   for (const ContactPair& pair : contact.pairs)
-    rules.push_back({.part = {number(pair.parts[0]), number(pair.parts[1])},
+    rules.push_back({.part = {number(pair.parts[0], pair), number(pair.parts[1], pair)},
                      .friction = pair.friction,
                      .touch = pair.touch});
   return rules;
@@ -295,7 +289,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     surfaces.push_back({.name = part.name,
                         .nodes_per_element = meshes[p].nodes_per_element,
                         .connectivity = connectivity[p],
-                        .thickness = contact_thickness(part.element, meshes[p]),
+                        .thickness = contact_thickness(part, meshes[p]),
                         .rigid = model.parts[p].rigid,
                         .debris_radius = debris_radius(part)});
   }
@@ -309,7 +303,9 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     ThreadTeam team(1);
     model.initial_overlaps = remove_initial_overlap(model.contacts.back(), model.nodes, team);
   } catch (const std::invalid_argument& fault) {
-    throw BuildError(fault.what());
+    throw BuildError(fault.what(), deck.contact->place);
+  } catch (const std::length_error& fault) {
+    throw BuildError(fault.what(), deck.contact->place);
   }
 }
 
@@ -321,7 +317,7 @@ void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
       model.loads.push_back(
           {NodalLoad{select_nodes(force->where, deck, meshes, model), force->force, force->factor}, {}});
     if (const auto* pressure = std::get_if<Pressure>(&entry))
-      model.loads.push_back({pressure_on(pressure->side_set, pressure->pressure, deck, meshes, model), {}});
+      model.loads.push_back({pressure_on(*pressure, deck, meshes, model), {}});
   }
 }
 
@@ -358,7 +354,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   constrain(deck, meshes, model);
   make_ties(deck, meshes, connectivity, model);
   make_contact(deck, meshes, connectivity, model);
-  lump_masses(meshes, model);
+  lump_masses(deck, meshes, model);
   if (!model.ties.empty()) condense(model.ties, model.nodes);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (model.blocks[b].cloud && model.blocks[b].cloud->is_eulerian())

@@ -18,7 +18,7 @@ constexpr double touching_share = 1e-9;
 double density_of(const Part& part, const Deck& deck) {
   for (const auto& [name, material] : deck.materials)
     if (name == part.material) return std::visit([](const auto& law) { return law.density; }, material);
-  throw BuildError("part '" + part.name + "': no material is named '" + part.material + "'");
+  throw BuildError("part '" + part.name + "': no material is named '" + part.material + "'", part.place);
 }
 
 MassProperties mass_of(const Part& part, const Rigid& rigid, const Mesh& mesh, const Deck& deck) {
@@ -26,7 +26,7 @@ MassProperties mass_of(const Part& part, const Rigid& rigid, const Mesh& mesh, c
   try {
     properties = mass_properties(mesh, density_of(part, deck), rigid.thickness.value_or(0));
   } catch (const std::invalid_argument& fault) {
-    throw BuildError("part '" + part.name + "': " + fault.what());
+    throw BuildError("part '" + part.name + "': " + fault.what(), part.place);
   }
   if (rigid.mass) {
     properties.inertia *= *rigid.mass / properties.mass;
@@ -72,7 +72,8 @@ void check_walls(Model& model) {
       const double height = height_above(wall, body, model.nodes);
       if (height < -touching_share * size_of(body))
         throw BuildError("rigid part '" + model.parts[body.part].name + "' begins behind a rigid wall by " +
-                         std::to_string(-height));
+                             std::to_string(-height),
+                         wall.wall.place);
     }
 }
 
@@ -86,10 +87,11 @@ void make_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& mo
   }
   model.rigid.motion.resize(model.rigid.body.size());
   if (!model.rigid.empty() && model.rigid.body.size() == deck.parts.size() && !deck.time.step)
-    throw BuildError("all parts are rigid, so that no element bounds the step; time.step is required");
+    throw BuildError("all parts are rigid, so that no element bounds the step; time.step is required",
+                     deck.time.place);
 }
 
-std::vector<std::size_t> take_rigid(std::vector<int>& nodes, const Model& model) {
+std::vector<std::size_t> take_rigid(std::vector<int>& nodes, const NodeSelection& where, const Model& model) {
   std::vector<std::size_t> bodies;
   for (std::size_t b = 0; b < model.rigid.body.size(); ++b) {
     const RigidBody& body = model.rigid.body[b];
@@ -100,7 +102,8 @@ std::vector<std::size_t> take_rigid(std::vector<int>& nodes, const Model& model)
     if (named == 0) continue;
     if (named < body.node.size())
       throw BuildError("a condition names some nodes of the rigid part '" + model.parts[body.part].name +
-                       "', which moves as a whole; accepted: all of them, by the name of the part");
+                           "', which moves as a whole; accepted: all of them, by the name of the part",
+                       where.place);
     nodes = std::move(left);
     bodies.push_back(b);
   }
@@ -112,12 +115,13 @@ void start_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& m
   std::vector<RigidMotion>& motion = model.rigid.motion;
   for (const InitialCondition& condition : deck.initial_conditions) {
     std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
-    for (const std::size_t b : take_rigid(nodes, model)) {
+    for (const std::size_t b : take_rigid(nodes, condition.where, model)) {
       motion[b].velocity = Vector3d(condition.velocity.data());
       if (condition.radial)
         throw BuildError(
             "'radial' in initial_conditions names nodes of a rigid part, which moves as a whole; "
-            "accepted for it: velocity, spin");
+            "accepted for it: velocity, spin",
+            condition.where.place);
       if (!condition.spin) continue;
       motion[b].angular_velocity = Vector3d(condition.spin->angular_velocity.data());
       motion[b].velocity += motion[b].angular_velocity.cross(model.rigid.body[b].centre -

@@ -15,7 +15,7 @@ void make_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& mo
 
 /// Bodies whose nodes are all among `nodes` (ascending), which lose them.
 /// \throws BuildError where some nodes of a body are named and others not: it moves as a whole.
-std::vector<std::size_t> take_rigid(std::vector<int>& nodes, const Model& model);
+std::vector<std::size_t> take_rigid(std::vector<int>& nodes, const NodeSelection& where, const Model& model);
 
 /// Set the bodies going, with what initial conditions say of them.
 void start_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& model);

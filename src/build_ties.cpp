@@ -128,6 +128,7 @@ class Tying {
     const Holder holder = holder_of(part_index(entry.names[1], deck_), deck_, meshes_, connectivity_, model_);
     NodeSelection named;
     named.set = entry.names[0];
+    named.place = entry.place;
     std::vector<int> slaves = select_nodes(named, deck_, meshes_, model_);
     std::vector<int> own = model_.parts[holder.part].node;
     std::sort(own.begin(), own.end());

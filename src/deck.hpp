@@ -56,6 +56,7 @@ struct Part {
   Element element;
   std::string material;
   std::optional<Deletion> deletion{};
+  std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(required("mesh", &Part::mesh, any_number, "shape and number of elements"),
                        optional("placement", &Part::placement, any_number, "where the shape is put"),
@@ -116,7 +117,8 @@ using Region = std::variant<std::monostate, BoxRegion, PlaneRegion, SphereRegion
 struct NodeSelection {
   std::string set;  ///< "part.set" or "part"
   Region region;
-  std::string part;  ///< limits a region; empty: all parts
+  std::string part;     ///< limits a region; empty: all parts
+  std::string place{};  ///< in the deck
 };
 
 // ---- when: curves
@@ -200,6 +202,7 @@ struct RigidWall {
   Triple normal{};
   Triple velocity{};
   double friction = 0;
+  std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(required("point", &RigidWall::point, any_number, "a point of the plane at the start"),
                        required("normal", &RigidWall::normal, any_number, "points into the free side"),
@@ -247,6 +250,7 @@ struct Pressure {
   static constexpr std::string_view meaning = "pressure on sides of elements";
   std::string side_set;  ///< "part.set"
   Curve pressure;
+  std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(
         required("side_set", &Pressure::side_set, any_number, "sides of elements that are pushed, part.set"),
@@ -300,6 +304,7 @@ struct ContactPair {
   std::vector<std::string> parts;  ///< two
   std::optional<double> friction{};
   bool touch = true;
+  std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(optional("friction", &ContactPair::friction, non_negative,
                                 "Coulomb coefficient between the two in place of that of all, -"),
@@ -317,12 +322,14 @@ struct ContactSection {
   std::vector<std::string> exclude;
   std::vector<ContactPair> pairs;
   ContactOptions options;
+  std::string place{};  ///< in the deck
 };
 
 /// Elements whose stable step is too short get as much mass as makes it long enough, whenever it falls.
 struct MassScaling {
   double step = 0;
   double largest_share = 0.05;
+  std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(
         required("step", &MassScaling::step, positive,
@@ -338,6 +345,7 @@ struct TimeSection {
   std::optional<double> step;
   double step_growth = 1.05;
   std::optional<MassScaling> mass_scaling{};
+  std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(
         required("end", &TimeSection::end, positive, "time at which the run ends"),
@@ -387,13 +395,23 @@ struct HistoryOutput {
                  "a map of names to nodes whose displacement and velocity are written as well"));
   }
 };
+/// When results are brought from the memory of the system to the disk.
+enum class Sync { never, end, dumps };
+constexpr std::array<NamedValue<Sync>, 3> named_values(Sync) {
+  return {{{"never", Sync::never}, {"end", Sync::end}, {"dumps", Sync::dumps}}};
+}
+
 struct OutputSection {
   FieldOutput fields_;
   HistoryOutput history;
+  Sync sync = Sync::end;
   static constexpr auto fields() {
     return field_table(
         optional("fields", &OutputSection::fields_, any_number, "when fields are written"),
-        optional("history", &OutputSection::history, any_number, "when energies and momenta are written"));
+        optional("history", &OutputSection::history, any_number, "when energies and momenta are written"),
+        optional("sync", &OutputSection::sync, any_number,
+                 "when results are forced to the disk (fsync), so that they outlive a crash of the machine: "
+                 "at the end of the run, at every dump, or never"));
   }
 };
 

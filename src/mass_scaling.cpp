@@ -47,18 +47,21 @@ AddedMass make_mass_scaling(const TimeSection& time, const Deck& deck, std::span
   AddedMass mass{.settings = *time.mass_scaling, .added = std::vector<double>(parts.size())};
   for (const Connection& connection : deck.connections)
     if (std::holds_alternative<TieToSurface>(connection))
-      throw BuildError("time.mass_scaling does not go with 'tie' in connections: held nodes lend their mass");
+      throw BuildError("time.mass_scaling does not go with 'tie' in connections: held nodes lend their mass",
+                       mass.settings.place);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Block& block = blocks[parts[p].block];
     if (!can_be_scaled(block.element)) continue;
     if (block.deletion.volume_ratio)
       throw BuildError("deletion.volume_ratio of part '" + parts[p].name +
-                       "' is judged by mass and does not go with time.mass_scaling");
+                           "' is judged by mass and does not go with time.mass_scaling",
+                       deck.parts[p].place);
     mass.elements += parts[p].mass;
     scale_to(mass.settings.step / time.step_scale, block);
   }
   if (mass.elements == 0)
-    throw BuildError("time.mass_scaling has nothing to act on: particles and rigid parts get no mass");
+    throw BuildError("time.mass_scaling has nothing to act on: particles and rigid parts get no mass",
+                     mass.settings.place);
   return mass;
 }
 

@@ -2,6 +2,7 @@
 /// Memory of this process, as the system tells it: Linux with the GNU C library. Elsewhere everything is 0.
 
 #include <cstddef>
+#include <filesystem>
 
 namespace brio {
 
@@ -20,6 +21,11 @@ std::size_t bytes_held(const T& object) {
 double resident_memory_mb();
 /// The most that was resident since the process began, or since the last MemoryWatch was made.
 double peak_resident_memory_mb();
+
+/// What this process can still take: what the machine has left, swap included, but no more than its control
+/// groups (versions 1 and 2) and the limit of its address space leave. Infinite where the system does not
+/// say. \param system root of the files that say it
+double available_memory_mb(const std::filesystem::path& system = "/");
 
 /// What a process that does nothing else takes at most from now on: made before a scene is built, asked when
 /// it has been.

@@ -23,7 +23,8 @@ class OutputSchedule {
     const double slack = 1e-9 * interval_;
     if (time + slack < next_) return false;
     if (interval_ > 0) {
-      next_ = interval_ * (std::floor((time + slack) / interval_) + 1);
+      const double passed = std::floor((time + slack) / interval_);
+      next_ = std::isfinite(passed) ? interval_ * (passed + 1) : time;  // intervals too short to be counted
     } else {
       while (index_ < times_.size() && times_[index_] <= time) ++index_;
       next_ = index_ < times_.size() ? times_[index_] : HUGE_VAL;

@@ -85,7 +85,7 @@ Quaterniond turn_by(const Vector3d& v) {
 constexpr int most_iterations = 50;
 // Newton's method doubles the digits: after a change below this share the next would be rounding.
 constexpr double newton_share = 1e-9;
-constexpr double converged_share = 1e-15;
+constexpr double converged_change = 1e-15;
 
 // Midpoint rule for the angular momentum m in the body's frame, m' = m x (J^-1 m).
 Quaterniond free_turn(const RigidBody& body, double step) {
@@ -119,7 +119,7 @@ Vector3d given_turn(RigidBody& body, RigidMotion& motion, double step) {
     const Vector3d next = angular_velocity_of(motion, body.angular_momentum, start);
     const double change = (next - end).norm();
     end = next;
-    if (change <= converged_share * start.norm()) {
+    if (change <= converged_change * start.norm()) {
       Vector3d added = motion.inertia * end - body.angular_momentum;
       body.angular_momentum += added;
       return added;

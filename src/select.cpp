@@ -25,7 +25,9 @@ bool inside(const SphereRegion& sphere, const Vector& x) {
   return distance <= sphere.radius * sphere.radius;
 }
 
-BuildError no_part(const std::string& name) { return BuildError("no part is named '" + name + "'"); }
+BuildError no_part(const std::string& name, const std::string& place = {}) {
+  return BuildError("no part is named '" + name + "'", place);
+}
 
 }  // namespace
 
@@ -48,7 +50,7 @@ std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std:
     const std::size_t dot_at = where.set.find('.');
     const std::string name = where.set.substr(0, dot_at);
     const auto numbered = model.part_number.find(name);
-    if (numbered == model.part_number.end()) throw no_part(name);
+    if (numbered == model.part_number.end()) throw no_part(name, where.place);
     const std::size_t part = numbered->second;
     const std::string set = dot_at == std::string::npos ? "all" : where.set.substr(dot_at + 1);
     if (set == "all") {
@@ -56,7 +58,7 @@ std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std:
     } else {
       const auto found = meshes[part].node_sets.find(set);
       if (found == meshes[part].node_sets.end())
-        throw BuildError("part '" + deck.parts[part].name + "' has no set '" + set + "'");
+        throw BuildError("part '" + deck.parts[part].name + "' has no set '" + set + "'", where.place);
       for (int node : found->second) chosen.push_back(model.parts[part].node[static_cast<std::size_t>(node)]);
     }
   } else {
@@ -69,7 +71,7 @@ std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std:
       }
     }
   }
-  if (chosen.empty()) throw BuildError("a condition or load selects no node");
+  if (chosen.empty()) throw BuildError("a condition or load selects no node", where.place);
   std::sort(chosen.begin(), chosen.end());
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());  // parts can share nodes
   return chosen;

@@ -139,8 +139,9 @@ struct Study {
         optional(
             "refined", &Study::refined, any_number,
             "a knob whose settings halve the mesh size one after the other: orders of convergence are told"),
-        optional("threads", &Study::threads, at_least_one, "of each run"),
-        optional("repeats", &Study::repeats, at_least_one, "of each run; the cheapest counts"));
+        optional("threads", &Study::threads, Range{.lower = 1, .upper = 1024}, "of each run"),
+        optional("repeats", &Study::repeats, Range{.lower = 1, .upper = 1000},
+                 "of each run; the cheapest counts"));
   }
 };
 

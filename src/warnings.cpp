@@ -16,6 +16,7 @@ namespace {
 
 using Warnings = std::vector<SceneWarning>;
 using Shapes = std::vector<PartShape>;
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
 std::string number(double value) {
   std::ostringstream text;
@@ -59,6 +60,54 @@ bool boxes_meet(const PartShape& a, const PartShape& b, double margin, double be
   return begin < end;
 }
 
+// Pairs of parts whose boxes, each grown by the longest edge of all, may meet while they keep their
+// velocities: those whose boxes over the whole time overlap, found along the axis that tells most of them
+// apart.
+Pairs pairs_near(const Shapes& shapes, double end) {
+  struct Swept {
+    Vector lower, upper;
+    std::size_t part;
+  };
+  double margin = 0;
+  for (const PartShape& shape : shapes) margin = std::max(margin, shape.edge);
+  std::vector<Swept> swept;
+  for (std::size_t p = 0; p < shapes.size(); ++p) {
+    Swept& box = swept.emplace_back(Swept{shapes[p].lower, shapes[p].upper, p});
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double way = shapes[p].velocity[i] * end;
+      box.lower[i] += std::min(0.0, way) - margin;
+      box.upper[i] += std::max(0.0, way) + margin;
+      if (!(box.lower[i] <= box.upper[i])) box.lower[i] = -HUGE_VAL, box.upper[i] = HUGE_VAL;  // not numbers
+    }
+  }
+  std::size_t axis = 0;
+  double most = -1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double least = HUGE_VAL, largest = -HUGE_VAL, length = 0;
+    for (const Swept& box : swept) {
+      least = std::min(least, box.lower[i]);
+      largest = std::max(largest, box.upper[i]);
+      length += box.upper[i] - box.lower[i];
+    }
+    const double apart = (largest - least) / length;
+    if (apart > most) most = apart, axis = i;
+  }
+  std::sort(swept.begin(), swept.end(), [axis](const Swept& a, const Swept& b) {
+    return std::pair(a.lower[axis], a.part) < std::pair(b.lower[axis], b.part);
+  });
+  Pairs pairs;
+  for (std::size_t a = 0; a < swept.size(); ++a)
+    for (std::size_t b = a + 1; b < swept.size() && !(swept[b].lower[axis] > swept[a].upper[axis]); ++b) {
+      bool overlap = true;
+      for (std::size_t i = 0; i < 3; ++i)
+        overlap =
+            overlap && !(swept[b].lower[i] > swept[a].upper[i] || swept[b].upper[i] < swept[a].lower[i]);
+      if (overlap) pairs.push_back(std::minmax(swept[a].part, swept[b].part));
+    }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 void warn_of_thin_bending(const Deck& deck, const Model& model, const Shapes& shapes, Warnings& warnings) {
   constexpr double slender = 8;  // extent over thickness
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
@@ -83,23 +132,21 @@ void warn_of_thin_bending(const Deck& deck, const Model& model, const Shapes& sh
   }
 }
 
-void warn_of_meshes_in_contact(const Deck& deck, const Model& model, const Shapes& shapes,
+void warn_of_meshes_in_contact(const Deck& deck, const Model& model, const Shapes& shapes, const Pairs& near,
                                Warnings& warnings) {
   constexpr double largest_ratio = 4;
-  for (std::size_t a = 0; a < shapes.size(); ++a)
-    for (std::size_t b = a + 1; b < shapes.size(); ++b) {
-      const double ratio =
-          std::max(shapes[a].edge, shapes[b].edge) / std::min(shapes[a].edge, shapes[b].edge);
-      if (!(ratio > largest_ratio) || !may_touch(deck, deck.parts[a].name, deck.parts[b].name)) continue;
-      if (are_joined(model, deck.parts[a].name, deck.parts[b].name)) continue;
-      const double margin = std::max(shapes[a].edge, shapes[b].edge);
-      if (!boxes_meet(shapes[a], shapes[b], margin, 0, deck.time.end)) continue;
-      const std::size_t coarse = shapes[a].edge > shapes[b].edge ? a : b;
-      warnings.push_back({"part '" + deck.parts[coarse].name + "'",
-                          "its elements are " + number(ratio) + " times as long as those of part '" +
-                              deck.parts[a + b - coarse].name + "', which it may meet",
-                          "a mesh up to " + number(largest_ratio) + " times as coarse"});
-    }
+  for (const auto& [a, b] : near) {
+    const double ratio = std::max(shapes[a].edge, shapes[b].edge) / std::min(shapes[a].edge, shapes[b].edge);
+    if (!(ratio > largest_ratio) || !may_touch(deck, deck.parts[a].name, deck.parts[b].name)) continue;
+    if (are_joined(model, deck.parts[a].name, deck.parts[b].name)) continue;
+    const double margin = std::max(shapes[a].edge, shapes[b].edge);
+    if (!boxes_meet(shapes[a], shapes[b], margin, 0, deck.time.end)) continue;
+    const std::size_t coarse = shapes[a].edge > shapes[b].edge ? a : b;
+    warnings.push_back({"part '" + deck.parts[coarse].name + "'",
+                        "its elements are " + number(ratio) + " times as long as those of part '" +
+                            deck.parts[a + b - coarse].name + "', which it may meet",
+                        "a mesh up to " + number(largest_ratio) + " times as coarse"});
+  }
 }
 
 void warn_of_tiny_elements(const Deck& deck, const Model& model, const Shapes& shapes, Warnings& warnings) {
@@ -158,11 +205,14 @@ void warn_of_unused(const Deck& deck, const Model& model, Warnings& warnings) {
     if (const auto* pressure = std::get_if<PressureLoad>(&load.load))
       for (const auto& side : pressure->sides) concerned.insert(side.begin(), side.end());
   }
+  std::set<std::string> joined_parts;
+  for (const MergedParts& merged : model.merged) joined_parts.insert({merged.first, merged.second});
+  for (const TiedParts& tied : model.ties.found)
+    for (const std::string& name : {tied.nodes, tied.surface})
+      joined_parts.insert(name.substr(0, name.find('.')));
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const PartInModel& part = model.parts[p];
-    const bool joined = std::any_of(deck.parts.begin(), deck.parts.end(), [&](const Part& other) {
-      return are_joined(model, part.name, other.name);
-    });
+    const bool joined = joined_parts.contains(part.name);
     const bool moves = std::any_of(part.node.begin(), part.node.end(), [&](int node) {
       const double* v = model.nodes.record[static_cast<std::size_t>(node)].velocity;
       return v[0] != 0 || v[1] != 0 || v[2] != 0 || concerned.contains(node);
@@ -219,19 +269,19 @@ void warn_of_flowing_solids(const Deck& deck, Warnings& warnings) {
   }
 }
 
-void warn_of_missing_contact(const Deck& deck, const Model& model, const Shapes& shapes, Warnings& warnings) {
-  for (std::size_t a = 0; a < shapes.size(); ++a)
-    for (std::size_t b = a + 1; b < shapes.size(); ++b) {
-      const std::string &first = deck.parts[a].name, &second = deck.parts[b].name;
-      if (may_touch(deck, first, second) || are_joined(model, first, second)) continue;
-      const bool said = is_in_contact(deck, first) && is_in_contact(deck, second);
-      const double size = 1e-6 * std::min(shapes[a].extent(), shapes[b].extent());
-      if (said || !boxes_meet(shapes[a], shapes[b], -size, 1e-12 * deck.time.end, deck.time.end)) continue;
-      if (boxes_meet(shapes[a], shapes[b], -size, 0, 1e-12 * deck.time.end)) continue;  // as drawn
-      warnings.push_back({"parts '" + first + "' and '" + second + "'",
-                          "they move towards each other and nothing lets them touch",
-                          deck.contact ? "take them into contact.surfaces" : "contact: {surfaces: all}"});
-    }
+void warn_of_missing_contact(const Deck& deck, const Model& model, const Shapes& shapes, const Pairs& near,
+                             Warnings& warnings) {
+  for (const auto& [a, b] : near) {
+    const std::string &first = deck.parts[a].name, &second = deck.parts[b].name;
+    if (may_touch(deck, first, second) || are_joined(model, first, second)) continue;
+    const bool said = is_in_contact(deck, first) && is_in_contact(deck, second);
+    const double size = 1e-6 * std::min(shapes[a].extent(), shapes[b].extent());
+    if (said || !boxes_meet(shapes[a], shapes[b], -size, 1e-12 * deck.time.end, deck.time.end)) continue;
+    if (boxes_meet(shapes[a], shapes[b], -size, 0, 1e-12 * deck.time.end)) continue;  // as drawn
+    warnings.push_back({"parts '" + first + "' and '" + second + "'",
+                        "they move towards each other and nothing lets them touch",
+                        deck.contact ? "take them into contact.surfaces" : "contact: {surfaces: all}"});
+  }
 }
 
 void warn_of_output(const Deck& deck, const Model& model, Warnings& warnings) {
@@ -257,11 +307,12 @@ std::vector<SceneWarning> scene_warnings(const Deck& deck, const Model& model) {
   Shapes shapes;
   for (const PartInModel& part : model.parts) shapes.push_back(shape_of(model, part));
   Warnings warnings;
-  warn_of_missing_contact(deck, model, shapes, warnings);
+  const Pairs near = pairs_near(shapes, deck.time.end);
+  warn_of_missing_contact(deck, model, shapes, near, warnings);
   warn_of_unused(deck, model, warnings);
   warn_of_thin_bending(deck, model, shapes, warnings);
   warn_of_hourglass(deck, model, warnings);
-  warn_of_meshes_in_contact(deck, model, shapes, warnings);
+  warn_of_meshes_in_contact(deck, model, shapes, near, warnings);
   warn_of_tiny_elements(deck, model, shapes, warnings);
   warn_of_long_elements(deck, model, shapes, warnings);
   warn_of_flowing_solids(deck, warnings);

@@ -1,6 +1,9 @@
 #include "src/base/parallel.hpp"
 
 #include <cassert>
+#include <string>
+#include <system_error>
+#include <utility>
 
 namespace brio {
 
@@ -29,10 +32,17 @@ inline void pause_briefly() {
 ThreadTeam::ThreadTeam(int count) {
   assert(count >= 1);
   workers_.reserve(static_cast<std::size_t>(count - 1));
-  for (int i = 1; i < count; ++i) workers_.emplace_back([this] { work(); });
+  try {
+    for (int i = 1; i < count; ++i) workers_.emplace_back([this] { work(); });
+  } catch (const std::system_error& fault) {
+    stop();
+    throw std::system_error(fault.code(), "cannot start " + std::to_string(count) + " threads");
+  }
 }
 
-ThreadTeam::~ThreadTeam() {
+ThreadTeam::~ThreadTeam() { stop(); }
+
+void ThreadTeam::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -52,7 +62,12 @@ void ThreadTeam::drain(std::uint32_t loop) {
     const std::size_t task = task_of(ticket);
     if (task >= count_.load(std::memory_order_acquire)) return;
     if (!ticket_.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acquire)) continue;
-    call(context, task);
+    try {
+      call(context, task);
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      fault_ = std::current_exception();
+    }
     done_.fetch_add(1, std::memory_order_release);
     ticket = ticket_.load(std::memory_order_acquire);
   }
@@ -80,6 +95,7 @@ void ThreadTeam::run(std::size_t count, Call call, void* context) {
       std::this_thread::yield();
     }
   }
+  if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
 }
 
 void ThreadTeam::work() {

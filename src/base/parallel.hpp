@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <mutex>
 #include <thread>
 #include <type_traits>
@@ -18,6 +19,7 @@ namespace brio {
 class ThreadTeam {
  public:
   /// \param count number of threads, the caller's included; at least 1.
+  /// \throws std::system_error if the system does not give so many.
   explicit ThreadTeam(int count = 1);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -25,7 +27,8 @@ class ThreadTeam {
 
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Run `task(i)` for i in [0, count), in any order, by any thread of the team. Tasks must not throw.
+  /// Run `task(i)` for i in [0, count), in any order, by any thread of the team. If tasks throw, one of the
+  /// exceptions is thrown on when all are done.
   template <class Task>
   void for_each(std::size_t count, Task&& task) {
     if (workers_.empty() || count < 2) {
@@ -53,10 +56,12 @@ class ThreadTeam {
   void run(std::size_t count, Call call, void* context);
   void work();
   void drain(std::uint32_t loop);
+  void stop();
 
   std::vector<std::thread> workers_;
   std::mutex mutex_;
   std::condition_variable wake_;
+  std::exception_ptr fault_;  ///< of a task of the loop that runs
   /// The loop that runs (upper half) and its next task (lower half): a thread that wakes late, when others
   /// have done all tasks of its loop, takes none, and nobody waits for it.
   std::atomic<std::uint64_t> ticket_{0};

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,22 @@ TEST(ThreadTeam, RangesCoverWithoutOverlap) {
     for (std::size_t i = begin; i < end; ++i) ++touched[i];
   });
   for (int n : touched) ASSERT_EQ(n, 1);
+}
+
+TEST(ThreadTeam, ExceptionOfATaskReachesTheCallerAndTheTeamGoesOn) {
+  for (const int threads : {1, 4}) {
+    ThreadTeam team(threads);
+    for (int repeat = 0; repeat < 100; ++repeat) {
+      EXPECT_THROW(team.for_each(50,
+                                 [](std::size_t i) {
+                                   if (i % 7 == 3) throw std::bad_alloc();
+                                 }),
+                   std::bad_alloc);
+      std::vector<int> runs(50, 0);
+      team.for_each(50, [&](std::size_t i) { ++runs[i]; });
+      for (const int n : runs) ASSERT_EQ(n, 1);
+    }
+  }
 }
 
 }  // namespace

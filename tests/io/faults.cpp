@@ -13,6 +13,7 @@ namespace {
 Fault planned = Fault::none;
 int strikes_at = 0;
 int operations = 0;
+int syncs = 0;
 
 /// \return whether a write must fail for want of space.
 bool struck() {
@@ -27,9 +28,11 @@ void plan_fault(Fault fault, int at) {
   planned = fault;
   strikes_at = at;
   operations = 0;
+  syncs = 0;
 }
 
 int operations_since_plan() { return operations; }
+int syncs_since_plan() { return syncs; }
 
 }  // namespace brio::test
 
@@ -54,6 +57,16 @@ ssize_t write(int descriptor, const void* bytes, size_t size) {
 int ftruncate(int descriptor, off_t length) noexcept {
   brio::test::struck();
   return static_cast<int>(syscall(SYS_ftruncate, descriptor, length));
+}
+
+int fsync(int descriptor) {
+  ++brio::test::syncs;
+  return static_cast<int>(syscall(SYS_fsync, descriptor));
+}
+
+int fdatasync(int descriptor) {
+  ++brio::test::syncs;
+  return static_cast<int>(syscall(SYS_fdatasync, descriptor));
 }
 
 int rename(const char* from, const char* to) noexcept {

@@ -15,5 +15,7 @@ void plan_fault(Fault fault, int at);
 
 /// Operations since the last plan.
 int operations_since_plan();
+/// Calls of fsync and fdatasync.
+int syncs_since_plan();
 
 }  // namespace brio::test

@@ -369,6 +369,16 @@ TEST(BadDeckFile, SaysWhatItsFirstLineExpects) {
   EXPECT_GT(count, 30);
 }
 
+TEST(BadDeckFile, MustHaveAPart) {
+  std::string text = plain_deck;
+  const std::size_t begin = text.find("  left:"), end = text.find("initial_conditions:");
+  text.replace(begin - 1, end - begin, " {}");
+  text.resize(text.find("initial_conditions:"));
+  text += "time: {end: 1}\n";
+  EXPECT_EQ(fault_of([&] { parse_deck(text, "a.yaml"); }).substr(0, 38),
+            "a.yaml:4:8: 'parts' is empty; at least");
+}
+
 TEST(BadDeckFile, MustBeAReadableFile) {
   EXPECT_EQ(fault_of([] { read_deck("no such deck.yaml"); }),
             "no such deck.yaml: cannot be opened: No such file or directory");

@@ -100,5 +100,19 @@ TEST(DeckFuzz, AliasesThatDoubleManyTimesAreRefusedAtOnce) {
   EXPECT_TRUE(refused(text, {"title=x"}));
 }
 
+TEST(DeckFuzz, PathsOfOverridesThatGoDeepAreRefused) {
+  std::string path = "time";
+  for (int i = 0; i < 60000; ++i) path += ".a";
+  EXPECT_TRUE(refused(plain_deck, {path + "=1"}));
+}
+
+TEST(DeckFuzz, MergedMapsOfManyKeysAreReadInProportionateTime) {
+  std::ostringstream lines;
+  lines << "a: &a {";
+  for (int i = 0; i < 200000; ++i) lines << 'k' << i << ": 1, ";
+  lines << "last: 1}\nb: {<<: [*a, *a], x: 1}\n";
+  EXPECT_TRUE(refused(lines.str()));
+}
+
 }  // namespace
 }  // namespace brio

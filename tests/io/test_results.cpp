@@ -254,7 +254,7 @@ TEST_F(ResultFile, NothingTemporaryIsLeftAfterTheFirstDump) {
 
 TEST(ResultWriter, CompressedFilesHoldTheSameNumbers) {
   const Folder folder;
-  ResultWriter writer(folder.path(), "scene", record(), history_columns, 4);
+  ResultWriter writer(folder.path(), "scene", record(), history_columns, {.compression = 4});
   write_all_dumps(writer);
   const Hdf5File file = Hdf5File::open_to_read(writer.vtkhdf());
   for (int dump = 0; dump < 7; ++dump) {

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <thread>
 
+#include "io/dump_checksums.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/write_results.hpp"
 #include "tests/io/faults.hpp"
@@ -82,6 +83,7 @@ int verified_dumps(const std::filesystem::path& path) {
   same("/VTKHDF/CellData/stress",
        [](const Snapshot& s) -> const std::vector<double>& { return s.cell_fields[0].values; });
   EXPECT_EQ(file.read_integers("/VTKHDF/Connectivity", 0, 256), cloud(0).topology.connectivity);
+  EXPECT_EQ(verify_checksums(file), std::vector<std::string>{});
   return count;
 }
 
@@ -147,9 +149,13 @@ struct Running {
   }
   void restore() { copy(backup.path(), folder.path()); }
 
+  /// All but the lock, which a writer holds.
   static void copy(const std::filesystem::path& from, const std::filesystem::path& to) {
-    for (const auto& old : std::filesystem::directory_iterator(to)) std::filesystem::remove(old.path());
-    std::filesystem::copy(from, to);
+    const auto is_lock = [](const auto& entry) { return entry.path().filename() == ".brio.lock"; };
+    for (const auto& old : std::filesystem::directory_iterator(to))
+      if (!is_lock(old)) std::filesystem::remove(old.path());
+    for (const auto& entry : std::filesystem::directory_iterator(from))
+      if (!is_lock(entry)) std::filesystem::copy(entry.path(), to / entry.path().filename());
   }
 };
 
@@ -182,7 +188,7 @@ TEST(KilledWriterSlow, LeavesTheDumpsBeforeWhereverItDies) {
 TEST(KilledWriter, LeavesCompressedDumpsWhereverItDies) {
   const Folder folder, backup;
   constexpr int before = 3;
-  ResultWriter writer(folder.path(), "scene", {}, history_columns, 6);
+  ResultWriter writer(folder.path(), "scene", {}, history_columns, {.compression = 6});
   for (int dump = 0; dump < before; ++dump) writer.write(test::mixed_snapshot(dump, 0));
   Running::copy(folder.path(), backup.path());
   int at = 0;
@@ -196,34 +202,47 @@ TEST(KilledWriter, LeavesCompressedDumpsWhereverItDies) {
       ASSERT_EQ(file.read_rows("/VTKHDF/CellData/stress", row, 8), expected.cell_fields[0].values)
           << "dump " << dump << ", killed at operation " << at;
     }
+    ASSERT_EQ(verify_checksums(file), std::vector<std::string>{});
   }
   EXPECT_GT(at, 20);
 }
 
-/// Until the first dump is there, the results of the run before stay as they are.
-TEST(KilledWriter, LeavesTheEarlierRunUntilItsOwnFirstDump) {
-  Running run(2);
-  run.writer.write(Summary{});
-  Running::copy(run.folder.path(), run.backup.path());
+/// Until the first dump is there, the results of the run before stay as they are; then they are in the folder
+/// beside, or partly here and partly there, but never lost.
+TEST(KilledWriter, LosesNothingOfTheEarlierRun) {
+  const Folder backup, folder;
+  const auto results = folder / "results", aside = folder / "results.previous";
+  {
+    Running run(2);
+    run.writer.write(Summary{});
+    Running::copy(run.folder.path(), backup.path());
+  }
   int at = 0;
   for (bool alive = false; !alive; at += 3) {
     SCOPED_TRACE(testing::Message() << "killed at operation " << at);
-    run.restore();
+    std::filesystem::remove_all(aside);
+    std::filesystem::remove_all(results);
+    std::filesystem::create_directories(results);
+    Running::copy(backup.path(), results);
     alive = lives_through(Fault::kill, at, [&] {
-      ResultWriter again(run.folder.path(), "scene", {}, history_columns);
+      ResultWriter again(results, "scene", {}, history_columns);
       again.write(cloud(0));
     });
-    const int dumps = verified_dumps(run.writer.vtkhdf());
-    EXPECT_TRUE(dumps == 2 || dumps == 1);
-    const bool described = std::filesystem::exists(run.writer.xdmf());
-    if (described) verify_xdmf(run.writer.xdmf(), dumps);
-    if (dumps == 1) {
-      EXPECT_FALSE(std::filesystem::exists(run.writer.summary()));
+    const bool moved = std::filesystem::exists(aside / "scene.vtkhdf");
+    EXPECT_EQ(verified_dumps((moved ? aside : results) / "scene.vtkhdf"), 2);
+    for (const char* name : {"scene.xdmf2", "scene.summary.json", "scene.history.csv"}) {
+      const bool is_aside = std::filesystem::exists(aside / name);
+      EXPECT_EQ(text_of((is_aside ? aside : results) / name), text_of(backup / name)) << name;
+    }
+    if (moved) {
+      EXPECT_FALSE(std::filesystem::exists(results / "scene.summary.json"));
+      if (std::filesystem::exists(results / "scene.vtkhdf")) verified_dumps(results / "scene.vtkhdf");
     }
     if (HasNonfatalFailure()) return;
   }
   EXPECT_GT(at, 30);
-  EXPECT_EQ(verified_dumps(run.writer.vtkhdf()), 1);
+  EXPECT_EQ(verified_dumps(results / "scene.vtkhdf"), 1);
+  EXPECT_EQ(verified_dumps(aside / "scene.vtkhdf"), 2);
 }
 
 TEST(KilledWriter, LeavesTheDumpsBeforeAtRandomMoments) {
@@ -363,8 +382,7 @@ TEST(ExtremesReadOnlyFolder, IsAnErrorBeforeAnythingIsComputed) {
   const WithoutPrivileges nobody;
   const std::string existing =
       message_of_file_error([&] { ResultWriter(folder.path(), "scene", {}, history_columns); });
-  EXPECT_EQ(existing,
-            (folder / "scene.vtkhdf.partial").string() + ": cannot open the file: Permission denied");
+  EXPECT_EQ(existing, folder.path().string() + ": cannot lock the folder: Permission denied");
   const std::string missing =
       message_of_file_error([&] { ResultWriter(folder / "new", "scene", {}, history_columns); });
   EXPECT_NE(missing.find("cannot make the folder: Permission denied"), std::string::npos) << missing;
@@ -383,7 +401,7 @@ TEST(ResultFolder, TakenAwayDuringTheRunIsAnError) {
   Running run(1);
   std::filesystem::remove_all(run.folder.path());
   const std::string message = message_of_file_error([&] { run.writer.write(cloud(1)); });
-  EXPECT_NE(message.find("cannot open the file: No such file or directory"), std::string::npos) << message;
+  EXPECT_NE(message.find("the folder was moved, removed or taken"), std::string::npos) << message;
 }
 
 /// One row a chunk and a commit, so that index nodes of one and two levels split (the first at row 64, the

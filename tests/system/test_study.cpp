@@ -149,9 +149,13 @@ TEST_F(ProgramStudy, KeepsWhatFailedInTheTable) {
   study += "  step:\n    too_large: {time.step: 1e-3}\n";
   write("bars.yaml", study);
   const Ending ending = brio("study bars.yaml");
-  EXPECT_EQ(ending.exit_code, 0) << ending.faults;
+  EXPECT_EQ(ending.exit_code, 3) << ending.faults;
   Table table = table_of(read("bars.study/bars.csv"));
   EXPECT_EQ(table["step.too_large"]["exit_code"], "3");
+  EXPECT_EQ(table["mesh.coarse"]["exit_code"], "0") << "the rest is run all the same";
+  const Ending again = brio("study bars.yaml");
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_EQ(again.faults, "") << "what failed is remembered";
   EXPECT_NE(ending.output.find("ended with 3: brio: the constant step"), std::string::npos) << ending.output;
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "io/hdf5_file.hpp"
+#include "io/read_apart.hpp"
 #include "io/read_info.hpp"
 #include "io/write_results.hpp"
 #include "io/write_summary.hpp"
@@ -166,7 +167,8 @@ TEST(ResultInfo, OfARunBeforeItsFirstDumpSaysSo) {
   EXPECT_NE(refusal(folder.path()).find("has not completed its first dump"), std::string::npos);
 }
 
-/// A damaged file is an error or a result, never a crash.
+/// A damaged file is an error or a result, never a crash: HDF5 itself reads memory that it has freed where a
+/// file is damaged, which ends the process that reads.
 TEST(ResultInfo, SurvivesDamagedFiles) {
   const Folder folder;
   const ResultWriter writer = small_result(folder);
@@ -182,7 +184,7 @@ TEST(ResultInfo, SurvivesDamagedFiles) {
     }
     std::ofstream(folder / "damaged.vtkhdf", std::ios::binary) << damaged;
     try {
-      read_info(folder / "damaged.vtkhdf");
+      read_apart(folder / "damaged.vtkhdf", [&] { return read_info(folder / "damaged.vtkhdf").title; });
     } catch (const FileError&) {
       ++refused;
     }

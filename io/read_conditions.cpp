@@ -48,7 +48,7 @@ void add_component(const YamlNode& node, const Slot& slot, PrescribedMotion& mot
     if (other.axis == axis)
       throw DeckError(node.place, "component '" + word + "' is given twice; once is accepted");
   check_component(node, slot, motion.where, axis);
-  motion.components.push_back({axis, std::move(curve)});
+  motion.components.push_back({axis, std::move(curve), to_string(node.place)});
 }
 
 /// `part: NAME`, or `set: ...`.

@@ -8,6 +8,7 @@
 #include "src/build_rigid.hpp"
 #include "src/build_ties.hpp"
 #include "src/contact_thickness.hpp"
+#include "src/contradictory_motions.hpp"
 #include "src/part_index.hpp"
 #include "src/particles.hpp"
 
@@ -198,11 +199,11 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
     std::vector<int> nodes = select_nodes(motion.where, deck, meshes, model);
     for (const std::size_t b : take_rigid(nodes, motion.where, model))
       for (const PrescribedComponent& component : motion.components)
-        model.rigid.body[b].given.push_back({motion.kind, component.axis, component.curve});
+        model.rigid.body[b].given.push_back({motion.kind, component.axis, component.curve, component.place});
     if (nodes.empty()) continue;
     for (const PrescribedComponent& component : motion.components) {
       if (component.axis >= 3 && !model.nodes.has_rotations()) continue;  // solids have no rotations to hold
-      model.prescribed.push_back({nodes, motion.kind, component.axis, component.curve});
+      model.prescribed.push_back({nodes, motion.kind, component.axis, component.curve, component.place});
       mark(model.prescribed.back(), model.nodes);
     }
   }
@@ -369,6 +370,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   set_initial_velocities(deck, meshes, model);
   start_ties(model);
   start_rigid_bodies(deck, meshes, model);
+  refuse_contradictory_motions(model);
   load(deck, meshes, model);
   open_books(model);
   model.probes = place_probes(deck, model.parts, model.nodes);

@@ -17,6 +17,7 @@ struct PrescribedNodes {
   MotionKind kind = MotionKind::velocity;
   int axis = 0;  ///< 0..2 translations, 3..5 rotations
   Curve curve;
+  std::string place{};  ///< in the deck
 };
 
 /// Times of the step being made: forces are of `time`, velocities go from -previous/2 to +next/2 about it.

@@ -185,6 +185,7 @@ enum class MotionKind { displacement, velocity, acceleration };
 struct PrescribedComponent {
   int axis;  ///< 0..2 translations, 3..5 rotations
   Curve curve;
+  std::string place{};  ///< in the deck
 };
 
 /// `fix: [x, y, z, rx, ry, rz]`, or `displacement|velocity|acceleration: {x: CURVE, ...}`.

@@ -29,6 +29,7 @@ struct PrescribedRigid {
   MotionKind kind = MotionKind::velocity;
   int axis = 0;  ///< 0..2 translations, 3..5 rotations
   Curve curve;
+  std::string place{};  ///< in the deck
 };
 
 /// A node of a body that a wall stops in the present step.

@@ -69,6 +69,21 @@ constexpr Edit edits[] = {
     {thrown, "{part: ^cube, radial: {point: [0, 0, 0], axis: [0, 0, 1], speed: 1}}", "",
      "no direction to move in"},
     {thrown, "{part: ^body, radial: {point: [0, 0, 0], axis: [0, 0, 1], speed: 1}}", "", "rigid part"},
+    // two motions of one component
+    {fixed, "{part: cube, fix: [x]}, {set: cube.top, velocity: {x: ^1}}", "",
+     "'x' of node 18 of part 'cube' at (-0.5, -0.5, 0.5) is prescribed here and, otherwise, at a.yaml:7:42"},
+    {fixed, "{set: cube.top, velocity: {x: 1}}, {set: cube.xmax, velocity: {x: ^1.1}}", "",
+     "of part 'cube' at (0.5,"},
+    {fixed, "{set: cube.top, displacement: {z: [[0, 0], [1, 1]]}}, {part: cube, fix: [x, y, ^z]}", "",
+     "'z' of node 18 of part 'cube'"},
+    {fixed, "{part: cube, velocity: {y: [[0, 1], [1e-3, 1.1]]}}, {part: cube, acceleration: {y: ^100}}", "",
+     "'y' of node 0 of part 'cube'"},
+    {fixed, "{part: body, fix: [rz]}, {part: body, velocity: {rz: ^2}}", "",
+     "'rz' of the rigid part 'body' is prescribed here and, otherwise, at a.yaml:7:42"},
+    {fixed, "{part: body, velocity: {x: [[0, 0], [1e-4, 1]]}}, {part: body, fix: [^x]}", "",
+     "'x' of the rigid part 'body'"},
+    {fixed, "{part: cube, fix: [x]}, {part: other, velocity: {x: ^1}}",
+     "connections: [{merge: [cube, other], tolerance: 1}]", "is prescribed here"},
     // elements without volume
     {"  other: {mesh: {box: {size: [1, 1, 1]", "  ^other: {mesh: {box: {size: [1e-120, 1e-120, 1e-120]", "",
      "of part 'other'"},
@@ -95,6 +110,31 @@ constexpr Edit edits[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(Edited, RefusedScene, testing::ValuesIn(edits));
+
+// Motions that are one, however they are said, are not contradictory.
+class AcceptedScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(AcceptedScene, GivesAMotionTwice) {
+  std::string text = scene;
+  const std::string one = "{part: cube, fix: [x]}";
+  text.replace(text.find(one), one.size(), GetParam());
+  EXPECT_NO_THROW(build_scene(parse_deck(text, "a.yaml")));
+}
+
+constexpr const char* same_motions[] = {
+    "{part: cube, fix: [x, y]}, {set: cube.top, fix: [y, z]}",
+    "{part: cube, fix: [x]}, {set: cube.top, velocity: {x: 0}}",
+    "{part: cube, fix: [x]}, {set: cube.top, displacement: {x: 3}}",
+    "{part: cube, fix: [x]}, {set: cube.top, acceleration: {x: 0}}",
+    "{part: cube, velocity: {x: 0.1}}, {set: cube.top, displacement: {x: [[0, 0.7], [3e-3, 0.7003]]}}",
+    "{part: cube, velocity: {x: 2}}, {set: cube.top, velocity: {x: [[0, 2], [1e-3, 2], [2e-3, 9]]}}",
+    "{part: other, velocity: {x: [[0, 1], [1e-3, 1.1]]}}, {part: other, acceleration: {x: 100}}",
+    "{part: cube, fix: [x]}, {set: other.top, velocity: {x: 1}}",
+    "{part: body, fix: [x]}, {part: body, velocity: {x: 0, y: 1}}",
+    "{part: body, velocity: {rz: 1}}, {part: body, displacement: {rz: [[0, 0], [1, 1]]}}",
+};
+
+INSTANTIATE_TEST_SUITE_P(Equal, AcceptedScene, testing::ValuesIn(same_motions));
 
 TEST(RefusedScene, WithMoreNodesThanCanBeNumberedIsRefusedBeforeAnythingIsMade) {
   std::string text =

@@ -8,6 +8,7 @@
 
 #include "contact/audit.hpp"
 #include "src/motion.hpp"
+#include "src/motion_through_walls.hpp"
 #include "src/release_ties.hpp"
 
 namespace brio {
@@ -208,6 +209,7 @@ void resolve_contact(Model& model, ThreadTeam& team) {
   const StageTimer timer(model.stages, Stage::contact);
   for (ContactScene& scene : model.contacts) {
     resolve(scene, model.nodes, model.times.next, team, model.rigid.motion, model.ties);
+    expect_driven_bodies_apart(model, scene);
     settle(model.rigid);
     const ContactStep& step = scene.step;
     model.stages[Stage::contact_search] += step.search_seconds;

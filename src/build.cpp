@@ -9,8 +9,10 @@
 #include "src/build_ties.hpp"
 #include "src/contact_thickness.hpp"
 #include "src/contradictory_motions.hpp"
+#include "src/motion_through_walls.hpp"
 #include "src/part_index.hpp"
 #include "src/particles.hpp"
+#include "src/wall_overlap.hpp"
 
 namespace brio {
 
@@ -302,7 +304,8 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     if (!model.ties.empty()) hold(model.contacts.back(), model.ties, part_of_surface);
     if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
     ThreadTeam team(1);
-    model.initial_overlaps = remove_initial_overlap(model.contacts.back(), model.nodes, team);
+    for (InitialOverlap& overlap : remove_initial_overlap(model.contacts.back(), model.nodes, team))
+      model.initial_overlaps.push_back(std::move(overlap));
   } catch (const std::invalid_argument& fault) {
     throw BuildError(fault.what(), deck.contact->place);
   } catch (const std::length_error& fault) {
@@ -353,10 +356,13 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   make_blocks(deck, connectivity, model);
   make_rigid_bodies(deck, meshes, model);
   constrain(deck, meshes, model);
+  model.initial_overlaps = remove_overlap_with_walls(
+      meshes, (deck.contact ? deck.contact->options : ContactOptions{}).initial_overlap_limit, model);
   make_ties(deck, meshes, connectivity, model);
   make_contact(deck, meshes, connectivity, model);
   lump_masses(deck, meshes, model);
   if (!model.ties.empty()) condense(model.ties, model.nodes);
+  expect_nothing_behind_walls(meshes, model);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (model.blocks[b].cloud && model.blocks[b].cloud->is_eulerian())
       model.particle_searches.push_back({.block = b});
@@ -371,6 +377,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   start_ties(model);
   start_rigid_bodies(deck, meshes, model);
   refuse_contradictory_motions(model);
+  refuse_motions_through_walls(model);
   load(deck, meshes, model);
   open_books(model);
   model.probes = place_probes(deck, model.parts, model.nodes);

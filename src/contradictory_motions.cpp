@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "src/breakdown.hpp"
+#include "src/corner_times.hpp"
 #include "src/node_name.hpp"
 
 namespace brio {
@@ -40,17 +41,6 @@ struct Likeness {
   std::optional<double> starting_at{};  ///< set: alike only for this initial velocity
 };
 
-/// 0, the end, and the corners of both curves in between.
-std::vector<double> corner_times(const Curve& a, const Curve& b, double end) {
-  std::vector<double> times{0, end};
-  for (const Curve* curve : {&a, &b})
-    for (const auto& point : curve->points)
-      if (point[0] > 0 && point[0] < end) times.push_back(point[0]);
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  return times;
-}
-
 /// The derivative of order `order` at both ends of an interval without corners inside.
 std::array<double, 2> rates(const Given& given, int order, double begin, double end) {
   const int derivations = order - order_of(given.kind);
@@ -62,7 +52,7 @@ std::array<double, 2> rates(const Given& given, int order, double begin, double 
 
 /// Both are compared as derivatives of one order: displacements as velocities, for their start is the mesh.
 Likeness compare(const Given& a, const Given& b, double end) {
-  const std::vector<double> times = corner_times(a.curve, b.curve, end);
+  const std::vector<double> times = corner_times({&a.curve, &b.curve}, end);
   const int order = std::max({order_of(a.kind), order_of(b.kind), 1});
   const Given& lower = order_of(a.kind) < order_of(b.kind) ? a : b;
   const bool unlike_orders = order == 2 && a.kind != b.kind;

@@ -85,6 +85,7 @@ int run(RunArguments& arguments) {
   };
   const RunOutcome outcome = run_deck(arguments.options);
   if (!outcome.message.empty()) write_error("\nbrio: {}\n", outcome.message);
+  for (const std::string& warning : outcome.summary.warnings) write_error("brio: warning: {}\n", warning);
   if (!arguments.quiet && !arguments.json) print_outcome(outcome);
   if (arguments.json) {
     std::ostringstream summary;

@@ -14,6 +14,7 @@
 #include "src/build.hpp"
 #include "src/observe.hpp"
 #include "src/output_schedule.hpp"
+#include "src/run_warnings.hpp"
 
 namespace brio {
 
@@ -79,7 +80,10 @@ class Output {
     const bool fields_due = field_schedule_.due(model_.times.time);
     if (!row_due && !fields_due && !last) return;
     const StageTimer timer(model_.stages, Stage::output);
-    if (fields_due || last) audit_contacts(model_, team);
+    if (fields_due || last) {
+      audit_contacts(model_, team);
+      watch(model_);
+    }
     if (row_due || last) {
       observe_history(model_, row_);
       history_.append(row_);
@@ -174,6 +178,7 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.message = march(deck, options, model, output, state);
 
   outcome.summary = observe_end(model);
+  outcome.summary.warnings = run_warnings(model);
   outcome.summary.version = BRIO_VERSION;
   outcome.summary.deck = options.deck.string();
   outcome.summary.status = state.status;

@@ -81,7 +81,8 @@ std::string summary_json(const Summary& summary) {
             {"element_updates_per_s", summary.element_updates_per_s},
             {"peak_memory_mb", summary.peak_memory_mb},
             {"threads", summary.threads},
-            {"active_features", summary.active_features}};
+            {"active_features", summary.active_features},
+            {"warnings", summary.warnings}};
   if (summary.ties) json["ties"] = {{"nodes", summary.ties->nodes}, {"released", summary.ties->released}};
   if (summary.mass_scaling)
     json["mass_scaling"] = {{"added", summary.mass_scaling->added},

@@ -87,4 +87,22 @@ void follow_neighbours(ParticleSearch& search, Block& block, const Nodes& nodes,
   set_neighbours(cloud, search.pairs.first, search.pairs.node, nodes);
 }
 
+double share_of_paired(const ParticleCloud& cloud, const Nodes& nodes) {
+  std::size_t alive = 0, paired = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.is_cut(i)) continue;
+    ++alive;
+    const double closest = PairedParticles::closer_than * cloud.smoothing_length[i] / cloud.smoothing;
+    const double* x = position(cloud, nodes, i);
+    const std::span neighbours(cloud.neighbour.data() + cloud.first[i],
+                               static_cast<std::size_t>(cloud.count[i]));
+    const bool is_paired = std::any_of(neighbours.begin(), neighbours.end(), [&](int j) {
+      const double* other = position(cloud, nodes, static_cast<std::size_t>(j));
+      return std::hypot(other[0] - x[0], other[1] - x[1], other[2] - x[2]) < closest;
+    });
+    if (is_paired) ++paired;
+  }
+  return alive > 0 ? static_cast<double>(paired) / static_cast<double>(alive) : 0;
+}
+
 }  // namespace brio

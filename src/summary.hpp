@@ -83,6 +83,7 @@ struct Summary {
   double peak_memory_mb = 0;
   int threads = 1;
   std::vector<std::string> active_features;
+  std::vector<std::string> warnings;  ///< what makes results doubtful, as sentences
 };
 
 }  // namespace brio

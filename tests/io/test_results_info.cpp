@@ -59,9 +59,26 @@ std::vector<std::string> keys(const nlohmann::ordered_json& json) {
 TEST(SummaryFile, HasTheKeysOfTheContract) {
   using Names = std::vector<std::string>;
   const auto json = nlohmann::ordered_json::parse(summary_json(summary()));
-  EXPECT_EQ(keys(json), (Names{"version", "deck", "status", "exit_code", "steps", "time", "dt", "nodes",
-                               "elements", "deleted", "energy", "mass", "momentum", "contact", "wall_s",
-                               "element_updates_per_s", "peak_memory_mb", "threads", "active_features"}));
+  EXPECT_EQ(keys(json), (Names{"version",
+                               "deck",
+                               "status",
+                               "exit_code",
+                               "steps",
+                               "time",
+                               "dt",
+                               "nodes",
+                               "elements",
+                               "deleted",
+                               "energy",
+                               "mass",
+                               "momentum",
+                               "contact",
+                               "wall_s",
+                               "element_updates_per_s",
+                               "peak_memory_mb",
+                               "threads",
+                               "active_features",
+                               "warnings"}));
   EXPECT_EQ(keys(json["dt"]), (Names{"min", "max", "last"}));
   EXPECT_EQ(keys(json["elements"]), (Names{"hex8", "shell4", "beam2", "particle"}));
   EXPECT_EQ(keys(json["deleted"]), (Names{"hex8", "shell4", "beam2", "particle"}));

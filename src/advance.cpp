@@ -118,23 +118,8 @@ void add_mass(Model& model) {
            model.energy, model.momentum, model.step == 0);
 }
 
-// A step that follows the stable step through every vibration is in time with that vibration and feeds it
-// (Skeel 1993, Variable step size destabilizes the Stoermer/leapfrog/Verlet method): it comes down at once,
-// but goes up only by what the least bound of a whole window leaves, and only where that is worth it.
-constexpr int window_steps = 100;
-constexpr double worthwhile_growth = 1.02;
-
-double held_step(StepControl& control, double bound) {
-  if (control.held == 0) control.held = control.window_least = bound;
-  control.window_least = std::min(control.window_least, bound);
-  if (++control.window == window_steps) {
-    if (control.window_least > worthwhile_growth * control.held) control.held = control.window_least;
-    control.window = 0;
-    control.window_least = bound;
-  }
-  control.held = std::min(control.held, bound);
-  return control.held;
-}
+// The last step may be longer than the others by this share: rounding of the time.
+constexpr double last_step_share = 1e-3;
 
 void choose_step(Model& model) {
   StepControl& control = model.control;
@@ -146,19 +131,25 @@ void choose_step(Model& model) {
                       written(control.stable) + " of " +
                       element_name(model, control.critical_block, control.critical_element));
   }
-  if (model.step > 0) step = std::min(step, control.settings.step_growth * model.times.previous);
-  if (model.step > 0 && step < collapse_ratio * control.first)
+  const double largest = model.step > 0 ? control.settings.step_growth * model.times.previous : step;
+  if (model.step > 0 && std::min(step, largest) < collapse_ratio * control.first)
     throw Breakdown("the stable step has collapsed to " + written(step) + ", set by " +
                     element_name(model, control.critical_block, control.critical_element));
-  // The last two steps share what is left, so that the end time is met without a sliver.
+  if (model.step == 0) control.first = step;
   const double left = control.settings.end - model.times.time;
-  if (left > 0 && step >= left) {
+  step = left > 0 ? whole_step(control, step, left) : model.times.previous;
+  if (step > largest) {
+    step = largest;
+    control.whole = 0;
+  }
+  // What growth or rounding has left over is met without a sliver.
+  if (left > 0 && step >= (1 - last_step_share) * left) {
     step = left;
-  } else if (left > 0 && 2 * step > left) {
+  } else if (left > 0 && 2 * step > (1 + last_step_share) * left) {
     step = 0.5 * left;
   }
   model.times.next = step;
-  if (model.step == 0) control.first = control.least = control.largest = step;
+  if (model.step == 0) control.least = control.largest = step;
   if (left > 2 * step) control.least = std::min(control.least, step);
   control.largest = std::max(control.largest, step);
 }

@@ -25,23 +25,10 @@
 #include "src/rigid.hpp"
 #include "src/schedule.hpp"
 #include "src/stage_times.hpp"
+#include "src/step_size.hpp"
 #include "src/surface_numbers.hpp"
 
 namespace brio {
-
-/// The step and what bounds it.
-struct StepControl {
-  TimeSection settings;
-  double stable = 0;                 ///< of all elements, at the present time
-  std::size_t critical_block = 0;    ///< where it is set
-  std::size_t critical_element = 0;  ///< of the part's mesh
-  double held = 0;                   ///< what the bound has left since it last grew
-  double window_least = 0;           ///< least bound of the steps counted in `window`
-  int window = 0;
-  double first = 0;  ///< first step made
-  double least = 0;
-  double largest = 0;
-};
 
 /// What audits have found so far.
 struct MissedContacts {

@@ -40,6 +40,8 @@ std::filesystem::path result_file(const std::filesystem::path& path) {
 
 void must_be_result(const Hdf5File& file) {
   for (const char* part : {"/VTKHDF/Steps/Values", "/deck/title", "/history/values"}) {
+    if (!file.contains("/VTKHDF") && file.contains("/deck"))
+      throw FileError(file.path(), "the result holds no dump: the run failed before its first");
     if (!file.contains(part)) throw FileError(file.path(), string("not a result of brio: it has no ") + part);
   }
 }

@@ -12,6 +12,7 @@
 #include "io/write_results.hpp"
 #include "src/advance.hpp"
 #include "src/build.hpp"
+#include "src/diagnosis.hpp"
 #include "src/observe.hpp"
 #include "src/output_schedule.hpp"
 #include "src/run_warnings.hpp"
@@ -64,7 +65,7 @@ class ProgressReporter {
   double mean_speed_ = 0;
 };
 
-// Fields and history as they fall due.
+// Fields and history as they fall due; of a run that breaks down the last state that was good.
 class Output {
  public:
   Output(const Deck& deck, Model& model, ResultWriter& writer)
@@ -75,30 +76,78 @@ class Output {
         field_schedule_(field_schedule(deck)),
         history_schedule_(history_schedule(deck)) {}
 
+  /// Of a state that is good. \throws Breakdown where results cannot hold it
   void write_what_is_due(bool last, ThreadTeam& team) {
-    const bool row_due = history_schedule_.due(model_.times.time);
-    const bool fields_due = field_schedule_.due(model_.times.time);
-    if (!row_due && !fields_due && !last) return;
+    const bool row_due = history_schedule_.due(model_.times.time) || last;
+    const bool fields_due = field_schedule_.due(model_.times.time) || last;
+    const bool keeps = model_.step >= next_kept_;
+    if (!row_due && !fields_due && !keeps) return;
     const StageTimer timer(model_.stages, Stage::output);
-    if (fields_due || last) {
+    if (fields_due) {
       audit_contacts(model_, team);
       watch(model_);
     }
-    if (row_due || last) {
-      observe_history(model_, row_);
-      history_.append(row_);
+    observe_history(model_, row_);
+    if (fields_due || keeps) {
+      state_ = nullptr;  // the one before is written over
+      const Snapshot& state = observer_.observe(model_);
+      if (const std::string fault = what_results_cannot_hold(state); !fault.empty())
+        throw Breakdown(fault + " at time " + written(model_.times.time) +
+                        " is too large for the results or not a number; check units and velocities of the "
+                        "deck, else try a smaller time.step_scale");
+      state_ = &state;
+      good_ = {.energy = model_.energy,
+               .momentum = model_.momentum,
+               .times = model_.times,
+               .step = model_.step,
+               .row = row_,
+               .has_row = row_due,
+               .has_dump = fields_due};
+      next_kept_ = model_.step + least_steps_between + model_.step / share_of_steps;
     }
-    if (fields_due || last) writer_.write(observer_.observe(model_));
-    if (fields_due || last || history_.full()) writer_.write(history_);
+    if (row_due) history_.append(row_);
+    if (fields_due) writer_.write(*state_);
+    if (fields_due || history_.full()) writer_.write(history_);
+  }
+
+  /// The model has broken down: its books become those of the last good state, which is written unless it is
+  /// there already.
+  void write_last_good_state() {
+    const StageTimer timer(model_.stages, Stage::output);
+    model_.energy = good_.energy;
+    model_.momentum = good_.momentum;
+    model_.times = good_.times;
+    model_.step = good_.step;
+    if (state_ == nullptr) return;
+    // Rows are in the order of time: those since then were good as well.
+    if (!good_.has_dump) writer_.write(*state_);
+    if (!good_.has_row && history_.pending_rows() == 0) history_.append(good_.row);
+    writer_.write(history_);
   }
 
  private:
+  // A state is kept after so many steps, and this share of those made: less than a hundredth of the run.
+  static constexpr std::int64_t least_steps_between = 20, share_of_steps = 50;
+
+  /// What was true at the state that the observer holds.
+  struct GoodState {
+    EnergyBook energy;
+    MomentumBook momentum;
+    StepTimes times;
+    std::int64_t step = 0;
+    std::vector<double> row;
+    bool has_row = false, has_dump = false;  ///< written already
+  };
+
   Model& model_;
   ResultWriter& writer_;
   FieldObserver observer_;
   History history_;
   std::vector<double> row_;
   OutputSchedule field_schedule_, history_schedule_;
+  const Snapshot* state_ = nullptr;
+  GoodState good_;
+  std::int64_t next_kept_ = 0;
 };
 
 // Steps until the end, a failure or a stop. \return why it ended early, empty if it did not.
@@ -107,17 +156,17 @@ std::string march(const Deck& deck, const RunOptions& options, Model& model, Out
   ProgressReporter progress(options, deck.time.end);
   state.status = "finished";
   while (true) {
+    const int signal = options.stop != nullptr ? options.stop->load() : 0;
+    const bool at_end = model.times.time >= deck.time.end;
     try {
       update_velocities(model, deck.numerics.energy_error_limit, team);
+      output.write_what_is_due(at_end || signal != 0, team);
     } catch (const Breakdown& breakdown) {
       state.status = "failed";
       state.exit_code = 3;
-      output.write_what_is_due(true, team);
+      output.write_last_good_state();
       return breakdown.what();
     }
-    const int signal = options.stop != nullptr ? options.stop->load() : 0;
-    const bool at_end = model.times.time >= deck.time.end;
-    output.write_what_is_due(at_end || signal != 0, team);
     progress.report(model, at_end || signal != 0);
     if (at_end) return "";
     if (signal != 0) {
@@ -125,7 +174,14 @@ std::string march(const Deck& deck, const RunOptions& options, Model& model, Out
       state.exit_code = 128 + signal;
       return state.status + " at time " + std::to_string(model.times.time);
     }
-    update_positions(model, team);
+    try {
+      update_positions(model, team);
+    } catch (const Breakdown& breakdown) {
+      state.status = "failed";
+      state.exit_code = 3;
+      output.write_last_good_state();
+      return breakdown.what();
+    }
   }
 }
 
@@ -176,9 +232,12 @@ RunOutcome run_deck(const RunOptions& options) {
   Output output(deck, model, writer);
   Summary state;
   outcome.message = march(deck, options, model, output, state);
+  const Impulse momentum_of_good = model.momentum.now;
 
   outcome.summary = observe_end(model);
   outcome.summary.warnings = run_warnings(model);
+  if (state.exit_code == 3)  // that of the last good state, not of the nodes as they are
+    outcome.summary.momentum = {momentum_of_good.linear, momentum_of_good.angular};
   outcome.summary.version = BRIO_VERSION;
   outcome.summary.deck = options.deck.string();
   outcome.summary.status = state.status;

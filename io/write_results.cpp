@@ -119,11 +119,13 @@ void ResultWriter::write(History& history) {
   history.clear_pending();
 }
 
-void ResultWriter::write(const Summary& end_state) const {
+void ResultWriter::write(const Summary& end_state) {
   lock_->check();
+  if (!published_) publish();  // a run that failed before its first dump has ended as well
   const bool sync = settings_.sync != Sync::never;
   if (sync)
-    for (const std::filesystem::path& file : {vtkhdf(), history_csv(), xdmf()}) sync_to_disk(file);
+    for (const std::filesystem::path& file : {vtkhdf(), history_csv(), xdmf()})
+      if (std::filesystem::exists(file)) sync_to_disk(file);
   write_summary(summary(), end_state, sync);
 }
 

@@ -62,7 +62,7 @@ class ResultWriter {
   void write(History& history);
 
   /// The end of the run. \throws FileError
-  void write(const Summary& summary) const;
+  void write(const Summary& summary);
 
   std::filesystem::path vtkhdf() const { return path(".vtkhdf"); }
   std::filesystem::path xdmf() const { return path(".xdmf2"); }

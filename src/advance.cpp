@@ -1,12 +1,11 @@
 #include "src/advance.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "contact/audit.hpp"
+#include "src/diagnosis.hpp"
 #include "src/motion.hpp"
 #include "src/motion_through_walls.hpp"
 #include "src/release_ties.hpp"
@@ -17,19 +16,6 @@ namespace {
 
 // A step this much smaller than the first says that the mesh has collapsed.
 constexpr double collapse_ratio = 1e-5;
-
-// As few digits as tell it; in every locale the same.
-std::string written(double number) {
-  std::array<char, 32> digits{};
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::general, 6);
-  return {digits.data(), end.ptr};
-}
-
-std::string element_name(const Model& model, std::size_t block, std::size_t element) {
-  const PartInModel& part = model.parts[block];
-  return "element " + std::to_string(element) + " of part '" + part.name + "'";
-}
 
 bool has_loads(const Model& model) { return !model.loads.empty(); }
 
@@ -109,7 +95,7 @@ void sweep_elements(Model& model, ThreadTeam& team) {
   if (!(model.control.stable > 0))
     throw Breakdown(element_name(model, model.control.critical_block, model.control.critical_element) +
                     " has inverted or holds a value that is not a number, at time " +
-                    written(model.times.time));
+                    written(model.times.time) + "; " + cause_of_collapse(model));
 }
 
 void add_mass(Model& model) {
@@ -134,7 +120,8 @@ void choose_step(Model& model) {
   const double largest = model.step > 0 ? control.settings.step_growth * model.times.previous : step;
   if (model.step > 0 && std::min(step, largest) < collapse_ratio * control.first)
     throw Breakdown("the stable step has collapsed to " + written(step) + ", set by " +
-                    element_name(model, control.critical_block, control.critical_element));
+                    element_name(model, control.critical_block, control.critical_element) + ", at time " +
+                    written(model.times.time) + "; " + cause_of_collapse(model));
   if (model.step == 0) control.first = step;
   const double left = control.settings.end - model.times.time;
   step = left > 0 ? whole_step(control, step, left) : model.times.previous;
@@ -273,8 +260,10 @@ void check_books(Model& model, double energy_error_limit) {
   const double error = energy.relative_error();
   energy.error_max = std::max(energy.error_max, std::abs(error));
   if (!(std::abs(error) <= energy_error_limit))
-    throw Breakdown("the energy error " + written(error) + " exceeds numerics.energy_error_limit at time " +
-                    written(model.times.time));
+    throw Breakdown((std::isfinite(error) ? "the energy error " + written(error) +
+                                                " exceeds numerics.energy_error_limit at time "
+                                          : "the energy is not a number at time ") +
+                    written(model.times.time) + "; " + cause_of_energy_error(model));
 }
 
 }  // namespace

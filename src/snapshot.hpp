@@ -51,4 +51,7 @@ struct Snapshot {
   std::vector<FieldArray> global_fields;  ///< `components` values each
 };
 
+/// The name of a field with a value that is not finite as it is stored; empty where there is none.
+std::string what_results_cannot_hold(const Snapshot& snapshot);
+
 }  // namespace brio

@@ -10,6 +10,7 @@
 #include "elements/hex8.hpp"
 #include "elements/hourglass.hpp"
 #include "elements/mean_gradient.hpp"
+#include "materials/hardening.hpp"
 
 namespace brio {
 
@@ -155,7 +156,7 @@ struct Hex8Kernel : Hex8 {
             share_left_by_flow(step.old_stress, point.stress, T(2.0) * axes.half_strain, shear, has_flowed);
         if (any_yields) {
           const T most =
-              hourglass_energy_at_yield(hardening.at(plastic_strain).stress, volume, stiffness.bending);
+              hourglass_energy_at_yield(point_of(hardening, point.history).stress, volume, stiffness.bending);
           const MaskOf<T> yields = state.energy > most;
           left *= where(yields, sqrt(most / where(yields, state.energy, T(1.0))), T(1.0));
         }

@@ -7,6 +7,7 @@
 
 #include "elements/particle.hpp"
 #include "elements/particle_cloud.hpp"
+#include "materials/hardening.hpp"
 
 namespace brio {
 
@@ -137,7 +138,7 @@ struct ParticleKernel : Particle {
                                       const typename Law::template History<T>& history) {
     if constexpr (flows<Law>) {
       const T plastic_strain = history.equivalent_plastic_strain;
-      const T yield_stress = law.hardening().at(plastic_strain).stress;
+      const T yield_stress = point_of(law.hardening(), history).stress;
       return modulus * yield_stress / (yield_stress + modulus * plastic_strain);
     }
     return modulus;

@@ -82,7 +82,7 @@ struct PlaneStressFlow {
 /// What flow leaves of xi: each part times its factor and `scale`.
 template <class T>
 struct PlaneStressEnd {
-  T plastic_strain;
+  T plastic_strain, rest;  ///< as in HardeningPoint
   typename PlaneStressFlow<T>::Factors factors;
   T scale;
   T multiplier;  ///< r scale: r times what is left is `multiplier` times the factors
@@ -173,16 +173,17 @@ BRIO_INLINE bool flow_along_tangents(const PlaneStressFlow<T>& trial, const Hard
     const T strain = (2.0 / 3.0) * yield * multiplier;
     const T bent = strain - strain * (0.5 * slope_scale) * hardening.curvature(start) * strain * inverse_rate;
     if (all(hardening.has_tangent_over(start, bent))) {
-      point = hardening.along(start, start.plastic_strain + bent);
+      point = hardening.along(start, bent);
     } else {
       const auto elastic = flow.series({T(1.0), T(1.0), T(1.0)}, T(0.0));
       point = hardening.meet(start, trial.unit * sqrt(elastic.squared),
                              (1.5 * trial.unit) * elastic.first / elastic.squared);
     }
   }
+  T flowed(0.0);
   for (int evaluation = 0; evaluation < most_evaluations; ++evaluation) {
     if constexpr (!is_straight<Hardening>) {
-      const T flowed = where(yields, point.plastic_strain - start.plastic_strain, T(0.0));
+      flowed = where(yields, flow_between(start, point), T(0.0));
       h = slope_scale * point.slope;
       yield = scale * point.stress - 1.5 * h * flowed;
       inverse_yield = 1.0 / yield;
@@ -196,19 +197,21 @@ BRIO_INLINE bool flow_along_tangents(const PlaneStressFlow<T>& trial, const Hard
     if constexpr (!is_straight<Hardening>) excess = where(abs(excess) > T(round_off), excess, T(0.0));
     const T next = max(multiplier + step_to<T>(series, excess), 0.0);
     const T change = next - multiplier;
-    const T strain = start.plastic_strain + (2.0 / 3.0) * yield * next;
+    const T strain = (2.0 / 3.0) * yield * next;
     auto moves = abs((flow.shear_rate + h) * factors.shear * change) > T(small_change);
-    if constexpr (!is_straight<Hardening>)
-      moves = moves | hardening.bends(point, strain - point.plastic_strain);
+    if constexpr (!is_straight<Hardening>) moves = moves | hardening.bends(point, strain - flowed);
     if (!any(moves & yields)) {
       const auto after = [&](T factor, T rate) {
         const T x = (rate + h) * factor * change;
         return factor - factor * x * (1.0 - x * (1.0 - x * (1.0 - x)));
       };
-      end.plastic_strain = strain;
+      HardeningPoint<T> stored = start;
+      stored.flow_by(strain);
+      end.plastic_strain = stored.plastic_strain;
+      end.rest = stored.rest;
       end.factors = {after(factors.sum, flow.sum_rate), after(factors.shear, flow.shear_rate),
                      after(factors.transverse, flow.transverse_rate)};
-      // The last digits: the stress of the strain that is stored.
+      // The last digits: the stress of that strain.
       const T onto_surface = 1.5 - 0.5 * flow.squared(end.factors) * inverse_square;
       end.scale = onto_surface * (1.0 + h * next);
       end.multiplier = onto_surface * next;
@@ -217,7 +220,7 @@ BRIO_INLINE bool flow_along_tangents(const PlaneStressFlow<T>& trial, const Hard
     if constexpr (is_straight<Hardening>) {
       multiplier = next;
     } else {
-      point = hardening.along(point, strain);
+      point = hardening.along(point, strain - flowed);
     }
   }
   return false;
@@ -248,8 +251,7 @@ BRIO_INLINE PlaneStressEnd<T> flow_within_bracket(const PlaneStressFlow<T>& flow
       high = max(effective_stress / start.stress - 1.0, 0.0) / slowest;
     }
     const T stiffness = 1.5 * flow.unit * series.first / flow.cubed(factors);  // -dq/dp
-    const T ahead =
-        (start.plastic_strain - point.plastic_strain) + strain_unit * multiplier * effective_stress;
+    const T ahead = flow_between(point, start) + strain_unit * multiplier * effective_stress;
     point = hardening.meet(point, effective_stress + stiffness * ahead, stiffness);
     const T newton = (effective_stress - point.stress) * series.squared / (point.stress * series.first);
     const T bend = 1.5 * newton * (series.second / series.first - series.first / series.squared);
@@ -270,7 +272,7 @@ BRIO_INLINE PlaneStressEnd<T> flow_within_bracket(const PlaneStressFlow<T>& flow
   factors = flow.factors(multiplier);
   // The root of a ratio that is 1 to round-off.
   const T onto_surface = 0.5 + 0.5 * square(point.stress) / flow.squared(factors);
-  return {point.plastic_strain, factors, onto_surface, multiplier * onto_surface};
+  return {point.plastic_strain, point.rest, factors, onto_surface, multiplier * onto_surface};
 }
 
 /// \param yields lanes whose trial state is beyond the yield surface; the others are on it.

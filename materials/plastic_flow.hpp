@@ -20,6 +20,14 @@ inline constexpr bool has_back_stress = requires(History history) {
   history.back_stress;
 };
 
+/// \param end where lanes that yield have come to
+template <class T, class End, class History>
+BRIO_INLINE void keep_plastic_strain(MaskOf<T> yields, const HardeningPoint<T>& start, const End& end,
+                                     History& history) {
+  history.equivalent_plastic_strain = where(yields, end.plastic_strain, start.plastic_strain);
+  if constexpr (keeps_rest<History>) history.plastic_strain_rest = where(yields, end.rest, start.rest);
+}
+
 /// Radial return in three dimensions.
 template <class T, class Law, class History>
 BRIO_INLINE void plastic_update(const Law& law, const SymmetricTensor<T>& strain_increment,
@@ -36,13 +44,13 @@ BRIO_INLINE void plastic_update(const Law& law, const SymmetricTensor<T>& strain
   const T squared = 1.5 * contract(xi, xi);
   if (!any(squared > T(square(hardening.initial_yield_stress())))) return;
 
-  const HardeningPoint<T> start = hardening.at(history.equivalent_plastic_strain);
+  const HardeningPoint<T> start = point_of(hardening, history);
   const auto yields = squared > square(start.stress);
   if (!any(yields)) return;
   const T trial = where(yields, sqrt(squared), start.stress);
   const HardeningPoint<T> end = hardening.meet(start, trial, stiffness);
   const T left = end.stress / trial;
-  history.equivalent_plastic_strain = where(yields, end.plastic_strain, start.plastic_strain);
+  keep_plastic_strain<T>(yields, start, end, history);
   SymmetricTensor<T> returned = isotropic(trace(stress) * (1.0 / 3.0)) + left * xi;
   if constexpr (has_back_stress<History>) {
     // The part of the trial stress that flow takes away, shared between elastic unloading and the back
@@ -98,7 +106,7 @@ BRIO_INLINE void plastic_update_plane_stress(const Law& law, const ShellTensor<T
   const T squared = flow.sum_squared + flow.shear_squared + flow.transverse_squared;
   if (!any(squared > T(square(hardening.initial_yield_stress())))) return;
 
-  const HardeningPoint<T> start = hardening.at(history.equivalent_plastic_strain);
+  const HardeningPoint<T> start = point_of(hardening, history);
   const auto yields = squared > square(start.stress);
   if (!any(yields)) return;
   // Lanes that do not yield are given a state on the yield surface.
@@ -111,7 +119,7 @@ BRIO_INLINE void plastic_update_plane_stress(const Law& law, const ShellTensor<T
   const ShellTensor<T> shrunk{sum_shrunk + difference_shrunk, sum_shrunk - difference_shrunk,
                               end.factors.shear * xi.xy, end.factors.transverse * xi.yz,
                               end.factors.transverse * xi.xz};
-  history.equivalent_plastic_strain = where(yields, end.plastic_strain, start.plastic_strain);
+  keep_plastic_strain<T>(yields, start, end, history);
   ShellTensor<T> returned = end.scale * shrunk;
   if constexpr (has_back_stress<History>) {
     // 2/3 kinematic_modulus r dev(xi)
@@ -155,7 +163,7 @@ BRIO_INLINE void plastic_update_fibre(const Law& law, const FibreTensor<T>& stra
   const T squared = flow.sum_squared + flow.shear_squared + flow.transverse_squared;
   if (!any(squared > T(square(hardening.initial_yield_stress())))) return;
 
-  const HardeningPoint<T> start = hardening.at(history.equivalent_plastic_strain);
+  const HardeningPoint<T> start = point_of(hardening, history);
   const auto yields = squared > square(start.stress);
   if (!any(yields)) return;
   // Lanes that do not yield are given a state on the yield surface.
@@ -165,7 +173,7 @@ BRIO_INLINE void plastic_update_fibre(const Law& law, const FibreTensor<T>& stra
   const PlaneStressEnd<T> end = flow_in_plane_stress(flow, hardening, start, yields);
   const FibreTensor<T> shrunk{end.factors.sum * xi.xx, end.factors.shear * xi.xy,
                               end.factors.transverse * xi.xz};
-  history.equivalent_plastic_strain = where(yields, end.plastic_strain, start.plastic_strain);
+  keep_plastic_strain<T>(yields, start, end, history);
   FibreTensor<T> returned = end.scale * shrunk;
   if constexpr (has_back_stress<History>) {
     // 2/3 kinematic_modulus r dev(xi)

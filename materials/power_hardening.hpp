@@ -30,72 +30,81 @@ struct PowerHardening {
   double initial_yield_stress() const { return yield_stress; }
 
   template <class T>
-  BRIO_INLINE HardeningPoint<T> at(T plastic_strain) const {
-    const T beyond = max(plastic_strain - T(luders_strain), 0.0);
+  BRIO_INLINE HardeningPoint<T> at(T plastic_strain, T rest = T(0.0)) const {
+    const T beyond = max((plastic_strain - T(luders_strain)) + rest, 0.0);
     const T rise = T(constant) * pow(beyond, exponent);
-    return {plastic_strain, T(yield_stress) + rise, T(exponent) * rise * inverse_of(beyond)};
+    return {plastic_strain, T(yield_stress) + rise, T(exponent) * rise * inverse_of(beyond), rest};
   }
 
-  /// The curve at another strain than that of `near`.
+  /// The curve at a distance from `near`.
   template <class T>
-  BRIO_INLINE HardeningPoint<T> along(const HardeningPoint<T>& near, T plastic_strain) const {
-    const T distance = plastic_strain - near.plastic_strain;
-    if (!all(is_near(near, distance))) return at(plastic_strain);
-    const T relative = distance * inverse_of(max(near.plastic_strain - T(luders_strain), 0.0));
-    const T rise = (near.stress - T(yield_stress)) * binomial_series(relative);
+  BRIO_INLINE HardeningPoint<T> along(const HardeningPoint<T>& near, T distance) const {
+    HardeningPoint<T> end = near;
+    end.flow_by(distance);
+    if (!all(is_near(near, distance))) return at(end.plastic_strain, end.rest);
+    const T relative = distance * inverse_of(max(beyond(near), 0.0));
+    const T power = binomial_series(relative);
+    end.stress = T(yield_stress) + (near.stress - T(yield_stress)) * power;
     // 1 / (1 + x), as far as a slope needs it that acts over a small distance.
     const T inverse =
         1.0 - relative * (1.0 - relative * (1.0 - relative * (1.0 - relative * (1.0 - relative))));
-    return {plastic_strain, T(yield_stress) + rise, near.slope * binomial_series(relative) * inverse};
+    end.slope = near.slope * power * inverse;
+    return end;
   }
   template <class T>
   BRIO_INLINE T curvature(const HardeningPoint<T>& point) const {
-    return T(exponent - 1) * point.slope * inverse_of(max(point.plastic_strain - T(luders_strain), 0.0));
+    return T(exponent - 1) * point.slope * inverse_of(max(beyond(point), 0.0));
   }
   template <class T>
   BRIO_INLINE MaskOf<T> is_near(const HardeningPoint<T>& point, T distance) const {
-    return abs(distance) <= T(series_reach) * max(point.plastic_strain - T(luders_strain), 0.0);
+    return abs(distance) <= T(series_reach) * max(beyond(point), 0.0);
   }
   template <class T>
   BRIO_INLINE MaskOf<T> has_tangent_over(const HardeningPoint<T>& point, T distance) const {
-    return abs(distance) <= max(point.plastic_strain - T(luders_strain), 0.0);
+    return abs(distance) <= max(beyond(point), 0.0);
   }
   template <class T>
   BRIO_INLINE MaskOf<T> bends(const HardeningPoint<T>& point, T distance) const {
     constexpr double round_off = 0.5 * std::numeric_limits<RealOf<T>>::epsilon();
-    return point.slope * square(distance) >=
-           round_off * point.stress * (point.plastic_strain - T(luders_strain));
+    return point.slope * square(distance) > round_off * point.stress * beyond(point);
   }
   template <class T>
   BRIO_INLINE MaskOf<T> is_concave_from(const HardeningPoint<T>& point) const {
-    return point.plastic_strain >= T(luders_strain);
+    return beyond(point) >= T(0.0);
   }
 
   template <class T>
-  BRIO_INLINE HardeningPoint<T> meet(HardeningPoint<T> near, T effective_stress, T stiffness) const {
-    const T near_u = near.plastic_strain - T(luders_strain);
+  BRIO_INLINE HardeningPoint<T> meet(const HardeningPoint<T>& near, T effective_stress, T stiffness) const {
+    const T near_u = beyond(near);
     const T newton = (effective_stress - near.stress) / (stiffness + near.slope);
     if (all(abs(newton) <= T(straight<T>) * near_u)) {
-      // The strain that is stored is rounded; the stress is that of the stored strain.
-      const T strain = near.plastic_strain + newton;
-      return {strain, near.stress + (strain - near.plastic_strain) * near.slope, near.slope};
+      HardeningPoint<T> end = near;
+      end.flow_by(newton);
+      end.stress = near.stress + newton * near.slope;
+      return end;
     }
     Crossing<T> crossing;
     crossing.stiffness = stiffness;
-    crossing.base = max(near_u, 0.0);
     crossing.base_rise = near.stress - T(yield_stress);
-    crossing.excess = (effective_stress - near.stress) + stiffness * min(near_u, 0.0);
+    crossing.base = max(near_u, 0.0);
+    // Where the rise at `near` is below the last digit of the yield stress, the base is the end of the
+    // plateau.
+    if (constant > 0) crossing.base = where(crossing.base_rise > T(0.0), crossing.base, 0.0);
+    crossing.excess = (effective_stress - near.stress) + stiffness * (near_u - crossing.base);
     const T height = crossing.excess + stiffness * crossing.base + crossing.base_rise;  // C
     const auto hardens = height > T(0.0);
-    if (!all(hardens)) {
-      const T plateau = near.plastic_strain + (effective_stress - T(yield_stress)) / stiffness;
-      if (!any(hardens)) return {plateau, T(yield_stress), T(0.0)};
-      crossing.excess = where(hardens, crossing.excess, 0.0);
-      const HardeningPoint<T> end = beyond_plateau(crossing, where(hardens, height, stiffness), near, near_u);
-      return {where(hardens, end.plastic_strain, plateau), where(hardens, end.stress, yield_stress),
-              where(hardens, end.slope, 0.0)};
-    }
-    return beyond_plateau(crossing, height, near, near_u);
+    if (all(hardens)) return beyond_plateau(crossing, height, near, near_u);
+    HardeningPoint<T> plateau = near;
+    const T to_plateau = (effective_stress - T(yield_stress)) / stiffness;
+    plateau.flow_by(where(near_u > T(0.0), to_plateau, min(to_plateau, -near_u)));
+    plateau.stress = T(yield_stress);
+    plateau.slope = T(0.0);
+    if (!any(hardens)) return plateau;
+    crossing.excess = where(hardens, crossing.excess, 0.0);
+    const HardeningPoint<T> end = beyond_plateau(crossing, where(hardens, height, stiffness), near, near_u);
+    return {where(hardens, end.plastic_strain, plateau.plastic_strain),
+            where(hardens, end.stress, yield_stress), where(hardens, end.slope, 0.0),
+            where(hardens, end.rest, plateau.rest)};
   }
 
  private:
@@ -107,6 +116,12 @@ struct PowerHardening {
     T base;       ///< u >= 0 of the base
     T base_rise;  ///< constant base^exponent
     T excess;     ///< of the line over the curve at the base
+  };
+  /// Crossings that are taken for one at the base: none of the strain between is a number that serves.
+  template <class T>
+  struct VerticalPart {
+    MaskOf<T> meets;
+    T rise;  ///< of the curve at its end
   };
   /// constant u^exponent at u.
   template <class T>
@@ -121,8 +136,9 @@ struct PowerHardening {
   /// Relative distance in u over which the curve is straight to round-off.
   template <class T>
   static constexpr double straight = sizeof(RealOf<T>) == 8 ? 2e-7 : 5e-4;
-  /// Plastic strain beyond the plateau that counts as none while a crossing is looked for: derivatives stay
-  /// finite. In single precision it is felt at first yield where the exponent is below about 0.1.
+  /// Up to this plastic strain beyond the plateau the curve is taken for vertical, so that derivatives stay
+  /// finite: a line that ends there keeps its stress and flows no further than the plateau. In single
+  /// precision that is a visible share of the hardening constant where the exponent is below about 0.2.
   template <class T>
   static constexpr double least = sizeof(RealOf<T>) == 8 ? 1e-200 : 1e-25;
   /// Distance, relative to the base, within which the binomial series gives the power to round-off.
@@ -133,9 +149,14 @@ struct PowerHardening {
   static constexpr int newton_iterations = 6;
   static constexpr int most_iterations = 40;
 
+  /// u, also below 0; without loss next to the end of the plateau.
   template <class T>
-  BRIO_INLINE T inverse_of(T beyond) const {
-    return 1.0 / max(beyond, least<T>);
+  BRIO_INLINE T beyond(const HardeningPoint<T>& point) const {
+    return (point.plastic_strain - T(luders_strain)) + point.rest;
+  }
+  template <class T>
+  BRIO_INLINE T inverse_of(T u) const {
+    return 1.0 / max(u, least<T>);
   }
 
   /// (1 + x)^exponent for small x: 1 + n x (1 + (n-1)/2 x (1 + (n-2)/3 x (...))).
@@ -153,16 +174,31 @@ struct PowerHardening {
   template <class T>
   BRIO_INLINE HardeningPoint<T> beyond_plateau(const Crossing<T>& crossing, T height,
                                                const HardeningPoint<T>& near, T near_u) const {
+    const VerticalPart<T> vertical = vertical_part(crossing);
     T step = first_guess(crossing, height);
-    const Rise<T> rise = solve(crossing, step);
-    const T strain = where(near_u > T(0.0), near.plastic_strain, luders_strain) + step;
+    const Rise<T> rise = solve(crossing, vertical.meets, step);
     const T inverse_u = 1.0 / rise.u;
-    const T correction = (max(strain - T(luders_strain), 0.0) - rise.u) * inverse_u;
+    const T correction = (max(crossing.base + step, least<T>) - rise.u) * inverse_u;
     const T bend = 1.0 + T(0.5 * (exponent - 1)) * correction;
     T stress = T(yield_stress) + rise.value * (1.0 + T(exponent) * correction * bend);
+    stress = where(vertical.meets, T(yield_stress) + min(height, vertical.rise), stress);
     stress = where(rise.found, stress, T(std::numeric_limits<RealOf<T>>::quiet_NaN()));
-    if (all(rise.found) && !all(abs(correction) <= T(near_enough<T>))) return at(strain);
-    return {strain, stress, T(exponent) * rise.value * inverse_u};
+    const auto flowed = (near_u > T(0.0)) & (vertical.meets | (crossing.base > T(0.0)));
+    HardeningPoint<T> end{where(flowed, near.plastic_strain, luders_strain), stress,
+                          where(vertical.meets, 0.0, T(exponent) * rise.value * inverse_u),
+                          where(flowed, near.rest, 0.0)};
+    end.flow_by(step);
+    return end;
+  }
+
+  template <class T>
+  BRIO_INLINE VerticalPart<T> vertical_part(const Crossing<T>& crossing) const {
+    VerticalPart<T> vertical{crossing.base < T(least<T>), crossing.base_rise};
+    if (!any(vertical.meets & (crossing.excess > T(0.0)))) return vertical;
+    vertical.rise = T(constant) * pow(T(least<T>), exponent);
+    const T reach = crossing.stiffness * (T(least<T>) - crossing.base) + (vertical.rise - crossing.base_rise);
+    vertical.meets = vertical.meets & (crossing.excess <= reach);
+    return vertical;
   }
 
   /// Chebyshev's step towards a rise larger by `missing`, relative to u: Newton's step and at most as much
@@ -203,22 +239,15 @@ struct PowerHardening {
   /// Takes the step to the root, but for a change that a Taylor series from the rise returned covers. Comes
   /// to an end by far before most_iterations, unless the input is not a number.
   template <class T>
-  BRIO_INLINE Rise<T> solve(const Crossing<T>& crossing, T& step) const {
+  BRIO_INLINE Rise<T> solve(const Crossing<T>& crossing, MaskOf<T> vertical, T& step) const {
     const T unbounded(std::numeric_limits<RealOf<T>>::max());
     T low = -crossing.base;
     T high = unbounded;
     const T inverse_base = 1.0 / max(crossing.base, least<T>);
-    // A crossing below `least` counts as one there.
-    T least_rise = crossing.base_rise;
-    MaskOf<T> at_least = crossing.base < T(least<T>);
-    if (any(at_least & (crossing.excess > T(0.0)))) {
-      least_rise = T(constant) * pow(T(least<T>), exponent);
-      const T reach = crossing.stiffness * (T(least<T>) - crossing.base) + (least_rise - crossing.base_rise);
-      at_least = at_least & (crossing.excess <= reach);
-    }
-    const MaskOf<T> has_series = at_least | (crossing.base >= T(least<T>));
-    T u(0.0), value(0.0);
-    MaskOf<T> found = at_least;
+    const MaskOf<T> has_series = vertical | (crossing.base >= T(least<T>));
+    T u(least<T>), value(0.0);
+    step = where(vertical, 0.0, step);
+    MaskOf<T> found = vertical;
     for (int iteration = 0; iteration < most_iterations && !all(found); ++iteration) {
       u = max(crossing.base + step, least<T>);
       const T relative = step * inverse_base;
@@ -238,8 +267,7 @@ struct PowerHardening {
       found = found | (abs(next - step) <= near_enough<T> * u);
       step = next;
     }
-    step = where(at_least, T(least<T>) - crossing.base, step);
-    return {where(at_least, T(least<T>), u), where(at_least, least_rise, value), found};
+    return {u, value, found};
   }
 };
 

@@ -42,6 +42,7 @@ struct PowerLawHardening {
   template <class T>
   struct History {
     T equivalent_plastic_strain;
+    T plastic_strain_rest{};  ///< below the last digit of the former (hardening.hpp)
   };
 
   ElasticConstants elastic() const { return {youngs_modulus, poissons_ratio}; }

@@ -38,7 +38,7 @@ template <class Law>
 using HistoryOf = typename Law::template History<double>;
 
 double yield_stress(const auto& law, const auto& history) {
-  return law.hardening().at(history.equivalent_plastic_strain).stress;
+  return point_of(law.hardening(), history).stress;
 }
 template <class History>
 double effective_stress(const SymmetricTensor<double>& stress, const History& history) {
@@ -117,7 +117,7 @@ void expect_return_from_afar(double exponent, double luders, double tolerance) {
     const T before = history.equivalent_plastic_strain;
     T thickness(0.0);
     law.update_plane_stress(increment, random.uniform(0.1, 1), stress, history, thickness);
-    const T allowed = law.hardening().at(history.equivalent_plastic_strain).stress;
+    const T allowed = point_of(law.hardening(), history).stress;
     const T effective = von_mises(deviator(in_space(stress)));
     const T over = (effective - allowed) / allowed;
     for (int lane = 0; lane < lane_count<Real>; ++lane) {

@@ -55,6 +55,7 @@ struct SweepResult {
   double stable_step = 0;            ///< smallest over the chunk; not positive: an element has broken down
   std::size_t critical_element = 0;  ///< index within the block of the element that sets it
   std::size_t lost = 0;              ///< elements to be deleted, listed in Block::lost
+  CountByCause lost_by{};            ///< of these, by DeletionCause
   std::size_t scaled = 0;            ///< elements that got mass, listed in Block::scaled
 };
 

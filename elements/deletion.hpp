@@ -3,12 +3,19 @@
 /// of it.
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
 #include "src/base/fields.hpp"
 
 namespace brio {
+
+/// Why an element is deleted: the first of these that holds.
+enum class DeletionCause { damage, plastic_strain, distortion };
+inline constexpr std::array<std::string_view, 3> deletion_causes{"damage", "plastic_strain", "distortion"};
+/// By DeletionCause.
+using CountByCause = std::array<std::int64_t, deletion_causes.size()>;
 
 /// What becomes of a node when its last element is deleted.
 enum class FreeNodes {

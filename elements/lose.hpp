@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "elements/block.hpp"
 #include "elements/deletion.hpp"
 #include "elements/gather.hpp"
 #include "elements/mean_gradient.hpp"
@@ -43,12 +44,20 @@ BRIO_INLINE T smallest_corner(const T (&position)[3][8]) {
   return smallest;
 }
 
+/// Lanes whose elements are to be deleted.
+template <Floating Real>
+struct LostLanes {
+  LaneMask<Real> any, by_damage, by_plastic_strain;
+};
+
 template <class Kind, class Law, Floating Real, class Header, class Point>
-BRIO_INLINE LaneMask<Real> is_lost(const Kind& kind, const Law& law, const Deletion& deletion,
-                                   const Header& header, const Point* point,
-                                   const MotionOf<Kind, Lanes<Real>>& motion, Lanes<Real> stable_step) {
+BRIO_INLINE LostLanes<Real> lost_lanes(const Kind& kind, const Law& law, const Deletion& deletion,
+                                       const Header& header, const Point* point,
+                                       const MotionOf<Kind, Lanes<Real>>& motion, Lanes<Real> stable_step) {
   using T = Lanes<Real>;
   const T zero(0.0);
+  const LaneMask<Real> none = zero < zero;
+  LostLanes<Real> lanes{none, none, none};
   LaneMask<Real> lost = deletion.inverted ? stable_step <= zero : stable_step < T(-HUGE_VAL);
   if (deletion.minimum_step) lost = lost | ((stable_step < T(*deletion.minimum_step)) & (stable_step > zero));
   if constexpr (can_fail<Law>) {
@@ -61,13 +70,15 @@ BRIO_INLINE LaneMask<Real> is_lost(const Kind& kind, const Law& law, const Delet
                      return where(law.has_failed(history), 1.0, zero);
                    }));
     constexpr double rounding = 1e-6;
-    lost = lost | (failed >= T(law.failure->failed_points - rounding));
+    lanes.by_damage = failed >= T(law.failure->failed_points - rounding);
+    lost = lost | lanes.by_damage;
   }
   if constexpr (requires { point->history.equivalent_plastic_strain; }) {
     if (deletion.plastic_strain) {
       const T strain = mean_over_points<T>(
           kind.points(), point, [](const auto& history) { return history.equivalent_plastic_strain; });
-      lost = lost | (strain > T(*deletion.plastic_strain));
+      lanes.by_plastic_strain = strain > T(*deletion.plastic_strain);
+      lost = lost | lanes.by_plastic_strain;
     }
   }
   if constexpr (Kind::nodes == 8) {
@@ -78,7 +89,23 @@ BRIO_INLINE LaneMask<Real> is_lost(const Kind& kind, const Law& law, const Delet
       lost = lost | (shrunk & (stable_step > zero));
     }
   }
-  return lost;
+  lanes.any = lost;
+  return lanes;
+}
+
+/// Lists the elements of the first `count` lanes that are lost, and counts them by cause.
+/// \param first_of_chunk place of the chunk's first element \param first_of_pack of the pack's
+template <Floating Real>
+void list_lost(const LostLanes<Real>& lost, int count, std::size_t first_of_chunk, std::size_t first_of_pack,
+               Block& block, SweepResult& result) {
+  for (int lane = 0; lane < count; ++lane) {
+    if (lost.any.v[lane] == 0) continue;
+    block.lost[first_of_chunk + result.lost++] = static_cast<int>(first_of_pack) + lane;
+    DeletionCause cause = DeletionCause::distortion;
+    if (lost.by_plastic_strain.v[lane] != 0) cause = DeletionCause::plastic_strain;
+    if (lost.by_damage.v[lane] != 0) cause = DeletionCause::damage;
+    ++result.lost_by[static_cast<std::size_t>(cause)];
+  }
 }
 
 /// Takes back the forces of lost lanes and their half of the step's work. Of an element that has inverted

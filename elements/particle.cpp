@@ -116,14 +116,12 @@ SweepResult sweep_particles(Block& block, Chunk chunk, Nodes& nodes, double step
     auto* point = Layout::points(block, pack);
     Increment<Number> increment = kernel.force(motion_of(sums), Number(step), law, header, point, forces);
     if (block.loses_elements) {
-      const LaneMask<double> lost =
-          is_lost<ParticleKernel, Law, double>(kernel, law, block.deletion, header, point,
-                                               MotionOf<ParticleKernel, Number>{}, increment.stable_step);
-      if (any(lost)) {
-        take_back_particles(lost, step, forces, increment);
-        for (int lane = 0; lane < count; ++lane)
-          if (lost.v[lane] != 0)
-            block.lost[chunk.first_pack * width + result.lost++] = static_cast<int>(pack * width) + lane;
+      const LostLanes<double> lost =
+          lost_lanes<ParticleKernel, Law, double>(kernel, law, block.deletion, header, point,
+                                                  MotionOf<ParticleKernel, Number>{}, increment.stable_step);
+      if (any(lost.any)) {
+        take_back_particles(lost.any, step, forces, increment);
+        list_lost<double>(lost, count, chunk.first_pack * width, pack * width, block, result);
       }
       hold<double>(increment, block.held.data() + pack * 2 * width);
     }

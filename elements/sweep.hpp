@@ -235,14 +235,12 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
         kind.force(motion, T(step), law, Layout::header(block, pack), Layout::points(block, pack), forces);
     fetch_next_state<StateHalf::second, Layout>(block, kind, pack);
     if (block.loses_elements) {
-      const LaneMask<Real> lost =
-          is_lost<Kind, Law, Real>(kind, law, block.deletion, Layout::header(block, pack),
-                                   Layout::points(block, pack), motion, increment.stable_step);
-      if (any(lost)) {
-        take_back<Kind, Real>(lost, motion, step, forces, increment);
-        for (int lane = 0; lane < count; ++lane)
-          if (lost.v[lane] != 0)
-            block.lost[chunk.first_pack * width + result.lost++] = static_cast<int>(pack * width) + lane;
+      const LostLanes<Real> lost =
+          lost_lanes<Kind, Law, Real>(kind, law, block.deletion, Layout::header(block, pack),
+                                      Layout::points(block, pack), motion, increment.stable_step);
+      if (any(lost.any)) {
+        take_back<Kind, Real>(lost.any, motion, step, forces, increment);
+        list_lost<Real>(lost, count, chunk.first_pack * width, pack * width, block, result);
       }
       hold<Real>(increment, block.held.data() + pack * 2 * width);
     }

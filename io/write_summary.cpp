@@ -24,6 +24,13 @@ Json energies(const Summary::Energies& energy) {
           {"total_start", energy.total_start}, {"error_relative", energy.error_relative}};
 }
 
+Json by_cause(const CountByCause& count) {
+  Json counts;
+  for (std::size_t cause = 0; cause < count.size(); ++cause)
+    counts[std::string(deletion_causes[cause])] = count[cause];
+  return counts;
+}
+
 Json masses(const Summary::Masses& mass) {
   return {{"start", mass.start},
           {"intact", mass.intact},
@@ -73,6 +80,7 @@ std::string summary_json(const Summary& summary) {
             {"nodes", summary.nodes},
             {"elements", counts(summary.elements)},
             {"deleted", counts(summary.deleted)},
+            {"deleted_by_cause", by_cause(summary.deleted_by_cause)},
             {"energy", energies(summary.energy)},
             {"mass", masses(summary.mass)},
             {"momentum", {{"linear", summary.momentum.linear}, {"angular", summary.momentum.angular}}},

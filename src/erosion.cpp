@@ -85,6 +85,8 @@ void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResul
   erosion.freed.clear();
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
     if (results[t].lost == 0) continue;
+    for (std::size_t cause = 0; cause < results[t].lost_by.size(); ++cause)
+      erosion.deleted_by_cause[cause] += results[t].lost_by[cause];
     SweepTask& task = schedule.tasks[t];
     Block& block = blocks[task.block];
     PartInModel& part = parts[task.block];

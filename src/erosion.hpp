@@ -43,6 +43,7 @@ struct Erosion {
 
   std::vector<int> elements_of_node;        ///< that live
   std::vector<std::int64_t> deleted_count;  ///< of each part, so far
+  CountByCause deleted_by_cause{};          ///< by DeletionCause, so far
   double mass_of_deleted = 0;               ///< of deleted elements so far; it stays on their nodes
   std::vector<int> dropping;                ///< nodes that leave before the next step, ascending
   double dropped_mass = 0;

@@ -83,7 +83,6 @@ bool can_be_damaged(const Model& model) {
   return std::any_of(model.blocks.begin(), model.blocks.end(),
                      [](const Block& block) { return has_failure(block.material); });
 }
-
 std::int64_t deleted_so_far(const Model& model) { return model.erosion ? model.erosion->total_deleted() : 0; }
 
 // Of each node its number in the results, by parts; -1 of those that no part names.
@@ -253,6 +252,8 @@ std::vector<std::string> history_columns(const Model& model) {
       columns.push_back(model.parts[p].name + axis);
   if (model.added_mass) columns.emplace_back("added_mass");
   if (model.missed_contacts) columns.emplace_back("missed_contacts");
+  if (model.erosion)
+    for (const auto cause : deletion_causes) columns.push_back("deleted_by_" + std::string(cause));
   add_columns(model.probes, columns);
   return columns;
 }
@@ -278,6 +279,8 @@ void observe_history(Model& model, std::vector<double>& row) {
   }
   if (model.added_mass) row.push_back(model.added_mass->total());
   if (model.missed_contacts) row.push_back(model.missed_contacts->found.missed());
+  if (model.erosion)
+    for (const auto count : model.erosion->deleted_by_cause) row.push_back(static_cast<double>(count));
   add_values(model.probes, model.nodes, row);
 }
 
@@ -330,6 +333,7 @@ Summary observe_end(Model& model) {
     summary.mass.debris = balance.debris;
     summary.mass.deleted = model.erosion->dropped_mass;
     summary.mass.of_deleted_elements = model.erosion->mass_of_deleted;
+    summary.deleted_by_cause = model.erosion->deleted_by_cause;
   }
   const EnergyBook& energy = model.energy;
   summary.energy = {.kinetic = energy.kinetic,

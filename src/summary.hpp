@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "elements/deletion.hpp"
+
 namespace brio {
 
 struct Summary {
@@ -72,6 +74,7 @@ struct Summary {
   std::int64_t nodes = 0;
   ElementCounts elements;  ///< at the start
   ElementCounts deleted;
+  CountByCause deleted_by_cause{};
   Energies energy;
   Masses mass;
   Momenta momentum;

@@ -21,6 +21,7 @@ TEST(Erosion, MinimumStepDeletesWhatWouldHoldTheStepDown) {
   Model model = build_model(deck);
   run_all(model, deck);
   EXPECT_EQ(model.erosion->total_deleted(), 2);
+  EXPECT_EQ(model.erosion->deleted_by_cause, (CountByCause{0, 0, 2}));
   EXPECT_GT(model.control.least, 0.5 * 0.39 * reference.control.stable);
 }
 

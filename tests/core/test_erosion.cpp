@@ -42,6 +42,7 @@ TEST(Erosion, ElementGoesWhenItsDamageHasReachedTheBound) {
   EXPECT_GT(damage, 0.85);
   EXPECT_LT(damage, 0.9);
   EXPECT_EQ(model.erosion->total_deleted(), 1);
+  EXPECT_EQ(model.erosion->deleted_by_cause, (CountByCause{1, 0, 0}));
   EXPECT_EQ(model.blocks[0].element_count, 0u);
   EXPECT_EQ(model.parts[0].element_slot[0], -1);
   // Everything that the element had received is deleted, to the last half step.
@@ -75,6 +76,7 @@ TEST(Erosion, EnergyErrorDoesNotFeelADeletionUnderFullStress) {
       before = error;
     });
     EXPECT_LT(jump, 1e-4 * model.energy.deleted) << name_of(element);
+    EXPECT_EQ(model.erosion->deleted_by_cause, (CountByCause{0, 1, 0})) << name_of(element);
   }
 }
 

@@ -69,6 +69,7 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
                                "nodes",
                                "elements",
                                "deleted",
+                               "deleted_by_cause",
                                "energy",
                                "mass",
                                "momentum",
@@ -79,6 +80,7 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
                                "threads",
                                "active_features",
                                "warnings"}));
+  EXPECT_EQ(keys(json["deleted_by_cause"]), (Names{"damage", "plastic_strain", "distortion"}));
   EXPECT_EQ(keys(json["dt"]), (Names{"min", "max", "last"}));
   EXPECT_EQ(keys(json["elements"]), (Names{"hex8", "shell4", "beam2", "particle"}));
   EXPECT_EQ(keys(json["deleted"]), (Names{"hex8", "shell4", "beam2", "particle"}));

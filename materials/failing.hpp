@@ -5,7 +5,8 @@
 ///
 ///     failure sets in     p > failure strain, or TP > tearing parameter, where
 ///                         TP = integral of < 2 sigma_1 / (3 (sigma_1 - sigma_m)) >^4 dp,
-///                         or D > 1 of Johnson & Cook (johnson_cook_fracture.hpp)
+///                         or D > 1 of Johnson & Cook (johnson_cook_fracture.hpp) or of Mohr & Marcadet
+///                         (hosford_coulomb_fracture.hpp)
 ///     opening             d(damage) = <n . d(eps) . n> / opening strain      while sigma_1 > 0, once it has
 ///     in tension          d(damage) = dp / failure strain                    while sigma_1 > 0
 ///     sudden              damage = TP / tearing parameter, or D; the stress is whole until it is dropped
@@ -14,6 +15,7 @@
 /// deletion_damage carries nothing from then on.
 
 #include "materials/failure.hpp"
+#include "materials/hosford_coulomb_fracture.hpp"
 #include "materials/johnson_cook_fracture.hpp"
 #include "materials/principal_stress.hpp"
 #include "materials/stress_state.hpp"
@@ -38,7 +40,7 @@ struct Failing : Law {
   template <class T>
   struct History : Law::template History<T> {
     T damage;
-    T measure;         ///< tearing parameter or D of Johnson and Cook; 0 where the deck names neither
+    T measure;         ///< tearing parameter or D; 0 where the deck names a strain
     T opening_strain;  ///< at which damage is 1
   };
 
@@ -163,13 +165,15 @@ struct Failing : Law {
   BRIO_INLINE T growth_of_measure(const SymmetricTensor<T>& stress, T flow, const History<T>& history) const {
     const Failure& f = *this->failure;
     if (f.tearing_parameter) return tearing(stress, largest_principal(stress).value) * flow;
+    const double least_stress = 1e-9 * this->youngs_modulus;
+    if (f.hosford_coulomb) return hosford_coulomb_damage(*f.hosford_coulomb, stress, flow, least_stress);
     T rate_logarithm(0.0), homologous_temperature(0.0);
     if constexpr (requires { Law::rate_logarithm(flow); }) {
       if (f.johnson_cook->d4 != 0) rate_logarithm = Law::rate_logarithm(flow);
       if (f.johnson_cook->d5 != 0) homologous_temperature = Law::homologous_temperature(history);
     }
     return johnson_cook_damage(*f.johnson_cook, stress, flow, rate_logarithm, homologous_temperature,
-                               1e-9 * this->youngs_modulus);
+                               least_stress);
   }
 
   template <class T>

@@ -62,10 +62,35 @@ struct JohnsonCookFracture {
   }
 };
 
+inline constexpr Range hosford_exponent_range{.lower = 1, .upper = 2};
+
+/// Failure strain that depends on triaxiality and Lode angle. The formula is in hosford_coulomb_fracture.hpp.
+struct HosfordCoulombFracture {
+  double a = 1;
+  double b = 0;
+  double c = 0;
+  double transformation_exponent = 0.1;
+
+  static constexpr auto fields() {
+    return field_table(
+        required("a", &HosfordCoulombFracture::a, hosford_exponent_range,
+                 "exponent of Hosford's stress: 1 (Tresca) breaks soonest in shear and plane strain, 2 (von "
+                 "Mises) "
+                 "in tension, -"),
+        required("b", &HosfordCoulombFracture::b, positive,
+                 "failure strain in uniaxial and in equal biaxial tension, -"),
+        required("c", &HosfordCoulombFracture::c, non_negative,
+                 "friction: how much the sum of largest and smallest principal stress counts, -"),
+        optional("transformation_exponent", &HosfordCoulombFracture::transformation_exponent, positive,
+                 "n_f: the failure strain goes as stress to the power -1 / n_f, -"));
+  }
+};
+
 struct Failure {
   std::optional<double> strain{};
   std::optional<double> tearing_parameter{};
   std::optional<JohnsonCookFracture> johnson_cook{};
+  std::optional<HosfordCoulombFracture> hosford_coulomb{};
   DamageGrowth damage_growth = DamageGrowth::opening;
   std::optional<double> opening_strain{};
   std::optional<double> opening_displacement{};
@@ -82,6 +107,9 @@ struct Failure {
             "johnson_cook", &Failure::johnson_cook, any_number,
             "in place of strain: failure strain by triaxiality, rate and temperature, of which shares are "
             "summed up"),
+        optional("hosford_coulomb", &Failure::hosford_coulomb, any_number,
+                 "in place of strain: failure strain by triaxiality and Lode angle, of which shares are "
+                 "summed up: sees shear"),
         optional("damage_growth", &Failure::damage_growth, any_number,
                  "what damage is made of: opening strain after failure has set in, plastic strain in "
                  "tension over the failure strain, or the share of the way to a sudden failure"),
@@ -99,16 +127,19 @@ struct Failure {
 
   constexpr std::string_view fault() const {
     const bool opens = damage_growth == DamageGrowth::opening;
-    if (strain.has_value() + tearing_parameter.has_value() + johnson_cook.has_value() != 1)
-      return "what the material fails at is not said once; accepted is one of strain, tearing_parameter and "
-             "johnson_cook";
+    if (strain.has_value() + tearing_parameter.has_value() + johnson_cook.has_value() +
+            hosford_coulomb.has_value() !=
+        1)
+      return "what the material fails at is not said once; accepted is one of strain, tearing_parameter, "
+             "johnson_cook and hosford_coulomb";
     if (opens && opening_strain.has_value() == opening_displacement.has_value())
       return "damage by opening grows over an opening; accepted is one of opening_strain and "
              "opening_displacement, or damage_growth: sudden";
     if (damage_growth == DamageGrowth::plastic_strain_in_tension && !strain)
       return "damage by plastic strain in tension is a share of the failure strain; strain is required";
     if (damage_growth == DamageGrowth::sudden && strain)
-      return "sudden failure is that of tearing_parameter or johnson_cook, which know tension from pressure; "
+      return "sudden failure is that of tearing_parameter, johnson_cook or hosford_coulomb, which know "
+             "tension from pressure; "
              "for "
              "a strain alone see deletion: {plastic_strain: P} of a part";
     if (!opens && (opening_strain || opening_displacement))

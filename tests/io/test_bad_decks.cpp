@@ -99,7 +99,7 @@ constexpr Edit edits[] = {
     {"material: steel", "material: ^stahl", "no material is called 'stahl'"},
     {"model: elastic, ", "model: elastic, ^failure: {strain: 1}, ", "unknown key 'failure'"},
     {"model: elastic, ", "model: elastic_plastic, yield_stress: 1, failure: ^{}, ",
-     "accepted is one of strain, tearing_parameter and johnson_cook"},
+     "accepted is one of strain, tearing_parameter, johnson_cook and hosford_coulomb"},
     {"model: elastic, ", "model: elastic_plastic, yield_stress: 1, failure: ^{strain: 1}, ",
      "accepted is one of opening_strain and opening_displacement"},
     {"model: elastic, ", "model: elastic_plastic, yield_stress: 1, failure: {strain: ^0}, ",
@@ -112,6 +112,11 @@ constexpr Edit edits[] = {
      "2, "
      "d3: -1}}, ",
      "least_strain is required"},
+    {"model: elastic, ",
+     "model: elastic_plastic, yield_stress: 1, failure: {damage_growth: sudden, hosford_coulomb: {a: ^2.1, "
+     "b: 1, "
+     "c: 0}}, ",
+     "'a' is '2.1'; expected a number >= 1 and <= 2"},
     {"{model: elastic, ",
      "^{model: elastic_plastic, yield_stress: 1, failure: {damage_growth: sudden, johnson_cook: {d1: 1, d2: "
      "0, d3: 0, "

@@ -57,12 +57,24 @@ TEST(Preset, ComesFromTheCommandLineAsWellAndIsLessThanIt) {
   EXPECT_GT(deck.time.step_scale, 0.9);
 }
 
-TEST(Preset, AccurateHoldsHourglassModesLess) {
+TEST(Preset, AccurateDampsImpactsLessAndHoldsHourglassModesOfShellsLess) {
   const Deck deck = with("numerics: {preset: accurate}\n"), plain = with("");
   EXPECT_LT(std::get<Shell4>(deck.parts[2].element).hourglass_stiffness,
             std::get<Shell4>(plain.parts[2].element).hourglass_stiffness);
-  EXPECT_LT(std::get<Hex8>(deck.parts[0].element).hourglass_stiffness,
+  EXPECT_EQ(std::get<Hex8>(deck.parts[0].element).hourglass_stiffness,
             std::get<Hex8>(plain.parts[0].element).hourglass_stiffness);
+  EXPECT_LT(std::get<Hex8>(deck.parts[0].element).linear_bulk_viscosity,
+            std::get<Hex8>(plain.parts[0].element).linear_bulk_viscosity);
+  EXPECT_GT(std::get<Hex8>(deck.parts[0].element).linear_bulk_viscosity, 0);
+  EXPECT_GT(deck.time.step_scale, plain.time.step_scale);
+}
+
+TEST(Preset, AccurateLeavesWhatTheDeckSays) {
+  std::string text = deck_text;
+  text.replace(text.find("objective_rate: green_naghdi"), 28, "linear_bulk_viscosity: 0.07  ");
+  const Deck deck = parse_deck(text + "numerics: {preset: accurate}\n", "deck.yaml", {"time.step_scale=0.6"});
+  EXPECT_EQ(std::get<Hex8>(deck.parts[1].element).linear_bulk_viscosity, 0.07);
+  EXPECT_EQ(deck.time.step_scale, 0.6);
 }
 
 TEST(Preset, SwitchesNothingOn) {

@@ -16,6 +16,16 @@ bool accepts(const Element& element, const Material& material) {
       element, material);
 }
 
+namespace {
+
+// Beams take strains from differences of positions and triads since the start: rounded to float, these would
+// do work in every step and heat the beam.
+Precision precision_of(const Element& element, Precision wanted) {
+  return std::holds_alternative<Beam2>(element) ? Precision::double_precision : wanted;
+}
+
+}  // namespace
+
 Block make_block(std::string part, const Element& element, const Material& material, Precision precision,
                  std::span<const int> connectivity, const std::optional<Deletion>& deletion) {
   if (!accepts(element, material))
@@ -25,9 +35,9 @@ Block make_block(std::string part, const Element& element, const Material& mater
   block.part = std::move(part);
   block.element = element;
   block.material = material;
-  block.precision = precision;
+  block.precision = precision_of(element, precision);
   block.deletion = deletion.value_or(Deletion{});
-  block.lanes = precision == Precision::double_precision ? lane_count<double> : lane_count<float>;
+  block.lanes = block.precision == Precision::double_precision ? lane_count<double> : lane_count<float>;
   const auto corners = static_cast<std::size_t>(nodes_per_element(element));
   const auto width = static_cast<std::size_t>(block.lanes);
   block.element_count = connectivity.size() / corners;

@@ -268,5 +268,31 @@ TEST(Beams, OneAlongItsOrientationIsRefusedByName) {
   }
 }
 
+// A steel cantilever, 1 m long and 20 mm thick, whose own weight is there at once. Rounding of strains that
+// are differences of positions would heat it.
+void expect_no_heat_under_own_weight(int steps) {
+  Elastic steel = elastic(0.3);
+  steel.density = 7800;
+  steel.youngs_modulus = 207e9;
+  constexpr double side = 0.02;
+  Deck deck =
+      one_line(line("beam", {0, 0, 0}, {1, 0, 0}, 16, square_beam(side, 0.06)), 9.33e-6 * steps, steel);
+  deck.boundary_conditions = {fix("beam.start", {0, 1, 2, 3, 4, 5})};
+  Gravity gravity;
+  gravity.acceleration = {0, 0, -9.81};
+  deck.loads = {gravity};
+  deck.numerics.precision = Precision::single_precision;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  run(model, deck, team);
+  EXPECT_GT(model.step, 0.9 * steps);
+  EXPECT_LE(model.energy.error_max, 1e-4);
+}
+
+TEST(OwnWeight, OfACantileverOfFloatBeamsDoesNotHeatIt) { expect_no_heat_under_own_weight(50000); }
+TEST(OwnWeightSlow, OfACantileverOfFloatBeamsDoesNotHeatItInAMillionSteps) {
+  expect_no_heat_under_own_weight(1000000);
+}
+
 }  // namespace
 }  // namespace brio

@@ -118,6 +118,7 @@ class Output {
     model_.momentum = good_.momentum;
     model_.times = good_.times;
     model_.step = good_.step;
+    if (state_ == nullptr && next_kept_ == 0) return write_start();
     if (state_ == nullptr) return;
     // Rows are in the order of time: those since then were good as well.
     if (!good_.has_dump) writer_.write(*state_);
@@ -126,6 +127,12 @@ class Output {
   }
 
  private:
+  // Of a run that breaks down in its first step: what the deck describes, if results can hold it.
+  void write_start() {
+    const Snapshot& start = observer_.observe(model_);
+    if (what_results_cannot_hold(start).empty()) writer_.write(start);
+  }
+
   // A state is kept after so many steps, and this share of those made: less than a hundredth of the run.
   static constexpr std::int64_t least_steps_between = 20, share_of_steps = 50;
 

@@ -272,6 +272,7 @@ TEST_F(ProgramSlow, CutsAPipeAndMissesNoContact) {
   const nlohmann::json found = nlohmann::json::parse(read("cut/pipe_cutting.summary.json"));
   EXPECT_EQ(found["contact"]["missed"], 0);
   EXPECT_GT(found["deleted"]["hex8"], 50);
+  EXPECT_GE(found["deleted_by_cause"]["damage"].get<double>(), 0.9 * found["deleted"]["hex8"].get<double>());
   EXPECT_LT(std::abs(found["energy"]["error_relative"].get<double>()), 1e-4);
   EXPECT_GT(found["dt"]["min"].get<double>(), 0.1 * found["dt"]["max"].get<double>());
   const nlohmann::json& mass = found["mass"];

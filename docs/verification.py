@@ -99,6 +99,20 @@ def reference_of(quantity):
     return f"{number(quantity['reference'])}" + (f" ({source})" if source else "")
 
 
+def cells_of(study, table, quantity, tolerance):
+    """A cell a preset, and the presets that are beyond the tolerance. A study that varies something else shows the run
+    that is furthest off, as of the preset whose precision it has."""
+    told = lambda run: f"{number(table[run][quantity])} ({share(error_of(run))})"
+    error_of = lambda run: float(table[run][quantity + "_error"])
+    beyond = lambda run: tolerance is not None and not error_of(run) <= tolerance
+    if "preset" in study["knobs"]:
+        return [told(run) for run in RUNS], ["balanced" if run == "default" else run.split(".")[1] for run in RUNS if beyond(run)]
+    worst = max(table, key=error_of)
+    preset = "fast" if study.get("set", {}).get("numerics.precision") == "float" else "balanced"
+    cells = [told(worst) if preset == column else "-" for column in ("fast", "balanced", "accurate")]
+    return cells, [preset] if beyond(worst) else []
+
+
 def rows_of_study(name, options):
     """Rows of the table, and those of them that are beyond their tolerance."""
     study = read_yaml(CASES / f"{name}.study.yaml")
@@ -106,12 +120,7 @@ def rows_of_study(name, options):
     rows, beyond = [], []
     for quantity, said in study["quantities"].items():
         tolerance = said.get("tolerance")
-        cells, outside = [], []
-        for run in RUNS:
-            error = float(table[run][quantity + "_error"])
-            cells.append(f"{number(table[run][quantity])} ({share(error)})")
-            if tolerance is not None and not error <= tolerance:
-                outside.append("balanced" if run == "default" else run.split(".")[1])
+        cells, outside = cells_of(study, table, quantity, tolerance)
         verdict = "" if tolerance is None else "yes" if not outside else "**not " + ", ".join(outside) + "**"
         told = quantity.replace("_", " ").replace(" percent", " %")
         first = f"[{study['title']}](../inputs/verification/{name}.study.yaml)" if not rows else ""

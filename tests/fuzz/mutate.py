@@ -351,7 +351,7 @@ class Campaign:
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             process = subprocess.Popen([self.program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=output,
                                        stderr=errors, preexec_fn=self.limits, env=environment, start_new_session=True)
-            ticks, told, wait = os.sysconf("SC_CLK_TCK"), False, 0.002
+            ticks, told, wait, begin = os.sysconf("SC_CLK_TCK"), False, 0.002, time.monotonic()
             while process.poll() is None:
                 time.sleep(wait)
                 wait = min(2 * wait, 0.25)
@@ -359,7 +359,9 @@ class Campaign:
                     fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
                 except (OSError, IndexError):
                     continue
-                if can_be_stopped and not told and (int(fields[11]) + int(fields[12])) / ticks > STOP_AFTER:
+                own = (int(fields[11]) + int(fields[12])) / ticks
+                # The members of a study spend its time.
+                if can_be_stopped and not told and (own > STOP_AFTER or time.monotonic() - begin > 2 * STOP_AFTER):
                     process.send_signal(signal.SIGTERM)
                     told = True
             after = resource.getrusage(resource.RUSAGE_CHILDREN)

@@ -133,7 +133,7 @@ class Output {
     if (what_results_cannot_hold(start).empty()) writer_.write(start);
   }
 
-  // A state is kept after so many steps, and this share of those made: less than a hundredth of the run.
+  // A state is kept after so many steps and this share of those made: of ten thousand steps about 120.
   static constexpr std::int64_t least_steps_between = 20, share_of_steps = 50;
 
   /// What was true at the state that the observer holds.

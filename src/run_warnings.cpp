@@ -1,26 +1,20 @@
 #include "src/run_warnings.hpp"
 
-#include <cstdio>
+#include <cmath>
+
+#include "src/diagnosis.hpp"
 
 namespace brio {
 
 namespace {
 
-std::string names_of_parts(const Model& model, std::size_t block) {
-  std::string names;
-  for (const PartInModel& part : model.parts)
-    if (part.rigid < 0 && part.block == block) names += (names.empty() ? "'" : ", '") + part.name + "'";
-  return names;
-}
-
 std::string warning_of_pairs(const Model& model, const ParticleSearch& search) {
-  char figures[200];
-  std::snprintf(figures, sizeof figures,
-                "%.0f %% of the particles at time %.4g were closer to another than half of their spacing",
-                100 * search.paired.largest_share, search.paired.time);
-  return "part " + names_of_parts(model, search.block) + ": " + figures +
-         "; in tension and in thin sheets particles whose kernel is of now gather in pairs, and their stress "
-         "is too low; 'kernel: total_lagrangian' holds tension";
+  return "part '" + model.parts[search.block].name +
+         "': " + written(std::round(100 * search.paired.largest_share)) + " % of the particles at time " +
+         written(search.paired.time) +
+         " were closer to another than half of their spacing; in tension and in thin sheets particles whose "
+         "kernel is of now gather in pairs, and their stress is too low; 'kernel: total_lagrangian' holds "
+         "tension";
 }
 
 }  // namespace

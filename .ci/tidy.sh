@@ -7,4 +7,4 @@ cd "$(dirname "$0")/.."
 cmake --preset release -B build/tidy -G Ninja -DBRIO_TESTS=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 files=("$@")
 [ $# -gt 0 ] || mapfile -t files < <(git ls-files '*.cpp' | grep -v '^tests/')
-printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet
+printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet --extra-arg=-Wno-unused-command-line-argument

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -13,7 +15,7 @@ namespace brio {
 namespace {
 
 std::string duration(double seconds) {
-  const auto whole = static_cast<long>(seconds + 0.5);
+  const long whole = std::lround(seconds);
   if (whole < 60) return fmt::format("{:.1f} s", seconds);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
@@ -31,6 +33,9 @@ class ProgressLine {
         progress.step, progress.dt, 100 * progress.time / progress.end, duration(progress.elapsed_s),
         duration(progress.remaining_s), 100 * progress.energy_error);
     if (progress.deleted > 0) line += fmt::format("  deleted {}", progress.deleted);
+    if (!progress.hourglassing.empty())
+      line +=
+          fmt::format("  hourglass {:.0f} % of '{}'", 100 * progress.hourglass_ratio, progress.hourglassing);
     if (on_terminal_) {
       write_error("\r{:<118}", line);
       if (finished) write_error("\n");

@@ -37,8 +37,14 @@ struct Hex8Kernel : Hex8 {
   template <class T, class Law>
   NodalMass<T> initialize(const NodalMotion<T, 8>& motion, const Law& law, Header<T, Law>& header,
                           Point<T, Law>* point) const {
-    header.mass = T(law.density) * mean_gradient(modes(motion.position)).volume;
+    const HexahedronModes<T> x = modes(motion.position);
+    const MeanGradient<T> b = mean_gradient(x);
+    header.mass = T(law.density) * b.volume;
     start(*point);
+    const T volume = where(b.volume > T(0.0), b.volume, T(1.0));
+    const T distortion = hourglass_distortion(x, gradient_product(b, gradient_scale / volume));
+    header.hourglass.scale = hourglass_scale(brio::hourglass_stiffness(
+        hourglass_stiffness, law.template moduli<T>(point->history), volume, distortion));
     return {header.mass * 0.125, T(0.0)};
   }
 
@@ -57,12 +63,6 @@ struct Hex8Kernel : Hex8 {
     const Tensor<T> n = centered(half_l, determinant);
     const StepVolume<T> volume = step_volume(b.volume, determinant);
 
-    HourglassVectors<T> q = hourglass_motion(x, v, half_step, half_l);
-    // Taken on the end configuration it stands on the axes of the start, from which it is carried to those on
-    // which the forces stand, of the middle or the end: forces that lag behind the turning feed a turning
-    // body with energy.
-    const Tensor<T> ahead = is_unrotated ? n : with_more_spin(n);
-    for (Vector3<T>& mode : q.mode) mode = mode + turned(ahead, mode);
     MaterialAxes<T> axes;
     Increment<T> increment;
     const PointStep<T> point_step = update(law, n, *point, axes);
@@ -84,24 +84,23 @@ struct Hex8Kernel : Hex8 {
     const T distortion = hourglass_distortion(x, g);
     const HourglassModuli<T> stiffness =
         brio::hourglass_stiffness(hourglass_stiffness, moduli, volume.end, distortion);
-    HourglassAxes<T> hourglass_axes{g, {}};
-    for (int k = 0; k < linear_modes; ++k) hourglass_axes.normal[k] = scaled_inverse_volume * b.beta[k];
-    if constexpr (is_unrotated) {
-      hourglass_axes.g = turned_back(axes.end, g);
-      for (Vector3<T>& normal : hourglass_axes.normal) normal = turned_back(axes.end, normal);
-      for (Vector3<T>& mode : q.mode) mode = turned_back(axes.middle, mode);
-    } else {
-      for (Vector3<T>& mode : header.hourglass.force.mode) mode = turned(axes.end, mode);
-    }
+    const HourglassAxes<T> edges = hourglass_axes(b, scaled_inverse_volume);
+    HourglassScale<T>& scale = header.hourglass.scale;
+    const HourglassScale<T> old_scale = scale;
+    scale = hourglass_scale(stiffness);
+    const SpringChange<T> change = spring_change(old_scale.stiffness, scale.stiffness);
+    // As the gradients, displacements of the middle follow from those on the end configuration.
+    HourglassVectors<T> q = hourglass_motion(x, v, half_step, half_l);
+    for (Vector3<T>& mode : q.mode) mode = T(2.0) * (mode + turned(n, mode));
+    const HourglassStrain<T> growth =
+        hourglass_strain(centered(edges, n), change.growth, 0.5 * (old_scale.twist + scale.twist), q);
     const HourglassWork<T> hourglass =
-        resist_hourglass_motion(law, *point, point_step, axes, moduli.shear, stiffness, volume.end,
-                                hourglass_axes, q, header.hourglass);
+        resist_hourglass_motion(law, *point, point_step, axes, moduli.shear, stiffness.bending, volume.end,
+                                change.carried, growth, header.hourglass);
     increment.hourglass_energy = hourglass.stored;
     increment.internal_energy += hourglass.dissipated;
     header.internal_energy += increment.internal_energy;
-    q = header.hourglass.force;
-    if constexpr (is_unrotated)
-      for (Vector3<T>& mode : q.mode) mode = turned(axes.end, mode);
+    q = hourglass_forces(edges, header.hourglass);
     T damping = viscosity.damping;
     if (hourglass_viscosity > 0) {
       const T resistance =
@@ -124,45 +123,42 @@ struct Hex8Kernel : Hex8 {
   /// returns stress to the yield surface, and stays below that of a section that yields all over. On top of
   /// that flow it grows less, of a displacement of which the rest is plastic; going back is elastic. Work
   /// that is not stored is plastic work. Where nothing flows in a pack, flow costs nothing.
+  /// \param carried of the strain of the last step (SpringChange)
   template <class T, class Law>
   BRIO_INLINE HourglassWork<T> resist_hourglass_motion(const Law& law, const Point<T, Law>& point,
                                                        const PointStep<T>& step, const MaterialAxes<T>& axes,
-                                                       T shear, const HourglassModuli<T>& stiffness, T volume,
-                                                       const HourglassAxes<T>& hourglass_axes,
-                                                       const HourglassVectors<T>& q,
+                                                       T shear, T bending, T volume, T carried,
+                                                       const HourglassStrain<T>& growth,
                                                        HourglassState<T>& state) const {
+    const T stiffness = state.scale.stiffness;
     if constexpr (!flows<Law>) {
-      const T work = stretch_hourglass(state.force, hourglass_axes, stiffness, q);
-      state.energy += work;
-      return {work, T(0.0)};
+      return {stiffness * stretch_hourglass(state.strain, carried, growth, T(1.0)), T(0.0)};
     } else {
-      const T old_energy = state.energy;
+      const T old_energy = square(carried) * stored_energy(state);
       const auto hardening = law.hardening();
       const T plastic_strain = point.history.equivalent_plastic_strain;
       const MaskOf<T> has_flowed = plastic_strain > step.old_plastic_strain;
       T share(1.0);
       if (any(has_flowed)) {
-        const MaskOf<T> grows = has_flowed & (dot(state.force, q) >= T(0.0));
+        const MaskOf<T> grows = has_flowed & (dot(state.strain, growth) >= T(0.0));
         share = where(grows, T(hourglass_share_in_flow(hourglass_stiffness)), T(1.0));
       }
-      const T elastic_work = stretch_hourglass(state.force, hourglass_axes,
-                                               {share * stiffness.bending, share * stiffness.twist}, q);
-      state.energy += share * elastic_work;
+      const T elastic_work = stiffness * stretch_hourglass(state.strain, carried, growth, share);
+      const T trial_energy = stored_energy(state);
       const T at_first_yield =
-          hourglass_energy_at_yield(T(hardening.initial_yield_stress()), volume, stiffness.bending);
-      const bool any_yields = any(state.energy > at_first_yield);
+          hourglass_energy_at_yield(T(hardening.initial_yield_stress()), volume, bending);
+      const bool any_yields = any(trial_energy > at_first_yield);
       if (any(has_flowed) || any_yields) {
         T left =
             share_left_by_flow(step.old_stress, point.stress, T(2.0) * axes.half_strain, shear, has_flowed);
         if (any_yields) {
           const T most =
-              hourglass_energy_at_yield(point_of(hardening, point.history).stress, volume, stiffness.bending);
-          const MaskOf<T> yields = state.energy > most;
-          left *= where(yields, sqrt(most / where(yields, state.energy, T(1.0))), T(1.0));
+              hourglass_energy_at_yield(point_of(hardening, point.history).stress, volume, bending);
+          const MaskOf<T> yields = trial_energy > most;
+          left *= where(yields, sqrt(most / where(yields, trial_energy, T(1.0))), T(1.0));
         }
-        const T work = elastic_work - shrink_hourglass(state.force, left, q);
-        state.energy *= square(left);
-        const T stored = state.energy - old_energy;
+        const T work = elastic_work - stiffness * shrink_hourglass(state.strain, left, growth);
+        const T stored = square(left) * trial_energy - old_energy;
         return {stored, work - stored};
       }
       return {elastic_work, T(0.0)};

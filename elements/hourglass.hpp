@@ -5,6 +5,7 @@
 /// generalized force Q_a is Q_a on pattern a together with the stress - sum_a Q_a (x) x_a / V on the mean
 /// gradient.
 
+#include "elements/changing_spring.hpp"
 #include "elements/mean_gradient.hpp"
 #include "elements/motion.hpp"
 
@@ -86,18 +87,86 @@ BRIO_INLINE HourglassModuli<T> hourglass_stiffness(double coefficient, const Ela
           scaled_volume * moduli.shear};
 }
 
+/// Rates of hourglass strain in twelve components, one for each base vector a and edge direction k, of the
+/// displacement q_a: n_k . q_a with n_k = beta_k / (64 V), which of a box is one over four edges along edge
+/// k. They see no rotation.
+///
+/// Each component meets the stiffness of its own direction, as in an assumed-strain element (Belytschko &
+/// Bindeman 1993): the bending of a flat brick is resisted over its length, not over its thickness. For k = a
+/// pattern a strains no fibre but shears: eta zeta along the normal of the faces xi = +-1, and so on. Three
+/// such motions a_k, u_k = a_k x_l x_m, shear a box of edges L_k by gamma_kl = (a_k + a_l) x_m and store mu V
+/// / 24 times the sum of L_m^2 (a_k + a_l)^2: entry [m][m] is the twist a_k + a_l with its length. Taken one
+/// by one the a_k would lock: in the twist of a thin wall all shears cancel but the one that varies over the
+/// thickness.
 template <class T>
-BRIO_INLINE Vector3<T> operator*(const SymmetricTensor<T>& a, const Vector3<T>& b) {
-  return {a.xx * b.x + a.xy * b.y + a.xz * b.z, a.xy * b.x + a.yy * b.y + a.yz * b.z,
-          a.xz * b.x + a.yz * b.y + a.zz * b.z};
+struct HourglassStrain {
+  T entry[hourglass_modes][linear_modes];
+};
+
+template <class T>
+BRIO_INLINE T dot(const HourglassStrain<T>& a, const HourglassStrain<T>& b) {
+  T sum(0.0);
+  for (int i = 0; i < hourglass_modes; ++i)
+    for (int k = 0; k < linear_modes; ++k) sum += a.entry[i][k] * b.entry[i][k];
+  return sum;
+}
+
+/// Edge directions of a configuration: n_k, and |n_k|, 1 where it vanishes.
+template <class T>
+struct HourglassAxes {
+  Vector3<T> normal[linear_modes];
+  T length[linear_modes];
+};
+
+template <class T>
+BRIO_INLINE HourglassAxes<T> hourglass_axes(const MeanGradient<T>& b, T scaled_inverse_volume) {
+  HourglassAxes<T> axes;
+  for (int k = 0; k < linear_modes; ++k) {
+    axes.normal[k] = scaled_inverse_volume * b.beta[k];
+    const T squared = dot(axes.normal[k], axes.normal[k]);
+    axes.length[k] = sqrt(where(squared > T(0.0), squared, T(1.0)));
+  }
+  return axes;
+}
+
+/// The axes of the middle of the step: n_k follows F^-T, and one step of Newton's method its length.
+/// \param n dt/2 times the velocity gradient of the middle.
+template <class T>
+BRIO_INLINE HourglassAxes<T> centered(const HourglassAxes<T>& end, const Tensor<T>& n) {
+  HourglassAxes<T> middle;
+  for (int k = 0; k < linear_modes; ++k) {
+    middle.normal[k] = end.normal[k] + turned_back(n, end.normal[k]);
+    const T squared = dot(middle.normal[k], middle.normal[k]);
+    middle.length[k] = 0.5 * (end.length[k] + squared / end.length[k]);
+  }
+  return middle;
+}
+
+/// Stiffness of the hourglass strains, and the factor of twists by which it is that of twists too.
+template <class T>
+struct HourglassScale {
+  T stiffness;  ///< 8 times that of bending
+  T twist;      ///< root of the ratio of the moduli
+};
+
+template <class T>
+BRIO_INLINE HourglassScale<T> hourglass_scale(const HourglassModuli<T>& moduli) {
+  const MaskOf<T> resists = moduli.bending > T(0.0);
+  return {max(8.0 * moduli.bending, T(0.0)),
+          sqrt(max(moduli.twist, T(0.0)) / where(resists, moduli.bending, T(1.0)))};
 }
 
 /// What resists hourglass motion, as part of the state of an element.
 template <class T>
 struct HourglassState {
-  HourglassVectors<T> force;  ///< generalized forces, on the axes of the stress
-  T energy;                   ///< stored
+  HourglassStrain<T> strain;
+  HourglassScale<T> scale;  ///< of the end of the last step
 };
+
+template <class T>
+BRIO_INLINE T stored_energy(const HourglassState<T>& state) {
+  return (0.5 * state.scale.stiffness) * dot(state.strain, state.strain);
+}
 
 /// Work of one step against the elastic hourglass forces; plastic work is dissipated.
 template <class T>
@@ -105,53 +174,61 @@ struct HourglassWork {
   T stored, dissipated;
 };
 
-/// The directions in which an element resists hourglass motion, on the axes of the stress.
+/// Strains of hourglass displacements, by a factor.
 template <class T>
-struct HourglassAxes {
-  SymmetricTensor<T> g;             ///< G
-  Vector3<T> normal[linear_modes];  ///< beta_k / (64 V): of a box one over four edges
-};
-
-/// Generalized forces of hourglass displacements. Each component meets the stiffness of its own direction, as
-/// in an assumed-strain element (Belytschko & Bindeman 1993): the bending of a flat brick is resisted over
-/// its length, not over its thickness.
-///
-/// Bending is S_b G q_a without the component of q_a along n_a, in which pattern a strains no fibre but
-/// shears: eta zeta along the normal of the faces xi = +-1, and so on. Three such motions a_k, u_k = a_k x_l
-/// x_m, shear a box of edges L_k by gamma_kl = (a_k + a_l) x_m and store mu V / 24 times the sum of
-/// L_m^2 (a_k + a_l)^2. Taken one by one they would lock: in the twist of a thin wall all shears cancel but
-/// the one that varies over the thickness.
-template <class T>
-BRIO_INLINE HourglassVectors<T> hourglass_forces(const HourglassAxes<T>& axes, const HourglassModuli<T>& s,
-                                                 const HourglassVectors<T>& q) {
-  HourglassVectors<T> force;
-  const SymmetricTensor<T> bending = s.bending * axes.g;
-  for (int a = 0; a < hourglass_modes; ++a) force.mode[a] = bending * q.mode[a];
-  T squared[linear_modes], along[linear_modes];
-  for (int k = 0; k < linear_modes; ++k) {
-    squared[k] = dot(axes.normal[k], axes.normal[k]);
-    along[k] = dot(axes.normal[k], q.mode[k]);
+BRIO_INLINE HourglassStrain<T> hourglass_strain(const HourglassAxes<T>& axes, T factor, T twist,
+                                                const HourglassVectors<T>& q) {
+  HourglassStrain<T> strain;
+  T along[linear_modes];
+  for (int a = 0; a < hourglass_modes; ++a)
+    for (int k = 0; k < linear_modes; ++k) {
+      const T component = factor * dot(axes.normal[k], q.mode[a]);
+      if (a == k)
+        along[k] = component;
+      else
+        strain.entry[a][k] = component;
+    }
+  for (int m = 0; m < linear_modes; ++m) {
+    const int k = (m + 1) % linear_modes, l = (m + 2) % linear_modes;
+    strain.entry[m][m] =
+        twist * (axes.length[l] / axes.length[k] * along[k] + axes.length[k] / axes.length[l] * along[l]);
   }
-  for (int k = 0; k < linear_modes; ++k) {
-    const int l = (k + 1) % linear_modes, m = (k + 2) % linear_modes;
-    const T others = (squared[l] + squared[m]) / where(squared[k] > T(0.0), squared[k], T(1.0));
-    const T twist = s.twist * (others * along[k] + along[l] + along[m]);
-    force.mode[k] = force.mode[k] + (8.0 * (twist - s.bending * along[k])) * axes.normal[k];
+  return strain;
+}
+
+/// Generalized forces of the strains: stiffness times the transpose of hourglass_strain.
+template <class T>
+BRIO_INLINE HourglassVectors<T> hourglass_forces(const HourglassAxes<T>& axes,
+                                                 const HourglassState<T>& state) {
+  const T twist = state.scale.stiffness * state.scale.twist;
+  HourglassVectors<T> force;
+  T along[linear_modes] = {T(0.0), T(0.0), T(0.0)};
+  for (int m = 0; m < linear_modes; ++m) {
+    const int k = (m + 1) % linear_modes, l = (m + 2) % linear_modes;
+    const T shear = twist * state.strain.entry[m][m];
+    along[k] += shear * (axes.length[l] / axes.length[k]);
+    along[l] += shear * (axes.length[k] / axes.length[l]);
+  }
+  for (int a = 0; a < hourglass_modes; ++a) {
+    force.mode[a] = {T(0.0), T(0.0), T(0.0)};
+    for (int k = 0; k < linear_modes; ++k)
+      force.mode[a] = force.mode[a] +
+                      (a == k ? along[k] : state.scale.stiffness * state.strain.entry[a][k]) * axes.normal[k];
   }
   return force;
 }
 
-/// Forces grow with the displacement. \param q half of the step's hourglass displacement. \return the work.
+/// Strains of the last step are carried to the stiffness of now and grow. \return the work over stiffness.
 template <class T>
-BRIO_INLINE T stretch_hourglass(HourglassVectors<T>& force, const HourglassAxes<T>& axes,
-                                const HourglassModuli<T>& stiffness, const HourglassVectors<T>& q) {
-  const HourglassVectors<T> growth = hourglass_forces(axes, stiffness, q);
+BRIO_INLINE T stretch_hourglass(HourglassStrain<T>& strain, T carried, const HourglassStrain<T>& growth,
+                                T share) {
   T work(0.0);
-  for (int a = 0; a < hourglass_modes; ++a) {
-    const Vector3<T> half_way = force.mode[a] + growth.mode[a];
-    force.mode[a] = half_way + growth.mode[a];
-    work += 2.0 * dot(half_way, q.mode[a]);
-  }
+  for (int a = 0; a < hourglass_modes; ++a)
+    for (int k = 0; k < linear_modes; ++k) {
+      const T half_way = carried * strain.entry[a][k] + (0.5 * share) * growth.entry[a][k];
+      work += half_way * growth.entry[a][k];
+      strain.entry[a][k] = half_way + (0.5 * share) * growth.entry[a][k];
+    }
   return work;
 }
 
@@ -174,13 +251,13 @@ BRIO_INLINE T hourglass_energy_at_yield(T yield_stress, T volume, T stiffness) {
   return square(yield_stress * volume) / (64.0 * stiffness);
 }
 
-/// Forces shrink to a share of what they are. \return their work on the displacement of the step, of which
-/// half is q, that they then miss.
+/// Strains shrink to a share of what they are. \return what they then miss of the step's work over stiffness.
 template <class T>
-BRIO_INLINE T shrink_hourglass(HourglassVectors<T>& force, T share, const HourglassVectors<T>& q) {
-  const T all = dot(force, q);
-  for (Vector3<T>& mode : force.mode) mode = share * mode;
-  return (1.0 - share) * all;
+BRIO_INLINE T shrink_hourglass(HourglassStrain<T>& strain, T share, const HourglassStrain<T>& growth) {
+  const T all = dot(strain, growth);
+  for (auto& row : strain.entry)
+    for (T& entry : row) entry = share * entry;
+  return (0.5 * (1.0 - share)) * all;
 }
 
 /// Viscous forces, added to `q`. \return their power.

@@ -56,7 +56,7 @@ BRIO_INLINE LostLanes<Real> lost_lanes(const Kind& kind, const Law& law, const D
                                        const MotionOf<Kind, Lanes<Real>>& motion, Lanes<Real> stable_step) {
   using T = Lanes<Real>;
   const T zero(0.0);
-  const LaneMask<Real> none = zero < zero;
+  const LaneMask<Real> none = T(1.0) < zero;
   LostLanes<Real> lanes{none, none, none};
   LaneMask<Real> lost = deletion.inverted ? stable_step <= zero : stable_step < T(-HUGE_VAL);
   if (deletion.minimum_step) lost = lost | ((stable_step < T(*deletion.minimum_step)) & (stable_step > zero));

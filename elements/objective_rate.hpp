@@ -51,16 +51,6 @@ BRIO_INLINE Vector3<T> spin_vector(const Tensor<T>& n) {
   return {0.5 * (n.m[2][1] - n.m[1][2]), 0.5 * (n.m[0][2] - n.m[2][0]), 0.5 * (n.m[1][0] - n.m[0][1])};
 }
 
-/// n and once more its skew part.
-template <class T>
-BRIO_INLINE Tensor<T> with_more_spin(const Tensor<T>& n) {
-  Tensor<T> sum = n;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (i != j) sum.m[i][j] += 0.5 * (n.m[i][j] - n.m[j][i]);
-  return sum;
-}
-
 /// Rotation matrix of a quaternion of any length. \param twice_inverse_square 2 / |q|^2.
 template <class T>
 BRIO_INLINE Tensor<T> rotation_matrix(const Quaternion<T>& q, T twice_inverse_square) {

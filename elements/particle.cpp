@@ -154,14 +154,19 @@ template <class Law>
 void initialize_particles(Block& block, Nodes& nodes) {
   using Layout = PackLayout<ParticleKernel, Law, double>;
   const Law law = law_of<Law>(block.material);
+  const auto kernel = kernel_of<ParticleKernel>(block.element);
   ParticleCloud& cloud = *block.cloud;
   ElasticModuli<Number> moduli{};
   for (std::size_t pack = 0; pack < block.pack_count; ++pack) {
     const int* node = block.connectivity.data() + pack * width;
     auto& header = Layout::header(block, pack);
     auto* point = Layout::points(block, pack);
-    for (int lane = 0; lane < width; ++lane)
-      header.volume.set(lane, cloud.volume[static_cast<std::size_t>(node[lane] - cloud.first_node)]);
+    Number hourglass_weight;
+    for (int lane = 0; lane < width; ++lane) {
+      const auto i = static_cast<std::size_t>(node[lane] - cloud.first_node);
+      header.volume.set(lane, cloud.volume[i]);
+      hourglass_weight.set(lane, cloud.hourglass_weight[i]);
+    }
     header.mass = Number(law.density) * header.volume;
     start(*point);
     if constexpr (requires { law.start(point->history, header.mass); }) {
@@ -171,12 +176,13 @@ void initialize_particles(Block& block, Nodes& nodes) {
     }
     moduli = law.moduli(point->history);
     header.stiffness_at_start = moduli.first_lame + 2.0 * moduli.shear;
+    header.hourglass_stiffness =
+        kernel.residual_stiffness(law, moduli, *point, header.volume, hourglass_weight);
     for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count;
          ++lane)
       nodes.mass[static_cast<std::size_t>(node[lane])] += header.mass[lane];
   }
   const ElasticModuli<double> at_start{moduli.first_lame[0], moduli.shear[0]};
-  const auto kernel = kernel_of<ParticleKernel>(block.element);
   cloud.frequency_squared = highest_frequency_squared(
       cloud, nodes, at_start, kernel.stiffness_share() * ParticleKernel::youngs_modulus(at_start));
 }

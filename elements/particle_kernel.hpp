@@ -144,6 +144,13 @@ struct ParticleKernel : Particle {
     return modulus;
   }
 
+  /// Force per residual motion.
+  template <class T, class Law>
+  BRIO_INLINE T residual_stiffness(const Law& law, const ElasticModuli<T>& moduli, const Point<T, Law>& point,
+                                   T volume, T weight) const {
+    return stiffness_share() * secant_modulus(law, youngs_modulus(moduli), point.history) * volume * weight;
+  }
+
   template <class T, class Law>
   BRIO_INLINE Increment<T> force(const ParticleMotion<T>& motion, T step, const Law& law,
                                  Header<T, Law>& header, Point<T, Law>* point,
@@ -158,7 +165,6 @@ struct ParticleKernel : Particle {
     MaterialAxes<T> axes;
     Increment<T> increment;
     increment.internal_energy = volume.middle * update(law, n, *point, axes).work;
-    header.internal_energy += increment.internal_energy;
 
     const ElasticModuli<T> moduli = law.moduli(point->history);
     const T stiffness = moduli.first_lame + 2.0 * moduli.shear;
@@ -172,21 +178,21 @@ struct ParticleKernel : Particle {
     increment.viscous_energy = -(header.viscous_pressure + pressure) * trace(n) * volume.middle;
     header.viscous_pressure = pressure;
 
-    forces.stiffness = stiffness_share() * secant_modulus(law, youngs_modulus(moduli), point->history) *
-                       motion.volume * motion.hourglass_weight;
-    // Of the forces at the start and at the end of the step.
-    const T hourglass_work =
-        half_step * (forces.stiffness * motion.residual_power +
-                     header.hourglass_stiffness * (motion.residual_power - step * motion.residual_rate));
-    // What the control had stored shrinks with its stiffness: that is lost like plastic work.
-    const T before = max(header.hourglass_stiffness, forces.stiffness);
-    const MaskOf<T> holds = before > T(0.0);
-    const T stored =
-        where(holds, forces.stiffness / where(holds, before, T(1.0)), T(1.0)) * header.hourglass_energy;
-    increment.hourglass_energy = stored + hourglass_work - header.hourglass_energy;
-    increment.internal_energy += header.hourglass_energy - stored;
-    header.hourglass_energy = stored + hourglass_work;
+    // A stiffness that grew would supply energy. What the control had stored shrinks with it: that is lost
+    // like plastic work.
+    const T old_stiffness = header.hourglass_stiffness;
+    forces.stiffness =
+        min(residual_stiffness(law, moduli, *point, motion.volume, motion.hourglass_weight), old_stiffness);
     header.hourglass_stiffness = forces.stiffness;
+    const T old_power = motion.residual_power - step * motion.residual_rate;
+    const T lost = old_stiffness - forces.stiffness;
+    const T dissipated =
+        lost / where(old_stiffness > T(0.0), old_stiffness, T(1.0)) * header.hourglass_energy;
+    increment.hourglass_energy =
+        half_step * forces.stiffness * (motion.residual_power + old_power) - dissipated;
+    increment.internal_energy += dissipated + half_step * lost * old_power;
+    header.hourglass_energy += increment.hourglass_energy;
+    header.internal_energy += increment.internal_energy;
 
     // V P = V sigma cof F of the volume V that F is of.
     const SymmetricTensor<T> stress = fixed_stress(*point, axes) - isotropic(pressure);

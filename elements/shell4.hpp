@@ -13,6 +13,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "elements/changing_spring.hpp"
 #include "elements/shell_step.hpp"
 #include "elements/shell_strain.hpp"
 #include "elements/through_thickness.hpp"
@@ -84,10 +85,12 @@ struct Shell4 {
     T internal_energy;
     T viscous_force;  ///< per length, of the last step
     ReferenceShape<T> reference;
-    T hourglass[3];  ///< generalized forces of the elastic hourglass control
+    T hourglass[3];  ///< strains of the elastic hourglass control (changing_spring.hpp)
     T rotation[2];
-    T drilling;          ///< elastic moment about the normal
-    T viscous_drilling;  ///< of the last step
+    T drilling;                                 ///< angle about the normal
+    HourglassStiffness<T> hourglass_stiffness;  ///< of the last step
+    T drilling_stiffness;
+    T viscous_drilling;  ///< moment of the last step
   };
   template <class T, class Law>
   struct Point {
@@ -104,9 +107,13 @@ struct Shell4 {
     header.reference = reference_shape(g);
     const T gyration = gyration_square(g, moduli, shear_factor, header.thickness, rule().second_moment());
     header.inverse_gyration = 1.0 / gyration;
+    header.mass = law.density * header.thickness * g.area;
+    header.hourglass_stiffness =
+        brio::hourglass_stiffness(g, moduli, shear_factor, header.thickness, hourglass_stiffness);
+    if (drilling_stiffness > 0)
+      header.drilling_stiffness = drill_stiffness(frequency_square(g, moduli, header), header);
     // A triangle's smallest corner is zero but for round-off.
-    const auto valid = (smallest_corner(g) > T(-1e-6)) & g.is_valid;
-    header.mass = where(valid, law.density * header.thickness * g.area, 0.0);
+    header.mass = where((smallest_corner(g) > T(-1e-6)) & g.is_valid, header.mass, 0.0);
     const T share = 0.25 * header.mass;
     return {share, share * gyration};
   }
@@ -127,12 +134,10 @@ struct Shell4 {
     ShellRates<T> result = stress_resultants(g, rates, step, law, header, point, increment);
 
     const auto moduli = plane_stress_moduli(law.template moduli<T>(point[0].history));
-    T frequency = highest_frequency_square(g, moduli, shear_factor, rule().second_moment(), header.mass,
-                                           header.thickness, header.inverse_gyration, hourglass_stiffness,
-                                           warping_projection);
+    T frequency = frequency_square(g, moduli, header);
     T drill = T(0.0);
     if (drilling_stiffness > 0) {
-      drill = drilling_stiffness * frequency * header.mass / header.inverse_gyration;
+      drill = drill_stiffness(frequency, header);
       frequency += drilling_frequency_square(g, drill, header);
     }
     const T undamped = 2.0 / sqrt(frequency);
@@ -262,6 +267,21 @@ struct Shell4 {
             T(0.0)};
   }
 
+  /// Upper bound of the highest frequency squared, without resistance to drilling.
+  template <class T, class Law>
+  BRIO_INLINE T frequency_square(const ShellGeometry<T>& g, const PlaneStressModuli<T>& moduli,
+                                 const Header<T, Law>& header) const {
+    return highest_frequency_square(g, moduli, shear_factor, rule().second_moment(), header.mass,
+                                    header.thickness, header.inverse_gyration, hourglass_stiffness,
+                                    warping_projection);
+  }
+
+  /// Moment per spin about the normal.
+  template <class T, class Law>
+  BRIO_INLINE T drill_stiffness(T frequency_squared, const Header<T, Law>& header) const {
+    return drilling_stiffness * frequency_squared * header.mass / header.inverse_gyration;
+  }
+
   /// What resistance to drilling adds to the largest square of a frequency: its only mode is all four nodes'
   /// spin against that of the material.
   template <class T, class Law>
@@ -292,15 +312,18 @@ struct Shell4 {
   template <class T, class Law>
   BRIO_INLINE void resist_drilling(T drill, const ShellRates<T>& rates, T step, Header<T, Law>& header,
                                    ShellRates<T>& result, Increment<T>& increment) const {
-    const T before = header.drilling;
-    const T most = drilling_limit * drill;
-    header.drilling = min(max(before + drill * step * rates.drilling, -most), most);
+    const SpringChange<T> change = spring_change(header.drilling_stiffness, drill);
+    header.drilling_stiffness = drill;
+    const T before = change.carried * header.drilling;
+    const T growth = (step * change.growth) * rates.drilling;
+    header.drilling = min(max(before + growth, -drilling_limit), drilling_limit);
+    increment.hourglass_energy += (0.5 * drill) * growth * (before + header.drilling);
+    const T elastic = drill * header.drilling;
     const T damper = (2 * drilling_viscosity) * sqrt(drill * header.mass / header.inverse_gyration);
-    result.drilling = min(max(header.drilling + damper * rates.drilling, -most), most);
-    const T viscous = result.drilling - header.drilling;
-    const T half_turn = (0.5 * step) * rates.drilling;
-    increment.hourglass_energy += half_turn * (before + header.drilling);
-    increment.viscous_energy += half_turn * (header.viscous_drilling + viscous);
+    const T most = drilling_limit * drill;
+    result.drilling = min(max(elastic + damper * rates.drilling, -most), most);
+    const T viscous = result.drilling - elastic;
+    increment.viscous_energy += (0.5 * step) * rates.drilling * (header.viscous_drilling + viscous);
     header.viscous_drilling = viscous;
   }
 
@@ -314,24 +337,25 @@ struct Shell4 {
                                     Increment<T>& increment) const {
     const HourglassStiffness<T> stiffness =
         brio::hourglass_stiffness(g, moduli, shear_factor, header.thickness, hourglass_stiffness);
-    const T in_plane = step * stiffness.membrane;
-    const T bow = step * stiffness.normal;
-    const T turning = step * stiffness.rotation;
-    const T gain[3] = {in_plane, in_plane, bow};
+    const HourglassStiffness<T> old = header.hourglass_stiffness;
+    header.hourglass_stiffness = stiffness;
+    const SpringChange<T> in_plane = spring_change(old.membrane, stiffness.membrane);
+    const SpringChange<T> bow = spring_change(old.normal, stiffness.normal);
+    const SpringChange<T> turning = spring_change(old.rotation, stiffness.rotation);
     T work = T(0.0);
-    for (int c = 0; c < 3; ++c) {
-      const T before = header.hourglass[c];
-      header.hourglass[c] += gain[c] * rates.hourglass[c];
-      work += (before + header.hourglass[c]) * rates.hourglass[c];
-      result.hourglass[c] = header.hourglass[c];
-    }
+    const auto force = [step, &work](T& strain, const SpringChange<T>& change, T rate, T end_stiffness) {
+      const T before = change.carried * strain;
+      const T growth = (step * change.growth) * rate;
+      strain = before + growth;
+      work += end_stiffness * ((before + strain) * growth);
+      return end_stiffness * strain;
+    };
     for (int c = 0; c < 2; ++c) {
-      const T before = header.rotation[c];
-      header.rotation[c] += turning * rates.rotation[c];
-      work += (before + header.rotation[c]) * rates.rotation[c];
-      result.rotation[c] = header.rotation[c];
+      result.hourglass[c] = force(header.hourglass[c], in_plane, rates.hourglass[c], stiffness.membrane);
+      result.rotation[c] = force(header.rotation[c], turning, rates.rotation[c], stiffness.rotation);
     }
-    increment.hourglass_energy = 0.5 * step * work;
+    result.hourglass[2] = force(header.hourglass[2], bow, rates.hourglass[2], stiffness.normal);
+    increment.hourglass_energy = 0.5 * work;
     if (hourglass_viscosity > 0) {
       const T damper = hourglass_viscosity * header.mass / (4.0 * undamped_step);
       const T rotation_damper = damper / header.inverse_gyration;

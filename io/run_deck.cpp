@@ -46,12 +46,17 @@ class ProgressReporter {
     mean_speed_ = mean_speed_ == 0 ? speed : 0.9 * mean_speed_ + 0.1 * speed;
     reported_ = elapsed;
     time_ = model.times.time;
+    const std::size_t part = part_of_largest_ratio(model.part_energy);
+    const PartEnergy& worst = model.part_energy[part];
+    const bool hourglasses = worst.time_of_warning >= 0;
     options_.progress({.time = model.times.time,
                        .end = end_,
                        .step = model.step,
                        .dt = model.times.next,
                        .energy_error = model.energy.relative_error(),
                        .deleted = model.erosion ? model.erosion->total_deleted() : 0,
+                       .hourglassing = hourglasses ? model.parts[part].name : "",
+                       .hourglass_ratio = worst.largest_ratio,
                        .elapsed_s = elapsed,
                        .remaining_s = mean_speed_ > 0 ? (end_ - model.times.time) / mean_speed_ : 0});
   }
@@ -101,11 +106,13 @@ class Output {
                .times = model_.times,
                .step = model_.step,
                .row = row_,
-               .has_row = row_due,
                .has_dump = fields_due};
       next_kept_ = model_.step + least_steps_between + model_.step / share_of_steps;
     }
-    if (row_due) history_.append(row_);
+    if (row_due) {
+      history_.append(row_);
+      last_row_ = model_.times.time;
+    }
     if (fields_due) writer_.write(*state_);
     if (fields_due || history_.full()) writer_.write(history_);
   }
@@ -122,7 +129,7 @@ class Output {
     if (state_ == nullptr) return;
     // Rows are in the order of time: those since then were good as well.
     if (!good_.has_dump) writer_.write(*state_);
-    if (!good_.has_row && history_.pending_rows() == 0) history_.append(good_.row);
+    if (last_row_ < good_.times.time) history_.append(good_.row);
     writer_.write(history_);
   }
 
@@ -143,7 +150,7 @@ class Output {
     StepTimes times;
     std::int64_t step = 0;
     std::vector<double> row;
-    bool has_row = false, has_dump = false;  ///< written already
+    bool has_dump = false;  ///< written already
   };
 
   Model& model_;
@@ -151,6 +158,7 @@ class Output {
   FieldObserver observer_;
   History history_;
   std::vector<double> row_;
+  double last_row_ = -1;  ///< its time
   OutputSchedule field_schedule_, history_schedule_;
   const Snapshot* state_ = nullptr;
   GoodState good_;

@@ -22,6 +22,8 @@ struct Progress {
   double dt = 0;
   double energy_error = 0;
   std::int64_t deleted = 0;  ///< elements
+  std::string hourglassing;  ///< part whose hourglass energy is beyond the limit most; empty: none
+  double hourglass_ratio = 0;
   double elapsed_s = 0;
   double remaining_s = 0;  ///< if the rest goes on like the last part
 };

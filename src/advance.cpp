@@ -81,6 +81,9 @@ void sweep_elements(Model& model, ThreadTeam& team) {
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
     const SweepResult& result = model.sweep_results[t];
     model.element_updates += static_cast<std::int64_t>(schedule.tasks[t].chunk.element_count);
+    PartEnergy& part = model.part_energy[schedule.tasks[t].block];
+    part.internal += result.internal_energy;
+    part.hourglass += result.hourglass_energy;
     model.energy.internal += result.internal_energy;
     model.energy.hourglass += result.hourglass_energy;
     model.energy.viscous += result.viscous_energy;
@@ -251,6 +254,9 @@ double energy_of_rounding(const Model& model) {
   return 0.5 * mass * speed * speed;
 }
 
+// Of the energy of a run: less in the hourglass control of a part than this is not worth a word.
+constexpr double least_share_of_interest = 1e-3;
+
 void check_books(Model& model, double energy_error_limit) {
   EnergyBook& energy = model.energy;
   if (model.step == 0) energy.reference = energy_of_rounding(model);
@@ -264,6 +270,8 @@ void check_books(Model& model, double energy_error_limit) {
                                                 " exceeds numerics.energy_error_limit at time "
                                           : "the energy is not a number at time ") +
                     written(model.times.time) + "; " + cause_of_energy_error(model));
+  for (PartEnergy& part : model.part_energy)
+    part.note_ratio(model.times.time, least_share_of_interest * energy.reference, model.hourglass_warning);
 }
 
 }  // namespace

@@ -370,6 +370,8 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   model.sweep_results.resize(model.schedule.tasks.size());
   if (can_erode(model.blocks)) model.erosion = make_erosion(model.blocks, model.nodes.size());
   model.kinetic_sums.resize(range_count(model.nodes));
+  model.part_energy.resize(model.blocks.size());
+  model.hourglass_warning = deck.numerics.hourglass_warning;
   model.control.settings = deck.time;
   if (deck.time.mass_scaling)
     model.added_mass = make_mass_scaling(deck.time, deck, model.blocks, model.parts);

@@ -426,13 +426,17 @@ struct NumericsSection {
   Preset preset = Preset::balanced;
   Precision precision = Precision::double_precision;
   double energy_error_limit = 0.1;
+  double hourglass_warning = 0.1;
   static constexpr auto fields() {
     return field_table(
         optional("preset", &NumericsSection::preset, any_number,
                  "settings for what the deck leaves open; balanced: the defaults of this reference"),
         optional("precision", &NumericsSection::precision, any_number, "of element and material kernels"),
         optional("energy_error_limit", &NumericsSection::energy_error_limit, positive,
-                 "relative energy error at which the run stops with exit code 3, -"));
+                 "relative energy error at which the run stops with exit code 3, -"),
+        optional("hourglass_warning", &NumericsSection::hourglass_warning, positive,
+                 "ratio of the hourglass energy of a part to its largest internal energy so far, beyond "
+                 "which a run warns, -"));
   }
 };
 

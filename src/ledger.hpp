@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 namespace brio {
 
@@ -58,6 +60,37 @@ struct EnergyBook {
     return reference > 0 ? (sum() - kinetic_start - external.at_step()) / reference : 0;
   }
 };
+
+/// What a part has received, with its deleted elements, and the largest ratio of its hourglass energy to its
+/// internal energy so far. That is the largest internal energy up to then: of a body that springs back,
+/// little is left.
+struct PartEnergy {
+  double internal = 0;
+  double hourglass = 0;
+  double largest_internal = 0;
+  double largest_ratio = 0;
+  double time_of_largest = 0;
+  double time_of_warning = -1;  ///< when the ratio passed the limit first; negative: never
+
+  /// At most 1000. \param least energy that matters
+  void note_ratio(double time, double least, double limit) {
+    largest_internal = std::max(largest_internal, internal);
+    if (!(hourglass > least)) return;
+    const double ratio = hourglass / std::max(largest_internal, 1e-3 * hourglass);
+    if (ratio > limit && time_of_warning < 0) time_of_warning = time;
+    if (ratio <= largest_ratio) return;
+    largest_ratio = ratio;
+    time_of_largest = time;
+  }
+};
+
+/// Which part has had the largest ratio; the first where all are equal.
+inline std::size_t part_of_largest_ratio(std::span<const PartEnergy> parts) {
+  const auto largest = std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+    return a.largest_ratio < b.largest_ratio;
+  });
+  return static_cast<std::size_t>(largest - parts.begin());
+}
 
 /// Momentum of the system and what it received from outside, with moments about the origin.
 struct Impulse {

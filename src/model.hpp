@@ -64,6 +64,8 @@ struct Model {
   std::optional<AddedMass> added_mass;  ///< if the deck asks for mass scaling
 
   EnergyBook energy;
+  std::vector<PartEnergy> part_energy;  ///< one a part
+  double hourglass_warning = 0;         ///< limit of the ratio of hourglass to internal energy
   MomentumBook momentum;
   std::vector<ProbeInRun> probes;           ///< one a probe of the deck
   std::vector<KineticEnergy> kinetic_sums;  ///< one a range of nodes

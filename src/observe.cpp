@@ -346,6 +346,9 @@ Summary observe_end(Model& model) {
                     .deleted = energy.deleted,
                     .total_start = energy.kinetic_start,
                     .error_relative = energy.relative_error()};
+  const std::size_t part = part_of_largest_ratio(model.part_energy);
+  if (const double ratio = model.part_energy[part].largest_ratio; ratio > 0)
+    summary.hourglass_ratio_max = {ratio, model.parts[part].name, model.part_energy[part].time_of_largest};
   summary.momentum = {model.momentum.now.linear, model.momentum.now.angular};
   for (const ContactScene& scene : model.contacts) {
     const SearchCounts& counts = scene.candidates.counts;
@@ -379,13 +382,13 @@ Summary observe_end(Model& model) {
   }
   if (model.added_mass) {
     const AddedMass& mass = *model.added_mass;
-    Summary::MassScaling& scaling = summary.mass_scaling.emplace();
+    Summary::MassScaling& scaling = summary.mass_scaling.emplace(Summary::MassScaling{});
     scaling = {.added = mass.total(), .share = mass.share(), .parts = {}};
     for (std::size_t p = 0; p < model.parts.size(); ++p)
       if (mass.added[p] > 0) scaling.parts[model.parts[p].name] = mass.added[p];
   }
   if (!model.ties.found.empty()) {
-    Summary::TieCounts& ties = summary.ties.emplace();
+    Summary::TieCounts& ties = summary.ties.emplace(Summary::TieCounts{});
     for (const TiedParts& found : model.ties.found) ties.nodes += found.count;
     ties.released = model.ties.released;
   }

@@ -1,6 +1,7 @@
 #include "src/run_warnings.hpp"
 
 #include <cmath>
+#include <variant>
 
 #include "src/diagnosis.hpp"
 
@@ -17,6 +18,20 @@ std::string warning_of_pairs(const Model& model, const ParticleSearch& search) {
          "tension";
 }
 
+std::string warning_of_hourglassing(const Model& model, std::size_t part) {
+  const PartEnergy& energy = model.part_energy[part];
+  const bool is_one_point_brick = std::holds_alternative<Hex8>(model.blocks[part].element);
+  const std::string percent = written(std::round(100 * energy.largest_ratio));
+  return "part '" + model.parts[part].name + "': hourglass energy passed " +
+         written(100 * model.hourglass_warning) + " % of the internal energy at time " +
+         written(energy.time_of_warning) + " and " +
+         (energy.largest_ratio >= 1 ? "exceeded it" : "was " + percent + " % of it") + " at time " +
+         written(energy.time_of_largest) +
+         "; what holds it there is the hourglass control more than the material; try smaller elements" +
+         (is_one_point_brick ? ", hex8_full in place of hex8," : "") +
+         " or loads spread over more nodes (limit: numerics.hourglass_warning)";
+}
+
 }  // namespace
 
 void watch(Model& model) {
@@ -29,6 +44,8 @@ void watch(Model& model) {
 
 std::vector<std::string> run_warnings(const Model& model) {
   std::vector<std::string> warnings;
+  for (std::size_t p = 0; p < model.part_energy.size(); ++p)
+    if (model.part_energy[p].time_of_warning >= 0) warnings.push_back(warning_of_hourglassing(model, p));
   for (const ParticleSearch& search : model.particle_searches)
     if (search.paired.largest_share >= PairedParticles::worth_a_warning)
       warnings.push_back(warning_of_pairs(model, search));

@@ -51,6 +51,11 @@ struct Summary {
     std::int64_t lines = 0;                      ///< edges, beams and particles that may meet each other
     std::int64_t line_comparisons = 0, line_candidate_pairs = 0;
   };
+  struct HourglassRatio {
+    double value = 0;  ///< hourglass energy of a part over its largest internal energy until then
+    std::string part;  ///< empty: hourglass control never held energy that matters
+    double time = 0;
+  };
   struct TieCounts {
     std::int64_t nodes = 0;     ///< held at the start
     std::int64_t released = 0;  ///< of these, because elements were deleted
@@ -76,6 +81,7 @@ struct Summary {
   ElementCounts deleted;
   CountByCause deleted_by_cause{};
   Energies energy;
+  HourglassRatio hourglass_ratio_max;  ///< of all parts and times
   Masses mass;
   Momenta momentum;
   ContactCounts contact;

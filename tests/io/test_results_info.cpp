@@ -71,6 +71,7 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
                                "deleted",
                                "deleted_by_cause",
                                "energy",
+                               "hourglass_ratio_max",
                                "mass",
                                "momentum",
                                "contact",
@@ -86,6 +87,7 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
   EXPECT_EQ(keys(json["deleted"]), (Names{"hex8", "shell4", "beam2", "particle"}));
   EXPECT_EQ(keys(json["energy"]), (Names{"kinetic", "internal", "hourglass", "viscous", "contact", "friction",
                                          "external", "deleted", "total_start", "error_relative"}));
+  EXPECT_EQ(keys(json["hourglass_ratio_max"]), (Names{"value", "part", "time"}));
   EXPECT_EQ(keys(json["momentum"]), (Names{"linear", "angular"}));
   EXPECT_EQ(keys(json["contact"]),
             (Names{"searches", "comparisons", "candidate_pairs", "bodies", "lines", "line_comparisons",

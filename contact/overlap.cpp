@@ -112,8 +112,9 @@ void record(const ContactScene& scene, const Contact& contact, std::vector<Initi
   ++entry->nodes;
 }
 
-// Displacements take the place of velocities, and every node weighs the same.
-void move_apart(ContactScene& scene, Nodes& nodes) {
+// Displacements take the place of velocities, and every node weighs the same; those that are held, or of
+// rigid bodies, do not move.
+void bring_to_rest(ContactScene& scene, const Nodes& nodes) {
   const Surface& surface = scene.surface;
   for (std::size_t s = 0; s < surface.slaves(); ++s)
     for (int axis = 0; axis < 3; ++axis) {
@@ -123,6 +124,23 @@ void move_apart(ContactScene& scene, Nodes& nodes) {
       scene.motion[s].velocity[axis] = 0;
       scene.motion[s].inverse_mass[axis] = held ? 0 : 1;
     }
+}
+
+// Whether no node of either side can move along the normal.
+bool is_held(const ContactScene& scene, const Contact& contact) {
+  double mobility = 0;
+  for (std::size_t k = 0; k < contact.node.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double share = contact.weight[k] * contact.normal[axis];
+      if (share != 0)
+        mobility +=
+            share * share * scene.motion[static_cast<std::size_t>(contact.node[k])].inverse_mass[axis];
+    }
+  return !(mobility > 0);
+}
+
+void move_apart(ContactScene& scene, Nodes& nodes) {
+  const Surface& surface = scene.surface;
   for (Contact& contact : scene.contacts) contact.friction_coefficient = 0;
   ContactOptions whole = scene.options;
   whole.passes = sweeps_a_round;
@@ -163,9 +181,11 @@ std::vector<InitialOverlap> remove_initial_overlap(ContactScene& scene, Nodes& n
   if (!report.empty()) {
     std::vector<Vector3d> start;
     for (int node : scene.surface.node) start.push_back(position(nodes, node));
-    for (int round = 0; deepest_unresolved(scene) != nullptr; ++round) {
-      if (round == most_rounds)
-        refuse(scene, nodes, *deepest_unresolved(scene), "which moving nodes does not remove");
+    int round = 0;
+    while (const Contact* deepest = deepest_unresolved(scene)) {
+      bring_to_rest(scene, nodes);
+      if (++round > most_rounds || is_held(scene, *deepest))
+        refuse(scene, nodes, *deepest, "which moving nodes does not remove");
       move_apart(scene, nodes);
       find_anew(scene, nodes, team);
     }

@@ -88,5 +88,26 @@ TEST(InitialOverlap, HeldPartStaysWhereItIs) {
   EXPECT_NEAR(lowest, 3, 1e-8);
 }
 
+// What cannot be removed is told before anything moves, not after many rounds.
+TEST(InitialOverlap, BetweenPartsThatAreBothHeldIsRefusedAtOnce) {
+  ThreadTeam team(1);
+  SpringModel model;
+  model.add_sheet({4, 4}, {4, 4}, 0.1, 1, shifted({0, 0, 10}));
+  model.add_sheet({5, 5}, {3, 3}, 0.1, 1, shifted({0.3, 0.2, 10.095}));
+  const int first = model.count();
+  overlap_blocks(model, 0.1, 0.2);
+  model.hold(first, model.count());
+  std::vector<Vector3d> start;
+  for (int n = 0; n < model.count(); ++n) start.push_back(model.x(n));
+  try {
+    remove_initial_overlap(model.scene, model.nodes, team);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("which moving nodes does not remove"), std::string::npos)
+        << error.what();
+  }
+  for (int n = 0; n < model.count(); ++n) EXPECT_EQ(model.x(n), start[static_cast<std::size_t>(n)]) << n;
+}
+
 }  // namespace
 }  // namespace brio::test

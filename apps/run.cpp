@@ -34,8 +34,8 @@ class ProgressLine {
         duration(progress.remaining_s), 100 * progress.energy_error);
     if (progress.deleted > 0) line += fmt::format("  deleted {}", progress.deleted);
     if (!progress.hourglassing.empty())
-      line +=
-          fmt::format("  hourglass {:.0f} % of '{}'", 100 * progress.hourglass_ratio, progress.hourglassing);
+      line += fmt::format("  hourglass {:.0f} % of '{}'", std::min(100 * progress.hourglass_ratio, 999.0),
+                          progress.hourglassing);
     if (on_terminal_) {
       write_error("\r{:<118}", line);
       if (finished) write_error("\n");

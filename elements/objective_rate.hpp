@@ -128,7 +128,7 @@ struct StretchAndRotation {
 template <class T>
 struct MaterialAxes {
   SymmetricTensor<T> half_strain;  ///< d
-  Tensor<T> middle, end;           ///< material to fixed axes, at mid-step and at the end of the step
+  Tensor<T> end;                   ///< material to fixed axes, at the end of the step
 };
 
 /// k with ([k] s + s [k]) = skew part of g, where s is its symmetric part.
@@ -157,8 +157,8 @@ BRIO_INLINE MaterialAxes<T> advance(StretchAndRotation<T>& state, const Tensor<T
   const T half = 0.5 - 0.125 * ww;  // tan(angle/4) from tan(angle/2), to fourth order
   const Quaternion<T> turn_half{one, half * w.x, half * w.y, half * w.z};
   MaterialAxes<T> axes;
-  axes.middle = rotation_matrix(turn_half * state.rotation, 2.0 / (1.0 + half * half * ww));
-  const SymmetricTensor<T> d = turned_back(axes.middle, symmetric_part(n));
+  const Tensor<T> middle = rotation_matrix(turn_half * state.rotation, 2.0 / (1.0 + half * half * ww));
+  const SymmetricTensor<T> d = turned_back(middle, symmetric_part(n));
 
   // g = U + 2 d (I - d)^-1 U
   const Tensor<T> d_full{{{d.xx, d.xy, d.xz}, {d.xy, d.yy, d.yz}, {d.xz, d.yz, d.zz}}};

@@ -435,7 +435,9 @@ struct NumericsSection {
         optional("energy_error_limit", &NumericsSection::energy_error_limit, positive,
                  "relative energy error at which the run stops with exit code 3, -"),
         optional("hourglass_warning", &NumericsSection::hourglass_warning, positive,
-                 "ratio of the hourglass energy of a part to its largest internal energy so far, beyond "
+                 "ratio of the hourglass energy of a part, where that is a thousandth of the run's energy or "
+                 "more, to its "
+                 "largest internal energy so far, beyond "
                  "which a run warns, -"));
   }
 };

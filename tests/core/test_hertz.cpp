@@ -212,6 +212,8 @@ TEST(HertzSlow, AccurateMeetsForceAndDurationNoWorseThanTheDefault) {
   const auto [accurate_force, accurate_duration] = errors_of("accurate");
   EXPECT_LT(accurate_force, force + 2e-3);
   EXPECT_LT(accurate_duration, duration + 2e-3);
+  EXPECT_LT(force, 0.05);
+  EXPECT_LT(duration, 0.05);
   EXPECT_LT(fast_force, 0.05);
   EXPECT_LT(fast_duration, 0.05);
 }

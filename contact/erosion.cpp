@@ -35,6 +35,7 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const N
     erosion.topology.slaves.release();
   }
   delete_elements(surface, erosion.topology, deleted, erosion.change);
+  if (scene.distance) scene.distance->changed = true;
   if (erosion.change.split)
     for (Contact& contact : scene.contacts)
       if (!contact.of_lines()) contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;

@@ -6,6 +6,13 @@
 
 namespace brio {
 
+/// How constraints are found: by the sides of faces that nodes are on, or by the least distances of features,
+/// which nothing crosses.
+enum class DetectionRule { sides, distance };
+constexpr std::array<NamedValue<DetectionRule>, 2> named_values(DetectionRule) {
+  return {{{"sides", DetectionRule::sides}, {"distance", DetectionRule::distance}}};
+}
+
 struct ContactOptions {
   /// Coulomb coefficient; none unless asked for.
   double friction = 0;
@@ -13,6 +20,7 @@ struct ContactOptions {
   /// below 1e-3 of an edge, ten verify.
   int passes = 5;
   SearchStrategy search = SearchStrategy::automatic;
+  DetectionRule rule = DetectionRule::sides;
   /// Length by which capture boxes are grown so that the search can be skipped, over the mean edge of the
   /// surface.
   double reach_buffer = 0.2;
@@ -45,6 +53,7 @@ struct ContactOptions {
                  "sweeps back over the contact constraints of a step, and as many forth, -"),
         optional("search", &ContactOptions::search, any_number,
                  "how candidates are found; the pairs are the same"),
+        optional("rule", &ContactOptions::rule, any_number, "how constraints are found"),
         optional("reach_buffer", &ContactOptions::reach_buffer,
                  Range{.lower = 0, .upper = 10, .lower_open = true},
                  "growth of capture boxes that lets the search be skipped, in mean edges, -"),

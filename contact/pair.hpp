@@ -16,8 +16,9 @@ struct Contact {
   int body = 0;               ///< of the face, or of the second line
   int own = 1;                ///< how many of the nodes are of the first side: the node, or both of a line
   std::array<int, 5> node{};  ///< slave indices: the node, then the corners of the face
-  std::array<double, 5> weight{};   ///< 1, then minus the weights of the corners; their sum is 0
-  Eigen::Vector3d normal;           ///< unit vector from the second side to the first: the way that is pushed
+  std::array<double, 5> weight{};  ///< 1, then minus the weights of the corners; their sum is 0
+  Eigen::Vector3d normal =
+      Eigen::Vector3d::Zero();      ///< unit vector from the second side to the first: the way that is pushed
   double gap = 0;                   ///< at the beginning of the step; negative: old overlap
   double friction_coefficient = 0;  ///< Coulomb's
   double impulse = 0;               ///< along the normal, on the first side; never negative

@@ -14,6 +14,7 @@
 
 #include "contact/candidates.hpp"
 #include "contact/detect.hpp"
+#include "contact/detection/crossing_guard.hpp"
 #include "contact/erosion.hpp"
 #include "contact/held_contact.hpp"
 #include "contact/line_detect.hpp"
@@ -66,6 +67,21 @@ struct ContactTotals {
   int most_contacts = 0;
 };
 
+/// What contact by distances keeps between steps.
+struct DistanceContact {
+  SurfaceFeatures features;
+  FeatureMotion motion;
+  FeaturePairs pairs;
+  Proximity proximity;
+  CrossingGuard guard;
+  bool changed = true;                     ///< the surface, since its features were collected
+  std::vector<RigidMotion> bodies_before;  ///< of the step, as predicted
+  std::vector<NodeVector> velocity_before, angular_before;  ///< of all nodes, where there are ties
+  std::vector<Eigen::Vector3d> zone_impulse;  ///< of each slave node, in this step; empty: no zone
+  std::vector<int> zone_of;                   ///< of each slave node and body
+  std::uint64_t steps_with_hits = 0, rounds = 0, zones = 0, unresolved = 0;
+};
+
 struct ContactScene {
   ContactOptions options;
   Surface surface;
@@ -77,8 +93,9 @@ struct ContactScene {
   std::vector<Contact> contacts;  ///< of the last step, by Contact::slave
   std::vector<Contact> last;      ///< of the step before, while one is resolved
   double last_dt = 0;
-  std::optional<ContactErosion> erosion;  ///< of scenes whose elements may be deleted
-  std::optional<LineContacts> lines;      ///< of scenes with edges that may meet, beams or particles
+  std::optional<ContactErosion> erosion;    ///< of scenes whose elements may be deleted
+  std::optional<LineContacts> lines;        ///< of scenes with edges that may meet, beams or particles
+  std::optional<DistanceContact> distance;  ///< of scenes in which constraints are found by distances
 
   SlaveSet in_contact;                          ///< nodes that any of the contacts joins
   SlaveSet pushed;                              ///< nodes with an impulse in the last step

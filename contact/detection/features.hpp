@@ -1,0 +1,63 @@
+#pragma once
+/// The features of a contact surface between which distances are kept: its nodes, its edges and its faces.
+///
+/// An edge is a side or a diagonal of a face, a beam, or a single point (a particle; where there are beams,
+/// also a node of a face). Both diagonals of a quadrilateral are edges and the face is the convex hull of its
+/// corners: what stays outside of the hull crosses none of its triangulations, and mirror images are treated
+/// alike.
+///
+/// Every feature has a radius: half the thickness of a shell, the radius of a beam or a particle, and for
+/// solids a skin, a stated thickness in which they touch without touching the mesh (`skin_share`).
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/lists.hpp"
+#include "contact/options.hpp"
+#include "contact/surface.hpp"
+#include "src/base/nodes.hpp"
+
+namespace brio {
+
+enum class EdgeKind : std::uint8_t { side, diagonal, beam, particle, node };
+
+struct EdgeFeature {
+  std::array<int, 2> node{};  ///< slave indices, ascending; the same twice: a point
+  std::array<int, 2> face{-1, -1};
+  /// Slave indices of the other corners of the faces that meet here, the opposite ones of a diagonal; -1
+  std::array<int, 4> wing{-1, -1, -1, -1};
+  int part = 0;
+  int body = 0;
+  int round = -1;  ///< of a beam or particle, in Surface::round
+  EdgeKind kind = EdgeKind::side;
+  bool shell = false;
+  std::uint8_t faces = 0;  ///< that meet here, at most 255
+  double radius = 0;
+
+  bool is_point() const { return node[0] == node[1]; }
+  bool of_face() const { return kind == EdgeKind::side || kind == EdgeKind::diagonal; }
+};
+
+struct SurfaceFeatures {
+  double smallest_edge = 0;  ///< of the surface as built: the scale of skins and bands
+  double mean_edge = 0;      ///< as built
+  double skin = 0;           ///< radius of what has no thickness
+  std::vector<EdgeFeature> edge;
+  std::vector<std::array<int, 4>> edge_of_face;  ///< sides by corner; the fourth of a triangle is -1
+  std::vector<double> node_radius;               ///< of each slave node
+  std::vector<double> face_radius;               ///< of each face
+  Lists ring;                                    ///< of each slave node: those at the other ends of its edges
+};
+
+/// Skin of a solid, over the smallest edge of the surface: two solids touch at twice that distance.
+inline constexpr double skin_share = 0.002;
+
+/// Scales of the surface as built.
+void measure(SurfaceFeatures& features, const Surface& surface, const Nodes& nodes);
+
+/// Collect edges, radii and rings anew, in an order that depends on the surface alone.
+void collect(SurfaceFeatures& features, const Surface& surface, const ContactOptions& options);
+
+}  // namespace brio

@@ -1,0 +1,49 @@
+#pragma once
+/// The rule of contact: every pair of features at a local minimum of their distance, nearer than their radii
+/// and a band that covers the approach of the step, is a constraint along its closest points.
+///
+/// There are no sides: since nothing crosses, the side is where the features are. A local minimum on the
+/// union of the surfaces: at the closest points, every neighbouring feature lies farther from the other one.
+/// Where a node is closest to an edge or a corner of a face, the faces beside it must look away; two edges
+/// form a constraint where both are closest inside of them and the faces at both look away. So a node or an
+/// edge that slides over inner edges of a flat surface meets nothing there.
+
+#include <span>
+#include <vector>
+
+#include "contact/detection/feature_motion.hpp"
+#include "contact/detection/feature_pairs.hpp"
+#include "contact/detection/features.hpp"
+#include "contact/options.hpp"
+#include "contact/pair.hpp"
+
+namespace brio {
+
+/// What is looked at in a step.
+struct Proximity {
+  std::vector<int> node_face, edge_edge;  ///< pairs that are not surely apart in this step, ascending
+  std::uint64_t looked_at = 0;            ///< sum over steps of pairs
+  std::uint64_t closest_points = 0;       ///< sum over steps of closest points computed
+
+  struct Found {
+    Contact contact;
+    std::array<int, 2> support{};  ///< what the closest points lie on, so that none is counted twice
+  };
+  std::vector<Found> found;  ///< working space
+};
+
+/// Pairs that may come within their radii in this step, by their paths.
+void select_awake(Proximity& proximity, const SurfaceFeatures& features, const FeaturePairs& pairs,
+                  const FeatureMotion& motion);
+
+/// Replace `contacts` by the constraints of this step, those of nodes and faces by node, then those of edges.
+/// Directions and wakes of the pairs are renewed.
+void find_proximities(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
+                      const ContactOptions& options, FeaturePairs& pairs, const FeatureMotion& motion,
+                      std::vector<Contact>& contacts);
+
+/// Of all pairs: how far the solution may move a node beyond twice its predicted step before pairs that were
+/// surely apart have to be looked at again.
+double allowed_surplus(const SurfaceFeatures& features);
+
+}  // namespace brio

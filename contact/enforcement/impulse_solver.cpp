@@ -12,203 +12,97 @@ namespace {
 /// Rows and blocks of a task: whatever the number of threads.
 constexpr std::size_t rows_a_task = 512;
 constexpr std::size_t blocks_a_task = 512;
-/// Nothing can move where only rounding of a weight moves the row: below this share of what its lightest
-/// block alone would move.
-constexpr double held_share = 1e-20;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
+Vector vector_of(const double* a) { return {a[0], a[1], a[2]}; }
+bool is_diagonal(const SymmetricTensor<double>& a) { return a.xy == 0 && a.yz == 0 && a.xz == 0; }
 
-// Bound of the spectral norm: exact where the matrix is diagonal.
-double norm_bound(const SymmetricTensor<double>& a) {
-  const double xy = std::abs(a.xy);
-  const double yz = std::abs(a.yz);
-  const double xz = std::abs(a.xz);
-  return std::max({std::abs(a.xx) + xy + xz, std::abs(a.yy) + xy + yz, std::abs(a.zz) + xz + yz});
-}
-double frobenius_squared(const Tensor<double>& a) {
-  double sum = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) sum += a.m[i][j] * a.m[i][j];
-  return sum;
-}
-double energy(const SymmetricTensor<double>& inverse_mass, const Vector& impulse) {
-  return dot(impulse, inverse_mass * impulse);
+void store_given_of(const RowUnknowns<double, true>& unknown, const ConstraintRow& row, RowImpulse& given) {
+  const double* impulse = unknown.impulse;
+  const Vector force = impulse[0] * row.normal + impulse[1] * row.tangent[0] + impulse[2] * row.tangent[1];
+  given.force[0] = force.x;
+  given.force[1] = force.y;
+  given.force[2] = force.z;
+  given.slope_0 = impulse[1];
+  given.slope_1 = impulse[2];
 }
 
-// c of each kind of entry: |W^(1/2) B^T|, of the normal alone where there is no friction.
-double entry_norm(const ConstraintRow& row, const TranslationEntry& entry,
-                  const SymmetricTensor<double>& inverse_mass) {
-  if (row.friction_coefficient == 0)
-    return std::abs(entry.weight) * std::sqrt(energy(inverse_mass, row.normal));
-  const double tilt = entry.tilt[0] * entry.tilt[0] + entry.tilt[1] * entry.tilt[1];
-  const double map = 0.5 * (std::sqrt(tilt) + std::sqrt(tilt + 4 * entry.weight * entry.weight));
-  return map * std::sqrt(norm_bound(inverse_mass));
-}
-double entry_norm(const ConstraintRow& row, const RotationEntry& entry,
-                  const SymmetricTensor<double>& inverse_mass) {
-  if (row.friction_coefficient == 0) return std::sqrt(energy(inverse_mass, cross(entry.arm, row.normal)));
-  return std::sqrt(dot(entry.arm, entry.arm) * norm_bound(inverse_mass));
-}
-double entry_norm(const ConstraintRow& row, const MatrixEntry& entry,
-                  const SymmetricTensor<double>& inverse_mass) {
-  if (row.friction_coefficient == 0)
-    return std::sqrt(energy(inverse_mass, transposed_times(entry.matrix, row.normal)));
-  return std::sqrt(frobenius_squared(entry.matrix) * norm_bound(inverse_mass));
+template <class Packs, class Visit>
+void each_pack(Packs& packs, std::size_t first_slot, std::size_t begin, std::size_t end, Visit&& visit) {
+  constexpr std::size_t lanes = lane_count<double>;
+  for (std::size_t slot = begin; slot < end; slot += lanes) visit(packs[(slot - first_slot) / lanes], slot);
 }
 
-bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<const VelocityBlock> blocks) {
-  const RowMap map(rows, row);
-  double lightest = 0;
-  for (const TranslationEntry& entry : map.translations())
-    lightest = std::max(lightest, energy(blocks[index(entry.block)].inverse_mass, row.normal));
-  return !(map.inverse_mass(row.normal, blocks) > held_share * lightest);
+RowSums<double> reduced(const RowSums<Lanes<double>>& sums) {
+  RowSums<double> total;
+  for (int lane = 0; lane < lane_count<double>; ++lane) {
+    total.turned += sums.turned[lane];
+    total.residual = std::max(total.residual, sums.residual[lane]);
+    total.largest = std::max(total.largest, sums.largest[lane]);
+  }
+  return total;
 }
 
-template <class List, class Entry>
-void list_by_block(List& list, const ConstraintRows& rows, const std::vector<Entry>& entries,
-                   EntryRange ConstraintRow::*range, std::size_t blocks) {
-  list.first.assign(blocks + 1, 0);
-  list.item.resize(entries.size());
-  if (entries.empty()) return;
-  for (const Entry& entry : entries) ++list.first[index(entry.block) + 1];
-  for (std::size_t b = 0; b < blocks; ++b) list.first[b + 1] += list.first[b];
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::uint32_t e = (rows.row[i].*range).begin; e < (rows.row[i].*range).end; ++e)
-      list.item[list.first[index(entries[e].block)]++] = {static_cast<std::uint32_t>(i), e};
-  for (std::size_t b = blocks; b > 0; --b) list.first[b] = list.first[b - 1];
-  list.first[0] = 0;
+template <class Packs>
+RowSums<double> change_packs(Packs& packs, std::size_t first_slot, std::size_t begin, std::size_t end,
+                             const double* velocity, double momentum, RowImpulse* given) {
+  RowSums<Lanes<double>> sums;
+  each_pack(packs, first_slot, begin, end, [&](auto& pack, std::size_t slot) {
+    change_impulses(pack, velocity, momentum, sums, given + slot);
+  });
+  return reduced(sums);
 }
 
 }  // namespace
 
-void ImpulseSolver::find_majorants(ConstraintRows& rows, std::span<const VelocityBlock> blocks,
-                                   ThreadTeam& team) {
-  const std::size_t rotations = rows.translation.size();
-  const std::size_t matrices = rotations + rows.rotation.size();
-  norm_.resize(matrices + rows.matrix.size());
-  const auto inverse_mass = [&](int b) -> const SymmetricTensor<double>& {
-    return blocks[index(b)].inverse_mass;
+void ImpulseSolver::store_given(const ConstraintRows& rows, Kind kind, std::size_t begin, std::size_t end) {
+  const auto store_packs = [&](const auto& packs) {
+    each_pack(packs, first_slot_[kind], begin, end,
+              [&](const auto& pack, std::size_t slot) { store_impulses(pack, &given_[slot]); });
   };
-  // Of each entry of a row with its place in norm_.
-  const auto each_entry = [&](const ConstraintRow& row, auto&& visit) {
-    for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e)
-      visit(rows.translation[e], norm_[e]);
-    for (std::uint32_t e = row.rotation.begin; e < row.rotation.end; ++e)
-      visit(rows.rotation[e], norm_[rotations + e]);
-    for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e)
-      visit(rows.matrix[e], norm_[matrices + e]);
-  };
-  team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const bool held = is_held(rows, rows.row[i], blocks);
-      double sum = 0;
-      each_entry(rows.row[i], [&](const auto& entry, double& norm) {
-        norm = held ? 0 : entry_norm(rows.row[i], entry, inverse_mass(entry.block));
-        sum += norm * norm;
-      });
-      state_[i].majorant = std::sqrt(sum);
-      each_entry(rows.row[i], [&](const auto&, double& norm) {
-        if (norm > 0) norm /= state_[i].majorant;
-      });
-    }
-  });
-  block_norm_.resize(blocks.size());
-  team.for_ranges(blocks.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      double sum = 0;
-      const auto add = [&](const IncomingLists& list, std::size_t first) {
-        for (std::uint32_t i = list.first[b]; i < list.first[b + 1]; ++i)
-          sum += norm_[first + list.item[i].entry];
-      };
-      add(translation_, 0);
-      add(rotation_, rotations);
-      add(matrix_, matrices);
-      block_norm_[b] = sum;
-    }
-  });
-  team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      double majorant = 0;
-      each_entry(rows.row[i],
-                 [&](const auto& entry, double norm) { majorant += norm * block_norm_[index(entry.block)]; });
-      state_[i].majorant *= state_[i].majorant * majorant;
-    }
-  });
-}
-
-// Impulses that are carried over may no longer be admissible: they are once their row has been visited.
-void ImpulseSolver::start_row(const ConstraintRow& row, RowState& state, RowImpulse& given) const {
-  const Vector frame[3] = {row.normal, row.tangent[0], row.tangent[1]};
-  const bool moves = state.majorant > 0;
-  const bool rubs = moves && row.friction_coefficient > 0;
-  state.friction_coefficient = row.friction_coefficient;
-  for (int axis = 0; axis < 3; ++axis) {
-    state.offset[axis] = dot(frame[axis], row.wall_velocity) + (axis == 0 ? row.target_velocity : 0);
-    const double carried = axis == 0 ? std::max(row.impulse, 0.0) : dot(frame[axis], row.friction);
-    state.last[axis] = state.impulse[axis] = (axis == 0 ? moves : rubs) ? carried : 0;
+  switch (kind) {
+    case normal_only:
+      return store_packs(normal_packs_);
+    case with_friction:
+      return store_packs(friction_packs_);
+    case with_tilt:
+      return store_packs(tilt_packs_);
+    default:
+      break;
   }
-  given.normal = row.normal;
+  for (std::size_t slot = begin; slot < end; ++slot)
+    if (row_of_slot_[slot] != no_row)
+      store_given_of(general_[slot - first_slot_[general]], rows.row[row_of_slot_[slot]], given_[slot]);
 }
 
-void ImpulseSolver::prepare(ConstraintRows& rows, std::span<const VelocityBlock> blocks, ThreadTeam& team) {
-  state_.resize(rows.size());
-  given_.resize(rows.size());
-  list_by_block(translation_, rows, rows.translation, &ConstraintRow::translation, blocks.size());
-  list_by_block(rotation_, rows, rows.rotation, &ConstraintRow::rotation, blocks.size());
-  list_by_block(matrix_, rows, rows.matrix, &ConstraintRow::matrix, blocks.size());
-  find_majorants(rows, blocks, team);
-  team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      start_row(rows.row[i], state_[i], given_[i]);
-      const double* impulse = state_[i].impulse;
-      given_[i].force = impulse[0] * rows.row[i].normal + impulse[1] * rows.row[i].tangent[0] +
-                        impulse[2] * rows.row[i].tangent[1];
-      given_[i].slope[0] = impulse[1];
-      given_[i].slope[1] = impulse[2];
-    }
-  });
+ImpulseSolver::Sums ImpulseSolver::change_general(const ConstraintRows& rows, double momentum,
+                                                  std::size_t begin, std::size_t end) {
+  Sums sums;
+  for (std::size_t slot = begin; slot < end; ++slot) {
+    if (row_of_slot_[slot] == no_row) continue;
+    const ConstraintRow& row = rows.row[row_of_slot_[slot]];
+    const Vector u =
+        RowMap(rows, row).velocity([&](int b) { return vector_of(extrapolated_[index(b)].component); });
+    const double velocity[3] = {dot(row.normal, u), dot(row.tangent[0], u), dot(row.tangent[1], u)};
+    RowUnknowns<double, true>& unknown = general_[slot - first_slot_[general]];
+    change_impulse(unknown, velocity, momentum, sums);
+    store_given_of(unknown, row, given_[slot]);
+  }
+  return sums;
 }
 
 ImpulseSolver::Sums ImpulseSolver::change_impulses(const ConstraintRows& rows, double momentum,
                                                    ThreadTeam& team) {
-  sums_.assign((rows.size() + rows_a_task - 1) / rows_a_task, {});
-  team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
-    Sums sums;
-    for (std::size_t i = begin; i < end; ++i) {
-      RowState& state = state_[i];
-      if (state.majorant == 0) continue;
-      const ConstraintRow& row = rows.row[i];
-      const Vector u = RowMap(rows, row).velocity([&](int b) { return motion_[index(b)].extrapolated; });
-      const double step = 1 / state.majorant;
-      const double velocity[3] = {dot(row.normal, u), dot(row.tangent[0], u), dot(row.tangent[1], u)};
-      double from[3];
-      double wanted[3];
-      for (int axis = 0; axis < 3; ++axis) {
-        from[axis] = state.impulse[axis] + momentum * (state.impulse[axis] - state.last[axis]);
-        wanted[axis] = from[axis] - step * (velocity[axis] - state.offset[axis]);
-        state.last[axis] = state.impulse[axis];
-      }
-      state.impulse[0] = std::max(0.0, wanted[0]);
-      const double limit = state.friction_coefficient * state.impulse[0];
-      const double size = std::sqrt(wanted[1] * wanted[1] + wanted[2] * wanted[2]);
-      const double scale = size > limit ? limit / size : 1;
-      state.impulse[1] = scale * wanted[1];
-      state.impulse[2] = scale * wanted[2];
-      double change = 0;
-      double turned = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        change += square(state.impulse[axis] - from[axis]);
-        turned += (from[axis] - state.impulse[axis]) * (state.impulse[axis] - state.last[axis]);
-      }
-      sums.turned += state.majorant * turned;
-      sums.residual = std::max(sums.residual, square(state.majorant) * change);
-      sums.largest = std::max(sums.largest, state.majorant * state.impulse[0]);
-      given_[i].force = state.impulse[0] * row.normal + state.impulse[1] * row.tangent[0] +
-                        state.impulse[2] * row.tangent[1];
-      given_[i].slope[0] = state.impulse[1];
-      given_[i].slope[1] = state.impulse[2];
-    }
-    sums_[begin / rows_a_task] = sums;
+  sums_.resize(slot_ranges());
+  const double* velocity = extrapolated_.data()->component;
+  each_slot_range(team, [&](Kind kind, std::size_t begin, std::size_t end, std::size_t range) {
+    const auto change = [&](auto& packs) {
+      return change_packs(packs, first_slot_[kind], begin, end, velocity, momentum, given_.data());
+    };
+    sums_[range] = kind == normal_only     ? change(normal_packs_)
+                   : kind == with_friction ? change(friction_packs_)
+                   : kind == with_tilt     ? change(tilt_packs_)
+                                           : change_general(rows, momentum, begin, end);
   });
   Sums total;
   for (const Sums& sums : sums_) {
@@ -222,32 +116,82 @@ ImpulseSolver::Sums ImpulseSolver::change_impulses(const ConstraintRows& rows, d
 
 void ImpulseSolver::gather(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, double momentum,
                            ThreadTeam& team) {
+  const auto given_to = [&](std::size_t b) {
+    Row4 sum = {};
+    for (const TranslationItem* item = translation_.begin(b); item != translation_.end(b); ++item)
+      sum += item->weight * load_row(given_[item->slot].force);
+    for (const TiltItem* item = tilt_.begin(b); item != tilt_.end(b); ++item) {
+      const RowImpulse& given = given_[item->slot];
+      sum += (item->tilt[0] * given.slope_0 + item->tilt[1] * given.slope_1) * load_row(given.normal);
+    }
+    for (const OtherItem* item = rotation_.begin(b); item != rotation_.end(b); ++item) {
+      const Vector add = cross(rows.rotation[item->entry].arm, vector_of(given_[item->slot].force));
+      sum += Row4{add.x, add.y, add.z, 0};
+    }
+    for (const OtherItem* item = matrix_.begin(b); item != matrix_.end(b); ++item) {
+      const Vector add =
+          transposed_times(rows.matrix[item->entry].matrix, vector_of(given_[item->slot].force));
+      sum += Row4{add.x, add.y, add.z, 0};
+    }
+    return sum;
+  };
   team.for_ranges(blocks.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      Vector sum{0, 0, 0};
-      for (std::uint32_t i = translation_.first[b]; i < translation_.first[b + 1]; ++i) {
-        const RowImpulse& given = given_[translation_.item[i].row];
-        const TranslationEntry& entry = rows.translation[translation_.item[i].entry];
-        sum = sum + (entry.weight * given.force +
-                     (entry.tilt[0] * given.slope[0] + entry.tilt[1] * given.slope[1]) * given.normal);
+      const SymmetricTensor<double>& w = blocks[b].inverse_mass;
+      const Row4 sum = given_to(b);
+      Row4 change = Row4{w.xx, w.yy, w.zz, 0} * sum;
+      if (!is_diagonal(w)) {
+        const Vector full = w * Vector{sum[0], sum[1], sum[2]};
+        change = Row4{full.x, full.y, full.z, 0};
       }
-      for (std::uint32_t i = rotation_.first[b]; i < rotation_.first[b + 1]; ++i)
-        sum = sum + cross(rows.rotation[rotation_.item[i].entry].arm, given_[rotation_.item[i].row].force);
-      for (std::uint32_t i = matrix_.first[b]; i < matrix_.first[b + 1]; ++i)
-        sum = sum +
-              transposed_times(rows.matrix[matrix_.item[i].entry].matrix, given_[matrix_.item[i].row].force);
-      BlockMotion& motion = motion_[b];
-      const Vector last = motion.now;
-      motion.now = motion.free + blocks[b].inverse_mass * sum;
-      motion.extrapolated = motion.now + momentum * (motion.now - last);
+      const Row4 last = load_row(now_[b].component);
+      const Row4 now = load_row(free_[b].component) + change;
+      store_row(now_[b].component, now);
+      store_row(extrapolated_[b].component, now + momentum * (now - last));
     }
   });
 }
 
-SolveReport ImpulseSolver::iterate(const SolveOptions& options, ConstraintRows& rows,
-                                   std::span<VelocityBlock> blocks, ThreadTeam& team) {
+void ImpulseSolver::store(ConstraintRows& rows, std::span<VelocityBlock> blocks, ThreadTeam& team) const {
+  const auto impulse_in_pack = [&](const auto& packs, std::size_t place, int axis) -> double {
+    constexpr std::size_t lanes = lane_count<double>;
+    return packs[place / lanes].unknown.impulse[axis][static_cast<int>(place % lanes)];
+  };
+  team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t place = slot_[i] - first_slot_[kind_[i]];
+      double impulse[3] = {0, 0, 0};
+      for (int axis = 0; axis < (kind_[i] == normal_only ? 1 : 3); ++axis)
+        impulse[axis] = kind_[i] == normal_only     ? impulse_in_pack(normal_packs_, place, axis)
+                        : kind_[i] == with_friction ? impulse_in_pack(friction_packs_, place, axis)
+                        : kind_[i] == with_tilt     ? impulse_in_pack(tilt_packs_, place, axis)
+                                                    : general_[place].impulse[axis];
+      ConstraintRow& row = rows.row[i];
+      row.impulse = impulse[0];
+      row.friction = impulse[1] * row.tangent[0] + impulse[2] * row.tangent[1];
+    }
+  });
+  team.for_ranges(blocks.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) blocks[b].velocity = vector_of(now_[b].component);
+  });
+}
+
+SolveReport ImpulseSolver::solve(const SolveOptions& options, ConstraintRows& rows,
+                                 std::span<VelocityBlock> blocks, ThreadTeam& team) {
+  free_.clear();
+  return solve_further(options, rows, blocks, team);
+}
+
+SolveReport ImpulseSolver::solve_further(const SolveOptions& options, ConstraintRows& rows,
+                                         std::span<VelocityBlock> blocks, ThreadTeam& team) {
   SolveReport report;
+  const std::size_t known = free_.size();
+  free_.resize(blocks.size());
+  for (std::size_t b = known; b < blocks.size(); ++b)
+    free_[b] = {{blocks[b].velocity.x, blocks[b].velocity.y, blocks[b].velocity.z, 0}};
   if (rows.size() == 0) return report;
+  now_ = free_;
+  extrapolated_.resize(blocks.size());
   prepare(rows, blocks, team);
   gather(rows, blocks, 0, team);
   double momentum = 0;
@@ -259,39 +203,15 @@ SolveReport ImpulseSolver::iterate(const SolveOptions& options, ConstraintRows& 
     report.residual = sums.residual;
     report.largest_velocity = sums.largest;
     report.converged = sums.residual <= options.tolerance * sums.largest;
-    if (sums.turned > 0) {
-      ++report.restarts;
-      theta = 1;
-      momentum = 0;
-    } else {
-      const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
-      momentum = (theta - 1) / next;
-      theta = next;
-    }
+    const bool restart = sums.turned > 0;
+    report.restarts += restart;
+    const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
+    momentum = restart ? 0 : (theta - 1) / next;
+    theta = restart ? 1 : next;
     gather(rows, blocks, momentum, team);
   }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double* impulse = state_[i].impulse;
-    rows.row[i].impulse = impulse[0];
-    rows.row[i].friction = impulse[1] * rows.row[i].tangent[0] + impulse[2] * rows.row[i].tangent[1];
-  }
-  for (std::size_t b = 0; b < blocks.size(); ++b) blocks[b].velocity = motion_[b].now;
+  store(rows, blocks, team);
   return report;
-}
-
-SolveReport ImpulseSolver::solve(const SolveOptions& options, ConstraintRows& rows,
-                                 std::span<VelocityBlock> blocks, ThreadTeam& team) {
-  motion_.clear();
-  return solve_further(options, rows, blocks, team);
-}
-
-SolveReport ImpulseSolver::solve_further(const SolveOptions& options, ConstraintRows& rows,
-                                         std::span<VelocityBlock> blocks, ThreadTeam& team) {
-  const std::size_t known = motion_.size();
-  motion_.resize(blocks.size());
-  for (std::size_t b = known; b < blocks.size(); ++b) motion_[b].free = blocks[b].velocity;
-  for (BlockMotion& motion : motion_) motion.now = motion.extrapolated = motion.free;
-  return iterate(options, rows, blocks, team);
 }
 
 }  // namespace brio

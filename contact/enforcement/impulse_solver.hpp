@@ -29,6 +29,8 @@
 #include <vector>
 
 #include "contact/enforcement/constraint_row.hpp"
+#include "contact/enforcement/entry_lists.hpp"
+#include "contact/enforcement/row_pack.hpp"
 #include "src/base/parallel.hpp"
 
 namespace brio {
@@ -61,57 +63,100 @@ class ImpulseSolver {
                             std::span<VelocityBlock> blocks, ThreadTeam& team);
 
  private:
-  /// One row in its frame (normal, two tangents).
-  struct RowState {
-    double impulse[3];
-    double last[3];    ///< an iteration before
-    double offset[3];  ///< relative velocity of the blocks that is asked for
-    double majorant;   ///< 0: nothing can move
-    double friction_coefficient;
+  /// How a row is worked on; slots are given to one kind after the other.
+  static constexpr std::uint32_t no_row = ~std::uint32_t{0};
+  static constexpr std::size_t slots_a_task = 512;
+  enum Kind : std::uint8_t { normal_only, with_friction, with_tilt, general, kinds };
+  using Sums = RowSums<double>;
+
+  struct alignas(32) BlockVelocity {
+    double component[4];
   };
-  /// Impulse of a row as blocks need it.
-  struct alignas(64) RowImpulse {
-    Vector3<double> force;
-    double slope[2];  ///< components of the force along the tangents
-    Vector3<double> normal;
+  /// An entry at its block, with the slot of its row.
+  struct TranslationItem {
+    std::uint32_t slot;
+    std::uint32_t entry;
+    double weight;
   };
-  struct BlockMotion {
-    Vector3<double> free;
-    Vector3<double> now;
-    Vector3<double> extrapolated;
+  struct TiltItem {
+    std::uint32_t slot;
+    double tilt[2];
   };
-  /// Entry of a row at its block.
-  struct Incoming {
-    std::uint32_t row;
+  struct OtherItem {
+    std::uint32_t slot;
     std::uint32_t entry;
   };
-  /// Lists of entries by block, in the order of rows.
-  struct IncomingLists {
-    std::vector<std::uint32_t> first;
-    std::vector<Incoming> item;
-  };
-  struct Sums {
-    double turned = 0;
-    double residual = 0;
-    double largest = 0;
-  };
 
-  void prepare(ConstraintRows& rows, std::span<const VelocityBlock> blocks, ThreadTeam& team);
-  void find_majorants(ConstraintRows& rows, std::span<const VelocityBlock> blocks, ThreadTeam& team);
-  void start_row(const ConstraintRow& row, RowState& state, RowImpulse& given) const;
+  void prepare(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, ThreadTeam& team);
+  void measure_blocks(std::span<const VelocityBlock> blocks, ThreadTeam& team);
+  void measure_rows(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, ThreadTeam& team);
+  void assign_slots(const ConstraintRows& rows, ThreadTeam& team);
+  void list_entries(const ConstraintRows& rows, std::size_t blocks, ThreadTeam& team);
+  void sum_block_norms(const ConstraintRows& rows, std::size_t blocks, ThreadTeam& team);
+  void fill_rows(const ConstraintRows& rows, ThreadTeam& team);
+  template <bool friction, bool tilt>
+  void fill_lane(std::vector<RowPack<friction, tilt>>& packs, const ConstraintRows& rows, std::size_t row);
+
+  void fill_general(const ConstraintRows& rows, std::size_t row);
+  void store_given(const ConstraintRows& rows, Kind kind, std::size_t begin, std::size_t end);
+
+  std::size_t slot_ranges() const;
+  /// `visit(kind, begin, end, range)` for ranges of slots of one kind, from and to whole packs.
+  template <class Visit>
+  void each_slot_range(ThreadTeam& team, Visit&& visit) const;
+  Sums change_general(const ConstraintRows& rows, double momentum, std::size_t begin, std::size_t end);
   Sums change_impulses(const ConstraintRows& rows, double momentum, ThreadTeam& team);
   void gather(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, double momentum,
               ThreadTeam& team);
-  SolveReport iterate(const SolveOptions& options, ConstraintRows& rows, std::span<VelocityBlock> blocks,
-                      ThreadTeam& team);
+  void store(ConstraintRows& rows, std::span<VelocityBlock> blocks, ThreadTeam& team) const;
 
-  std::vector<RowState> state_;
-  std::vector<RowImpulse> given_;
-  std::vector<BlockMotion> motion_;
-  IncomingLists translation_, rotation_, matrix_;
+  std::vector<RowPack<false, false>> normal_packs_;
+  std::vector<RowPack<true, false>> friction_packs_;
+  std::vector<RowPack<true, true>> tilt_packs_;
+  std::vector<RowUnknowns<double, true>> general_;
+  std::size_t first_slot_[kinds + 1] = {};
+  std::vector<RowImpulse> given_;  ///< by slot
+
+  std::vector<Kind> kind_;           ///< by row
+  std::vector<std::uint32_t> slot_;  ///< by row
+  std::vector<std::uint32_t> row_of_slot_;
+  std::vector<double> scale_;  ///< s of each row
+  std::vector<std::uint32_t> kind_count_;
+
+  EntryLists<TranslationItem> translation_;
+  EntryLists<TiltItem> tilt_;
+  EntryLists<OtherItem> rotation_, matrix_;
   std::vector<double> norm_;        ///< c of each entry: translations, rotations, matrices
   std::vector<double> block_norm_;  ///< S of each block
-  std::vector<Sums> sums_;
+  std::vector<double> block_root_;  ///< bound of |W^(1/2)|; negative where W is not a multiple of one
+
+  std::vector<BlockVelocity> free_, now_, extrapolated_;  ///< by block
+  std::vector<Sums> sums_;                                ///< by range of slots
 };
+
+inline std::size_t ImpulseSolver::slot_ranges() const {
+  std::size_t ranges = 0;
+  for (std::size_t kind = 0; kind < kinds; ++kind)
+    ranges += (first_slot_[kind + 1] - first_slot_[kind] + slots_a_task - 1) / slots_a_task;
+  return ranges;
+}
+
+template <class Visit>
+void ImpulseSolver::each_slot_range(ThreadTeam& team, Visit&& visit) const {
+  team.for_each(slot_ranges(), [&](std::size_t range) {
+    std::size_t own = range;
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+      const std::size_t last = first_slot_[kind + 1];
+      const std::size_t ranges = (last - first_slot_[kind] + slots_a_task - 1) / slots_a_task;
+      if (own < ranges) {
+        const std::size_t begin = first_slot_[kind] + own * slots_a_task;
+        visit(static_cast<Kind>(kind), begin, begin + slots_a_task < last ? begin + slots_a_task : last,
+              range);
+        return;
+      }
+      own -= ranges;
+    }
+  });
+}
 
 }  // namespace brio

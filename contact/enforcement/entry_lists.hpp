@@ -20,6 +20,10 @@ class EntryLists {
   /// gives the item.
   template <class EachEntry>
   void build(std::size_t rows, std::size_t blocks, ThreadTeam& team, EachEntry&& each_entry) {
+    if (rows == 0) {
+      first_.assign(blocks + 1, 0);
+      return item_.clear();
+    }
     // Each range of rows counts for itself; a block's items are those of the first range, then the second ...
     const std::size_t ranges = rows / rows_a_range >= most_ranges ? most_ranges : rows / rows_a_range + 1;
     const auto range_begin = [&](std::size_t r) { return rows * r / ranges; };

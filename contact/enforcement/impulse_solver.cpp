@@ -120,8 +120,9 @@ void ImpulseSolver::gather(const ConstraintRows& rows, std::span<const VelocityB
     Row4 sum = {};
     for (const TranslationItem* item = translation_.begin(b); item != translation_.end(b); ++item)
       sum += item->weight * load_row(given_[item->slot].force);
-    for (const TiltItem* item = tilt_.begin(b); item != tilt_.end(b); ++item) {
+    for (const TiltedItem* item = tilted_.begin(b); item != tilted_.end(b); ++item) {
       const RowImpulse& given = given_[item->slot];
+      sum += item->weight * load_row(given.force);
       sum += (item->tilt[0] * given.slope_0 + item->tilt[1] * given.slope_1) * load_row(given.normal);
     }
     for (const OtherItem* item = rotation_.begin(b); item != rotation_.end(b); ++item) {

@@ -78,8 +78,10 @@ class ImpulseSolver {
     std::uint32_t entry;
     double weight;
   };
-  struct TiltItem {
+  struct TiltedItem {
     std::uint32_t slot;
+    std::uint32_t entry;
+    double weight;
     double tilt[2];
   };
   struct OtherItem {
@@ -124,7 +126,7 @@ class ImpulseSolver {
   std::vector<std::uint32_t> kind_count_;
 
   EntryLists<TranslationItem> translation_;
-  EntryLists<TiltItem> tilt_;
+  EntryLists<TiltedItem> tilted_;  ///< of rows with tilt, and of general ones
   EntryLists<OtherItem> rotation_, matrix_;
   std::vector<double> norm_;        ///< c of each entry: translations, rotations, matrices
   std::vector<double> block_norm_;  ///< S of each block

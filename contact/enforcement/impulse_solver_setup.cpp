@@ -94,6 +94,7 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
   const auto measure = [&](std::size_t i) {
     const ConstraintRow& row = rows.row[i];
     double sum = 0;
+    double along_normal = 0;
     double lightest = 0;
     bool tilted = false;
     bool plain = row.rotation.size() + row.matrix.size() == 0;
@@ -105,7 +106,8 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
       const TranslationEntry& entry = rows.translation[e];
       const double root = block_root_[index(entry.block)];
       add(entry, norm_[e]);
-      lightest = std::max(lightest, root * root);
+      along_normal += square(entry.weight * root);
+      lightest = std::max(lightest, square(root));
       plain = plain && root >= 0;
       tilted = tilted || entry.tilt[0] != 0 || entry.tilt[1] != 0;
     }
@@ -113,8 +115,7 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
       add(rows.rotation[e], norm_[rotations + e]);
     for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e)
       add(rows.matrix[e], norm_[matrices + e]);
-    // A tilt moves nothing along the normal, but where the sum is as small nothing is certain.
-    const bool held = plain && !tilted ? !(sum > held_share * lightest) : is_held(rows, row, blocks);
+    const bool held = plain ? !(along_normal > held_share * lightest) : is_held(rows, row, blocks);
     scale_[i] = held ? 0 : std::sqrt(sum);
     const double inverse = held ? 0 : 1 / scale_[i];
     for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) norm_[e] *= inverse;
@@ -168,20 +169,25 @@ void ImpulseSolver::assign_slots(const ConstraintRows& rows, ThreadTeam& team) {
 }
 
 void ImpulseSolver::list_entries(const ConstraintRows& rows, std::size_t blocks, ThreadTeam& team) {
-  translation_.build(rows.size(), blocks, team, [&](std::size_t i, auto&& visit) {
+  const std::size_t packed_plain = first_slot_[with_tilt];
+  const auto is_plain = [&](std::size_t i) { return kind_[i] == normal_only || kind_[i] == with_friction; };
+  translation_.build(packed_plain > 0 ? rows.size() : 0, blocks, team, [&](std::size_t i, auto&& visit) {
+    if (!is_plain(i)) return;
     const EntryRange range = rows.row[i].translation;
     for (std::uint32_t e = range.begin; e < range.end; ++e)
       visit(rows.translation[e].block, [&] {
         return TranslationItem{slot_[i], e, rows.translation[e].weight};
       });
   });
-  tilt_.build(rows.size(), blocks, team, [&](std::size_t i, auto&& visit) {
-    if (kind_[i] != with_tilt && kind_[i] != general) return;
+  const bool any_tilted = first_slot_[kinds] > packed_plain;
+  tilted_.build(any_tilted ? rows.size() : 0, blocks, team, [&](std::size_t i, auto&& visit) {
+    if (is_plain(i)) return;
     const EntryRange range = rows.row[i].translation;
     for (std::uint32_t e = range.begin; e < range.end; ++e) {
-      const double* tilt = rows.translation[e].tilt;
-      if (tilt[0] != 0 || tilt[1] != 0)
-        visit(rows.translation[e].block, [&] { return TiltItem{slot_[i], {tilt[0], tilt[1]}}; });
+      const TranslationEntry& entry = rows.translation[e];
+      visit(entry.block, [&] {
+        return TiltedItem{slot_[i], e, entry.weight, {entry.tilt[0], entry.tilt[1]}};
+      });
     }
   });
   const auto list = [&](EntryLists<OtherItem>& lists, const auto& entries, EntryRange ConstraintRow::*range) {
@@ -206,6 +212,7 @@ void ImpulseSolver::sum_block_norms(const ConstraintRows& rows, std::size_t bloc
           sum += norm_[first + item->entry];
       };
       add(translation_, 0);
+      add(tilted_, 0);
       add(rotation_, rotations);
       add(matrix_, matrices);
       block_norm_[b] = sum;

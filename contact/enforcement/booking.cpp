@@ -1,0 +1,67 @@
+#include "contact/enforcement/booking.hpp"
+
+namespace brio {
+
+using Vector = Vector3<double>;
+
+namespace {
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+Vector diagonal(const SymmetricTensor<double>& a) { return {a.xx, a.yy, a.zz}; }
+Vector where_zero(const Vector& chosen, const Vector& value) {
+  return {chosen.x == 0 ? value.x : 0, chosen.y == 0 ? value.y : 0, chosen.z == 0 ? value.z : 0};
+}
+
+// Minus what would move the prescribed components; what moves the free ones of a body turns the others too.
+Vector reaction_of(const VelocityBlock& block, const BlockPlace& place, const Vector& given) {
+  Vector left = Vector{0, 0, 0} - given;
+  if (place.inertia != nullptr) left = left + *place.inertia * (block.inverse_mass * given);
+  return where_zero(diagonal(block.inverse_mass), left);
+}
+
+bool is_free(const SymmetricTensor<double>& a) { return a.xx != 0 && a.yy != 0 && a.zz != 0; }
+
+void book_supports(const RowMap& map, const Vector& impulse, std::span<const Vector> before,
+                   std::span<const VelocityBlock> after, std::span<const BlockPlace> places, RowWork& work) {
+  map.spread(impulse, [&](int b, const Vector& given) {
+    const VelocityBlock& block = after[index(b)];
+    if (is_free(block.inverse_mass)) return;
+    const Vector reaction = reaction_of(block, places[index(b)], given);
+    work.support_before += dot(reaction, before[index(b)]);
+    work.support_after += dot(reaction, block.velocity);
+    if (places[index(b)].turns) {
+      work.support_moment = work.support_moment + reaction;
+    } else {
+      work.support_impulse = work.support_impulse + reaction;
+      work.support_moment = work.support_moment + cross(places[index(b)].position, reaction);
+    }
+  });
+}
+
+}  // namespace
+
+RowWork book(const ConstraintRows& rows, std::span<const Vector> before, std::span<const VelocityBlock> after,
+             std::span<const BlockPlace> places, std::span<WallReaction> walls) {
+  RowWork work;
+  for (const ConstraintRow& row : rows.row) {
+    if (row.impulse == 0) continue;
+    const RowMap map(rows, row);
+    const Vector was = map.velocity([&](int b) { return before[index(b)]; });
+    const Vector is = map.velocity([&](int b) { return after[index(b)].velocity; });
+    work.normal_before += row.impulse * dot(row.normal, was);
+    work.normal_after += row.impulse * dot(row.normal, is);
+    work.friction_before += dot(row.friction, was);
+    work.friction_after += dot(row.friction, is);
+    const Vector impulse = impulse_of(row);
+    book_supports(map, impulse, before, after, places, work);
+    if (row.wall < 0) continue;
+    WallReaction& wall = walls[index(row.wall)];
+    wall.impulse = wall.impulse - impulse;
+    wall.moment = wall.moment - cross(row.point, impulse);
+    wall.work += dot(impulse, row.wall_velocity);
+  }
+  return work;
+}
+
+}  // namespace brio

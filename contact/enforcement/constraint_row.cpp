@@ -1,0 +1,248 @@
+#include "contact/enforcement/constraint_row.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace brio {
+
+using Vector = Vector3<double>;
+
+namespace {
+
+double sign_of(Side side) { return side == Side::first ? 1 : -1; }
+
+Vector unit(const Vector& a) { return (1 / std::sqrt(dot(a, a))) * a; }
+
+void span_plane(const Vector& normal, Vector (&tangent)[2]) {
+  const double size[3] = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
+  int smallest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (size[axis] < size[smallest]) smallest = axis;
+  const Vector along{smallest == 0 ? 1.0 : 0.0, smallest == 1 ? 1.0 : 0.0, smallest == 2 ? 1.0 : 0.0};
+  tangent[0] = unit(cross(along, normal));
+  tangent[1] = cross(normal, tangent[0]);
+}
+
+// weight one + a b^T + c d^T
+Tensor<double> dyads(double weight, const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+  const double left[2][3] = {{a.x, a.y, a.z}, {c.x, c.y, c.z}};
+  const double right[2][3] = {{b.x, b.y, b.z}, {d.x, d.y, d.z}};
+  Tensor<double> sum;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      sum.m[i][j] = (i == j ? weight : 0) + left[0][i] * right[0][j] + left[1][i] * right[1][j];
+  return sum;
+}
+
+template <class Entry>
+Entry* find(std::vector<Entry>& entries, const EntryRange& range, int block) {
+  for (std::uint32_t i = range.begin; i < range.end; ++i)
+    if (entries[i].block == block) return &entries[i];
+  return nullptr;
+}
+
+void add_to(Tensor<double>& sum, const Tensor<double>& term) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) sum.m[i][j] += term.m[i][j];
+}
+
+/// Of the impulse: what the difference of two normals may do to the share of a corner.
+constexpr double rounding_share = 1e-15;
+
+void shift(EntryRange& range, std::size_t by) {
+  range.begin += static_cast<std::uint32_t>(by);
+  range.end += static_cast<std::uint32_t>(by);
+}
+
+}  // namespace
+
+// g^1 = g_2 x m / |g_1 x g_2|, g^2 = m x g_1 / |g_1 x g_2|.
+void set_gradients(FaceFoot& foot, std::span<const Vector> corner, std::span<const double> along,
+                   std::span<const double> across) {
+  Vector g{0, 0, 0};
+  Vector h{0, 0, 0};
+  for (std::size_t k = 1; k < static_cast<std::size_t>(foot.corners); ++k) {
+    g = g + along[k] * (corner[k] - corner[0]);
+    h = h + across[k] * (corner[k] - corner[0]);
+  }
+  const Vector area = cross(g, h);
+  const double size = std::sqrt(dot(area, area));
+  assert(size > 0);
+  foot.normal = (1 / size) * area;
+  const Vector dual_g = (1 / size) * cross(h, foot.normal);
+  const Vector dual_h = (1 / size) * cross(foot.normal, g);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(foot.corners); ++k)
+    foot.gradient[k] = along[k] * dual_g + across[k] * dual_h;
+}
+
+void ConstraintRows::clear() {
+  row.clear();
+  translation.clear();
+  rotation.clear();
+  matrix.clear();
+}
+
+ConstraintRow& ConstraintRows::add_row(const Vector& normal, double gap, double friction_coefficient) {
+  ConstraintRow& added = row.emplace_back();
+  added.normal = normal;
+  span_plane(normal, added.tangent);
+  added.gap = gap;
+  added.friction_coefficient = friction_coefficient;
+  added.translation.begin = added.translation.end = static_cast<std::uint32_t>(translation.size());
+  added.rotation.begin = added.rotation.end = static_cast<std::uint32_t>(rotation.size());
+  added.matrix.begin = added.matrix.end = static_cast<std::uint32_t>(matrix.size());
+  return added;
+}
+
+void ConstraintRows::add_translation(int block, double weight, const Vector& tilt) {
+  ConstraintRow& own = row.back();
+  if (MatrixEntry* entry = find(matrix, own.matrix, block))
+    return add_to(entry->matrix, dyads(weight, tilt, own.normal, {0, 0, 0}, {0, 0, 0}));
+  const double components[2] = {dot(tilt, own.tangent[0]), dot(tilt, own.tangent[1])};
+  if (TranslationEntry* entry = find(translation, own.translation, block)) {
+    entry->weight += weight;
+    for (int t = 0; t < 2; ++t) entry->tilt[t] += components[t];
+    return;
+  }
+  translation.push_back({block, weight, {components[0], components[1]}});
+  ++own.translation.end;
+}
+
+void ConstraintRows::add_rotation(int block, const Vector& signed_arm) {
+  ConstraintRow& own = row.back();
+  if (RotationEntry* entry = find(rotation, own.rotation, block)) {
+    entry->arm = entry->arm + signed_arm;
+    return;
+  }
+  rotation.push_back({block, signed_arm});
+  ++own.rotation.end;
+}
+
+void ConstraintRows::add_matrix(int block, const Tensor<double>& signed_matrix) {
+  ConstraintRow& own = row.back();
+  if (MatrixEntry* entry = find(matrix, own.matrix, block)) return add_to(entry->matrix, signed_matrix);
+  matrix.push_back({block, signed_matrix});
+  ++own.matrix.end;
+  if (TranslationEntry* entry = find(translation, own.translation, block)) {
+    add_to(matrix.back().matrix,
+           dyads(entry->weight, tilt_of(own, *entry), own.normal, {0, 0, 0}, {0, 0, 0}));
+    *entry = translation.back();
+    translation.pop_back();
+    --own.translation.end;
+  }
+}
+
+void ConstraintRows::add_point(int block, Side side, double weight) {
+  add_translation(block, sign_of(side) * weight, {0, 0, 0});
+}
+
+void ConstraintRows::add_nodes(std::span<const int> blocks, std::span<const double> weights, Side side) {
+  for (std::size_t k = 0; k < blocks.size(); ++k) add_point(blocks[k], side, weights[k]);
+}
+
+void ConstraintRows::add_turning_point(int block, int rotation_block, double height, Side side,
+                                       double weight) {
+  add_point(block, side, weight);
+  if (height != 0) add_rotation(rotation_block, (sign_of(side) * weight * height) * row.back().normal);
+}
+
+// With c = normal of the face x gradient, the spin of a face of solids is
+//     omega = sum over corners of (-c (m . v) + m (c . v) / 2),
+// and the point foot + height n moves with the foot and with omega x height n. Where n is m or -m, that is a
+// tilt: weight v - height gradient (n . v).
+void ConstraintRows::add_solid_face(const FaceFoot& foot, double height, double sign) {
+  const Vector n = row.back().normal;
+  const Vector& m = foot.normal;
+  const Vector twist = cross(n, m);
+  double steepest = 0;
+  for (int k = 0; k < foot.corners; ++k)
+    steepest = std::max(steepest, dot(foot.gradient[k], foot.gradient[k]));
+  const bool along_normal = height * height * dot(twist, twist) * steepest <= rounding_share * rounding_share;
+  for (int k = 0; k < foot.corners; ++k) {
+    const double weight = sign * foot.weight[k];
+    if (along_normal) {
+      add_translation(foot.block[k], weight, (-sign * height) * foot.gradient[k]);
+      continue;
+    }
+    const Vector c = cross(m, foot.gradient[k]);
+    add_matrix(foot.block[k],
+               dyads(weight, (sign * height) * cross(n, c), m, (-0.5 * sign * height) * twist, c));
+  }
+}
+
+void ConstraintRows::add_face(const FaceFoot& foot, double height, Side side) {
+  const double sign = sign_of(side);
+  if (height != 0 && foot.rotation[0] < 0) return add_solid_face(foot, height, sign);
+  for (int k = 0; k < foot.corners; ++k) {
+    if (foot.rotation[k] >= 0) {
+      add_turning_point(foot.block[k], foot.rotation[k], height, side, foot.weight[k]);
+    } else {
+      add_point(foot.block[k], side, foot.weight[k]);
+    }
+  }
+}
+
+void ConstraintRows::add_rigid_body(int translation_block, int rotation_block, const Vector& arm, Side side) {
+  add_point(translation_block, side);
+  add_rotation(rotation_block, sign_of(side) * arm);
+}
+
+void ConstraintRows::append(const ConstraintRows& other) {
+  const std::size_t first = row.size();
+  row.insert(row.end(), other.row.begin(), other.row.end());
+  for (std::size_t i = first; i < row.size(); ++i) {
+    shift(row[i].translation, translation.size());
+    shift(row[i].rotation, rotation.size());
+    shift(row[i].matrix, matrix.size());
+  }
+  translation.insert(translation.end(), other.translation.begin(), other.translation.end());
+  rotation.insert(rotation.end(), other.rotation.begin(), other.rotation.end());
+  matrix.insert(matrix.end(), other.matrix.begin(), other.matrix.end());
+}
+
+void concatenate(std::span<const ConstraintRows> pieces, ConstraintRows& all, ThreadTeam& team) {
+  std::size_t total[4] = {};
+  for (const ConstraintRows& piece : pieces) {
+    total[0] += piece.row.size();
+    total[1] += piece.translation.size();
+    total[2] += piece.rotation.size();
+    total[3] += piece.matrix.size();
+  }
+  all.row.resize(total[0]);
+  all.translation.resize(total[1]);
+  all.rotation.resize(total[2]);
+  all.matrix.resize(total[3]);
+  team.for_each(pieces.size(), [&](std::size_t p) {
+    std::size_t at[4] = {};
+    for (std::size_t q = 0; q < p; ++q) {
+      at[0] += pieces[q].row.size();
+      at[1] += pieces[q].translation.size();
+      at[2] += pieces[q].rotation.size();
+      at[3] += pieces[q].matrix.size();
+    }
+    const ConstraintRows& piece = pieces[p];
+    for (std::size_t i = 0; i < piece.row.size(); ++i) {
+      ConstraintRow& copy = all.row[at[0] + i] = piece.row[i];
+      shift(copy.translation, at[1]);
+      shift(copy.rotation, at[2]);
+      shift(copy.matrix, at[3]);
+    }
+    std::copy(piece.translation.begin(), piece.translation.end(),
+              all.translation.begin() + static_cast<std::ptrdiff_t>(at[1]));
+    std::copy(piece.rotation.begin(), piece.rotation.end(),
+              all.rotation.begin() + static_cast<std::ptrdiff_t>(at[2]));
+    std::copy(piece.matrix.begin(), piece.matrix.end(),
+              all.matrix.begin() + static_cast<std::ptrdiff_t>(at[3]));
+  });
+}
+
+double RowMap::inverse_mass(const Vector& direction, std::span<const VelocityBlock> blocks) const {
+  double sum = 0;
+  spread(direction, [&](int block, const Vector& impulse) {
+    sum += dot(impulse, blocks[static_cast<std::size_t>(block)].inverse_mass * impulse);
+  });
+  return sum;
+}
+
+}  // namespace brio

@@ -1,0 +1,197 @@
+#pragma once
+/// One row of constraint for all that holds or pushes: contact, wall, support. A row knows the velocity of
+/// its first side relative to its second as a linear map of velocity blocks,
+///     u = sum (weight v + n_tilt (normal . v)) + sum (omega x arm) + sum (matrix v) - wall velocity,
+/// and the transpose of the map gives the impulses on the blocks. Whether a side is nodes, a face with its
+/// thickness, a shell with rotations, a rigid body or a wall shows only in its entries.
+///
+/// A point that stands off its face by a height (across thickness or gap) moves with the spin of the face, so
+/// that friction has its moment: then the impulses of a row have no moment about any point, to rounding.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "src/base/parallel.hpp"
+#include "src/base/tensor.hpp"
+
+namespace brio {
+
+/// Three unknown velocities with their inverse mass: the translation of a node (diagonal; 0 along axes where
+/// motion is prescribed), its rotation (a multiple of one; 0 where prescribed), the translation or the
+/// rotation of a rigid body.
+struct VelocityBlock {
+  Vector3<double> velocity;
+  SymmetricTensor<double> inverse_mass;  ///< or inverse inertia
+};
+
+/// A translation: weight v + n_tilt (normal . v), where the tilt is a vector in the tangential plane, given
+/// by its components. The weight carries the sign of the side.
+struct TranslationEntry {
+  int block;
+  double weight;
+  double tilt[2];
+};
+/// A rotation: omega x arm. The arm carries the sign of the side.
+struct RotationEntry {
+  int block;
+  Vector3<double> arm;
+};
+/// What is neither: matrix v.
+struct MatrixEntry {
+  int block;
+  Tensor<double> matrix;
+};
+
+/// Entries [begin, end) of one of the arrays.
+struct EntryRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  std::uint32_t size() const { return end - begin; }
+};
+
+struct ConstraintRow {
+  Vector3<double> normal;           ///< unit vector from the second side to the first: the way that is pushed
+  Vector3<double> tangent[2];       ///< complete the normal
+  double gap = 0;                   ///< at the beginning of the step; negative: overlap
+  double friction_coefficient = 0;  ///< Coulomb's
+  double target_velocity = 0;       ///< least normal relative velocity
+  double impulse = 0;               ///< along the normal, on the first side; never negative
+  Vector3<double> friction{0, 0, 0};       ///< tangential impulse on the first side
+  Vector3<double> wall_velocity{0, 0, 0};  ///< of an immovable second side
+  Vector3<double> point{0, 0, 0};          ///< where a wall is touched, for its moment
+  int wall = -1;                           ///< number of the wall; -1: none
+  EntryRange translation, rotation, matrix;
+};
+
+enum class Side { first = 1, second = -1 };
+
+/// Foot of a contact point on a face, or on a triangle (3 corners).
+struct FaceFoot {
+  int corners = 4;
+  int block[4];                     ///< translation of each corner
+  int rotation[4]{-1, -1, -1, -1};  ///< of corners that turn (shells, beams)
+  double weight[4];                 ///< shape functions
+  Vector3<double> gradient[4];      ///< of the shape functions along the face (solids that stand off)
+  Vector3<double> normal;           ///< unit normal of the face (likewise)
+};
+/// Gradients and normal by the dual basis of a face at the foot: sum over a of g^a N_k,a.
+/// \param along, across derivatives N_k,1 and N_k,2 of the shape functions.
+/// \pre the face has an area at the foot.
+void set_gradients(FaceFoot& foot, std::span<const Vector3<double>> corner, std::span<const double> along,
+                   std::span<const double> across);
+
+/// Rows and their entries. Allocates nothing once as many rows have been seen.
+struct ConstraintRows {
+  std::vector<ConstraintRow> row;
+  std::vector<TranslationEntry> translation;
+  std::vector<RotationEntry> rotation;
+  std::vector<MatrixEntry> matrix;
+
+  std::size_t size() const { return row.size(); }
+  void clear();
+
+  /// A new row; what is added next belongs to it. The reference is valid until the next row.
+  ConstraintRow& add_row(const Vector3<double>& normal, double gap, double friction_coefficient);
+
+  /// All that follow add to the last row. A block that it names already is joined to that entry.
+  void add_point(int block, Side side, double weight = 1);
+  void add_nodes(std::span<const int> blocks, std::span<const double> weights, Side side);
+  /// A point that stands `height` along the row's normal off a node that can turn.
+  void add_turning_point(int block, int rotation, double height, Side side, double weight = 1);
+  /// The point foot + height normal of a face: of a shell where it has rotations, else of a solid. A height
+  /// of 0 needs neither gradients nor normal.
+  void add_face(const FaceFoot& foot, double height, Side side);
+  /// A point of a rigid body, `arm` from its centre.
+  void add_rigid_body(int translation_block, int rotation_block, const Vector3<double>& arm, Side side);
+  void add_rotation(int block, const Vector3<double>& signed_arm);
+  void add_matrix(int block, const Tensor<double>& signed_matrix);
+
+  /// Rows of another, after the own.
+  void append(const ConstraintRows& other);
+
+ private:
+  void add_translation(int block, double weight, const Vector3<double>& tilt);
+  void add_solid_face(const FaceFoot& foot, double height, double sign);
+};
+
+/// Rows of all pieces in their order; the pieces are copied in parallel.
+void concatenate(std::span<const ConstraintRows> pieces, ConstraintRows& all, ThreadTeam& team);
+
+/// The entries of one row as a map.
+class RowMap {
+ public:
+  RowMap(const ConstraintRows& rows, const ConstraintRow& row) : rows_(rows), row_(row) {}
+
+  std::span<const TranslationEntry> translations() const {
+    return {rows_.translation.data() + row_.translation.begin, row_.translation.size()};
+  }
+  std::span<const RotationEntry> rotations() const {
+    return {rows_.rotation.data() + row_.rotation.begin, row_.rotation.size()};
+  }
+  std::span<const MatrixEntry> matrices() const {
+    return {rows_.matrix.data() + row_.matrix.begin, row_.matrix.size()};
+  }
+
+  /// Velocity of the first side relative to the second, a wall taken to stand still.
+  /// \param velocity_of velocity of a block by its number.
+  template <class VelocityOf>
+  Vector3<double> velocity(VelocityOf&& velocity_of) const;
+  /// Relative velocity of the blocks, the wall's motion included.
+  Vector3<double> relative_velocity(std::span<const VelocityBlock> blocks) const {
+    return velocity([&](int b) { return blocks[static_cast<std::size_t>(b)].velocity; }) - row_.wall_velocity;
+  }
+  /// `give(block, impulse)` for each entry: the transpose.
+  template <class Give>
+  void spread(const Vector3<double>& impulse, Give&& give) const;
+  /// Change of the relative velocity along a direction by a unit impulse along it.
+  double inverse_mass(const Vector3<double>& direction, std::span<const VelocityBlock> blocks) const;
+
+ private:
+  const ConstraintRows& rows_;
+  const ConstraintRow& row_;
+};
+
+inline Vector3<double> tilt_of(const ConstraintRow& row, const TranslationEntry& entry) {
+  return entry.tilt[0] * row.tangent[0] + entry.tilt[1] * row.tangent[1];
+}
+inline Vector3<double> impulse_of(const ConstraintRow& row) {
+  return row.impulse * row.normal + row.friction;
+}
+inline Vector3<double> operator*(const SymmetricTensor<double>& a, const Vector3<double>& b) {
+  return {a.xx * b.x + a.xy * b.y + a.xz * b.z, a.xy * b.x + a.yy * b.y + a.yz * b.z,
+          a.xz * b.x + a.yz * b.y + a.zz * b.z};
+}
+inline Vector3<double> operator*(const Tensor<double>& a, const Vector3<double>& b) {
+  return {a.m[0][0] * b.x + a.m[0][1] * b.y + a.m[0][2] * b.z,
+          a.m[1][0] * b.x + a.m[1][1] * b.y + a.m[1][2] * b.z,
+          a.m[2][0] * b.x + a.m[2][1] * b.y + a.m[2][2] * b.z};
+}
+/// The transpose of a tensor times a vector.
+inline Vector3<double> transposed_times(const Tensor<double>& a, const Vector3<double>& b) {
+  return {a.m[0][0] * b.x + a.m[1][0] * b.y + a.m[2][0] * b.z,
+          a.m[0][1] * b.x + a.m[1][1] * b.y + a.m[2][1] * b.z,
+          a.m[0][2] * b.x + a.m[1][2] * b.y + a.m[2][2] * b.z};
+}
+
+template <class VelocityOf>
+Vector3<double> RowMap::velocity(VelocityOf&& velocity_of) const {
+  Vector3<double> sum{0, 0, 0};
+  for (const TranslationEntry& entry : translations()) {
+    const Vector3<double> v = velocity_of(entry.block);
+    sum = sum + (entry.weight * v + dot(row_.normal, v) * tilt_of(row_, entry));
+  }
+  for (const RotationEntry& entry : rotations()) sum = sum + cross(velocity_of(entry.block), entry.arm);
+  for (const MatrixEntry& entry : matrices()) sum = sum + entry.matrix * velocity_of(entry.block);
+  return sum;
+}
+
+template <class Give>
+void RowMap::spread(const Vector3<double>& impulse, Give&& give) const {
+  for (const TranslationEntry& entry : translations())
+    give(entry.block, entry.weight * impulse + dot(tilt_of(row_, entry), impulse) * row_.normal);
+  for (const RotationEntry& entry : rotations()) give(entry.block, cross(entry.arm, impulse));
+  for (const MatrixEntry& entry : matrices()) give(entry.block, transposed_times(entry.matrix, impulse));
+}
+
+}  // namespace brio

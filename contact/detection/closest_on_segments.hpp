@@ -152,7 +152,8 @@ BRIO_INLINE ClosestOnSegments<T> closest_on_segments(const Vector3<T>& a0, const
       !(by_a.square * d.square_a + by_b.square * d.square_b > T(2 * sine * sine) * (d.square_a * d.square_b));
 
   const FeetOfEnds<T> feet = feet_of_ends<T>(d, is_parallel);
-  const ClosestOnSegments<T> best = nearer(nearer(feet.a0, feet.a1), nearer(feet.b0, feet.b1));
+  ClosestOnSegments<T> best = nearer(nearer(feet.a0, feet.a1), nearer(feet.b0, feet.b1));
+  best.squared_distance = dot(best.offset, best.offset);  // also of means
   const MaskOf<T> is_inside = is_within_unit(by_a.on_base) & is_within_unit(by_a.on_other) &
                               is_within_unit(by_b.on_base) & is_within_unit(by_b.on_other);
   const ClosestOnSegments<T> inside = points_at<T>(d, T(0.5) * (by_a.on_base + by_b.on_other),

@@ -53,5 +53,4 @@ template <class T>
 BRIO_INLINE Vector3<T> gather(const Point* first, const int* node) {
   return gather_rows<T>(first->component, sizeof(Point) / sizeof(double), node);
 }
-
 }  // namespace brio

@@ -1,0 +1,29 @@
+#pragma once
+/// Eight points side by side, put together and taken apart, and bits compared.
+
+#include <Eigen/Dense>
+#include <bit>
+
+#include "contact/detection/number.hpp"
+
+namespace brio {
+
+using Pack = Lanes<double>;
+
+inline void put(Vector3<Pack>& to, int lane, const Eigen::Vector3d& from) {
+  to.x.set(lane, from[0]);
+  to.y.set(lane, from[1]);
+  to.z.set(lane, from[2]);
+}
+inline Vector3<double> plain(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+inline Eigen::Vector3d eigen(const Vector3<double>& v) { return {v.x, v.y, v.z}; }
+
+inline bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+inline bool same_bits(const Vector3<Pack>& pack, int lane, const Vector3<double>& v) {
+  return same_bits(pack.x[lane], v.x) && same_bits(pack.y[lane], v.y) && same_bits(pack.z[lane], v.z);
+}
+inline bool in_lane(LaneMask<double> mask, int lane) { return mask.v[lane] != 0; }
+
+}  // namespace brio

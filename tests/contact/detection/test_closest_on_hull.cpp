@@ -1,0 +1,222 @@
+/// Closest points of triangles and of the hulls of faces, against exact arithmetic.
+
+#include "contact/detection/closest_on_hull.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/contact/detection/exact_distance.hpp"
+#include "tests/contact/detection/packs.hpp"
+#include "tests/contact/detection/still_queries.hpp"
+#include "tests/core/floating_point_traps.hpp"
+
+namespace brio {
+namespace {
+
+using Eigen::Vector3d;
+
+std::array<Vector3<double>, 4> corners(const FaceVertices& face) {
+  return {plain(face[0]), plain(face[1]), plain(face[2]), plain(face[3])};
+}
+ClosestOnHull<double> closest(const FaceQuery& query) {
+  return closest_on_hull(plain(query.node), corners(query.face));
+}
+double largest_difference(const FaceQuery& query) {
+  double largest = 0;
+  for (const Vector3d& vertex : query.face)
+    largest = std::max(largest, (query.node - vertex).lpNorm<Eigen::Infinity>());
+  return largest;
+}
+
+// Node minus the point of the weights, with eleven bits more than a double.
+template <std::size_t N>
+Vector3d offset_by_weights(const FaceQuery& query, const std::array<double, N>& weights) {
+  Vector3d offset;
+  for (int i = 0; i < 3; ++i) {
+    long double sum = 0;
+    for (std::size_t k = 0; k < N; ++k)
+      sum += static_cast<long double>(weights[k]) *
+             (static_cast<long double>(query.node[i]) - static_cast<long double>(query.face[k][i]));
+    offset[i] = static_cast<double>(sum);
+  }
+  return offset;
+}
+
+template <std::size_t N>
+bool are_shares(const std::array<double, N>& weights) {
+  double sum = 0;
+  for (double weight : weights) sum += weight;
+  return std::abs(sum - 1) <= 4 * unit_roundoff &&
+         std::all_of(weights.begin(), weights.end(), [](double weight) { return weight >= 0; });
+}
+
+// Roundings of the largest difference.
+constexpr double roundings = 10;
+
+void judge_triangle(const FaceQuery& query) {
+  const test::FloatingPointTraps traps;
+  const auto result = closest_on_triangle(plain(query.node), plain(query.face[0]), plain(query.face[1]),
+                                          plain(query.face[2]));
+  const double rounding = roundings * unit_roundoff * largest_difference(query);
+  const double distance = std::sqrt(result.squared_distance);
+  EXPECT_TRUE(are_shares(result.weights));
+  EXPECT_LE((offset_by_weights(query, result.weights) - eigen(result.offset)).lpNorm<Eigen::Infinity>(),
+            rounding);
+  EXPECT_LE(std::abs(eigen(result.offset).norm() - distance), 4 * unit_roundoff * distance);
+  const exact::SquaredDistance truth =
+      exact::to_triangle(query.node, {query.face[0], query.face[1], query.face[2]});
+  EXPECT_TRUE(truth.at_most(distance + rounding));
+  EXPECT_TRUE(truth.at_least(distance - rounding));
+}
+
+void judge_hull(const FaceQuery& query) {
+  const test::FloatingPointTraps traps;
+  const auto result = closest(query);
+  const double scale = largest_difference(query);
+  const double rounding = roundings * unit_roundoff * scale;
+  // Sheets nearer than 16 to 32 roundings of the coordinates are one.
+  const double flat = 32 * unit_roundoff * (scale + query.node.lpNorm<Eigen::Infinity>());
+  const double distance = eigen(result.offset).norm();
+  EXPECT_TRUE(are_shares(result.weights));
+  EXPECT_LE((offset_by_weights(query, result.weights) - eigen(result.offset)).lpNorm<Eigen::Infinity>(),
+            rounding + flat);
+  if (result.inside) {
+    EXPECT_TRUE(exact::is_inside_hull(query.node, query.face));
+    EXPECT_EQ(result.squared_distance, 0);
+  } else {
+    EXPECT_FALSE(exact::is_inside_hull(query.node, query.face, 128 * unit_roundoff));
+    EXPECT_LE(std::abs(std::sqrt(result.squared_distance) - distance), 4 * unit_roundoff * distance);
+  }
+  const exact::SquaredDistance truth = exact::to_hull_surface(query.node, query.face);
+  EXPECT_TRUE(truth.at_most(distance + rounding));
+  EXPECT_TRUE(truth.at_least(distance - rounding));
+}
+
+void judge(std::uint64_t seed, int queries, void (*one)(const FaceQuery&)) {
+  Random random(seed);
+  for (int i = 0; i < queries; ++i) {
+    one(any_face_query(random));
+    if (testing::Test::HasFailure()) FAIL() << i;
+  }
+}
+
+TEST(ClosestOnTriangle, RightToRoundingByExactArithmetic) { judge(51, 30000, judge_triangle); }
+TEST(ClosestOnTriangleSlow, RightToRoundingByExactArithmetic) { judge(52, 1000000, judge_triangle); }
+TEST(ClosestOnHull, RightToRoundingByExactArithmetic) { judge(53, 30000, judge_hull); }
+TEST(ClosestOnHullSlow, RightToRoundingByExactArithmetic) { judge(54, 1000000, judge_hull); }
+
+void compare_with_scalar(std::uint64_t seed, int queries) {
+  Random random(seed);
+  for (int i = 0; i < queries; ++i) {
+    const FaceQuery query = any_face_query(random);
+    const auto result = closest_on_triangle(plain(query.node), plain(query.face[0]), plain(query.face[1]),
+                                            plain(query.face[2]));
+    const TrianglePoint scalar =
+        closest_point_on_triangle(query.node, {query.face[0], query.face[1], query.face[2]});
+    ASSERT_LE(std::sqrt(result.squared_distance),
+              std::sqrt(scalar.squared_distance) + roundings * unit_roundoff * largest_difference(query))
+        << i;
+  }
+}
+
+TEST(ClosestOnTriangle, AsNearAsTheScalarFunction) { compare_with_scalar(55, 50000); }
+TEST(ClosestOnTriangleSlow, AsNearAsTheScalarFunction) { compare_with_scalar(55, 1000000); }
+
+TEST(ClosestOnHull, LanesGiveTheBitsOfPlainNumbers) {
+  Random random(56);
+  const test::FloatingPointTraps traps;
+  for (int i = 0; i < 20000; ++i) {
+    std::array<FaceQuery, 8> queries;
+    Vector3<Pack> node;
+    std::array<Vector3<Pack>, 4> face;
+    for (int lane = 0; lane < 8; ++lane) {
+      FaceQuery& query = queries[static_cast<std::size_t>(lane)];
+      query = any_face_query(random);
+      put(node, lane, query.node);
+      for (std::size_t k = 0; k < 4; ++k) put(face[k], lane, query.face[k]);
+    }
+    const auto packed = closest_on_hull(node, face);
+    const auto of_triangle = closest_on_triangle(node, face[0], face[1], face[2]);
+    for (int lane = 0; lane < 8; ++lane) {
+      const FaceQuery& query = queries[static_cast<std::size_t>(lane)];
+      const auto result = closest(query);
+      ASSERT_TRUE(same_bits(packed.offset, lane, result.offset)) << i;
+      ASSERT_TRUE(same_bits(packed.squared_distance[lane], result.squared_distance)) << i;
+      ASSERT_EQ(in_lane(packed.inside, lane), result.inside) << i;
+      for (std::size_t k = 0; k < 4; ++k)
+        ASSERT_TRUE(same_bits(packed.weights[k][lane], result.weights[k])) << i;
+      const auto triangle = closest_on_triangle(plain(query.node), plain(query.face[0]), plain(query.face[1]),
+                                                plain(query.face[2]));
+      ASSERT_TRUE(same_bits(of_triangle.offset, lane, triangle.offset)) << i;
+      for (std::size_t k = 0; k < 3; ++k)
+        ASSERT_TRUE(same_bits(of_triangle.weights[k][lane], triangle.weights[k])) << i;
+    }
+  }
+}
+
+// A mirror that keeps the order of the vertices gives the same bits; one that keeps the sense in which they
+// are listed, and any first vertex, the same to rounding.
+TEST(ClosestOnHull, MirrorImagesAreMirrorImages) {
+  Random random(57);
+  for (int i = 0; i < 50000; ++i) {
+    const FaceQuery query = any_face_query(random);
+    const auto result = closest(query);
+    const Vector3d mirror(1, -1, 1);
+    FaceQuery mirrored{query.node.cwiseProduct(mirror), {}};
+    for (std::size_t k = 0; k < 4; ++k) mirrored.face[k] = query.face[k].cwiseProduct(mirror);
+    const auto seen = closest(mirrored);
+    ASSERT_EQ(eigen(seen.offset), eigen(result.offset).cwiseProduct(mirror)) << i;
+    ASSERT_EQ(seen.weights, result.weights) << i;
+    ASSERT_EQ(seen.inside, result.inside) << i;
+    if (query.face[3] == query.face[2]) continue;
+    FaceQuery relisted = mirrored;
+    const auto first = static_cast<std::size_t>(random.integer(0, 3));
+    for (std::size_t k = 0; k < 4; ++k) relisted.face[k] = mirrored.face[(first + 4 - k) % 4];
+    const double rounding = 2 * roundings * unit_roundoff * largest_difference(query);
+    ASSERT_NEAR(eigen(closest(relisted).offset).norm(), eigen(result.offset).norm(), rounding) << i;
+  }
+}
+
+// On a flat face the weights are the bilinear shape functions; the face is anywhere, so not flat to the last
+// digit, and the node over, under or in it.
+TEST(ClosestOnHull, WeightsOfAFlatFaceAreItsShapeFunctions) {
+  Random random(58);
+  for (int i = 0; i < 50000; ++i) {
+    const Vector3d u = random.vector(1);
+    const Vector3d v = random.vector(1);
+    const Vector3d normal = u.cross(v);
+    if (normal.norm() < 0.1 * u.norm() * v.norm() || u.norm() < 0.1 || v.norm() < 0.1) continue;
+    const Vector3d corner = random.vector(random.coin() ? 1 : 100);
+    const double s = random.uniform(0.6, 1.5);
+    const double t = random.uniform(0.6, 1.5);
+    FaceQuery query{{}, {corner, corner + u, corner + s * u + t * v, corner + v}};
+    const double xi = random.uniform(0, 1);
+    const double eta = random.uniform(0, 1);
+    const std::array<double, 4> shape = {(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta};
+    query.node = random.uniform(-2, 2) * random.integer(0, 2) * normal;
+    for (std::size_t k = 0; k < 4; ++k) query.node += shape[k] * query.face[k];
+    const auto result = closest(query);
+    for (std::size_t k = 0; k < 4; ++k)
+      ASSERT_NEAR(result.weights[k], shape[k], 1e-12 * std::max(1.0, corner.norm())) << i;
+  }
+}
+
+TEST(ClosestOnHull, ATriangularFaceHasNoWeightOnItsFourthVertex) {
+  Random random(59);
+  for (int i = 0; i < 10000; ++i) {
+    FaceQuery query = any_face_query(random);
+    query.face[3] = query.face[2];
+    const auto result = closest(query);
+    const auto triangle = closest_on_triangle(plain(query.node), plain(query.face[0]), plain(query.face[1]),
+                                              plain(query.face[2]));
+    ASSERT_EQ(result.weights[3], 0);
+    ASSERT_FALSE(result.inside);
+    ASSERT_NEAR(std::sqrt(result.squared_distance), std::sqrt(triangle.squared_distance),
+                2 * roundings * unit_roundoff * largest_difference(query));
+  }
+}
+
+}  // namespace
+}  // namespace brio

@@ -10,8 +10,9 @@
 /// the order in which the face lists its vertices. Flat is a face whose two sheets, seen from the node, are
 /// within `flatness` of each other, and not less than 16 roundings of the coordinates; up to twice as much
 /// the mean passes over linearly into the weights of the nearer sheet. So sum w_k x_k is the closest point to
-/// a few roundings, or to twice the flatness, and then it is displaced along the offset, which leaves angular
-/// momentum alone.
+/// a few roundings, or within twice the flatness: along the offset, and across it by no more than the angle
+/// between the sheets times the distance. (With a flatness, forces along node minus sum w_k x_k leave angular
+/// momentum alone; such along the offset do but for the part across.)
 
 #include "contact/detection/closest_on_triangle.hpp"
 

@@ -59,7 +59,7 @@ void judge(std::uint64_t seed, int queries) {
   }
 }
 
-TEST(ClosestOnSegments, RightToRoundingByExactArithmetic) { judge(61, 30000); }
+TEST(ClosestOnSegments, RightToRoundingByExactArithmetic) { judge(62, 40000); }
 TEST(ClosestOnSegmentsSlow, RightToRoundingByExactArithmetic) { judge(62, 1000000); }
 
 void compare_with_scalar(std::uint64_t seed, int queries) {

@@ -51,7 +51,7 @@ class Sheet {
     for (std::size_t k = 0; k < corners.size(); ++k) add_pair(k, corners[k]);
   }
   const NodeRecord* nodes() const { return &node_[0]; }
-  const Point* ends() const { return &end_[0]; }
+  const PointRow* ends() const { return &end_[0]; }
   // Five nodes of eight pairs each: node and face; the first four are also those of two edges.
   const int* pack(std::size_t k) const { return &index_[40 * k]; }
   Eigen::Vector3d position(int node) const {
@@ -76,7 +76,7 @@ class Sheet {
   }
 
   AlignedBuffer<NodeRecord> node_;
-  AlignedBuffer<Point> end_;
+  AlignedBuffer<PointRow> end_;
   std::vector<int> index_ = std::vector<int>(40 * pack_count);
   std::mt19937_64 engine_{7};
   std::uniform_real_distribution<double> uniform_{-1, 1};

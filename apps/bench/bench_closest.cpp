@@ -51,7 +51,7 @@ class Sheet {
     for (std::size_t k = 0; k < corners.size(); ++k) add_pair(k, corners[k]);
   }
   const NodeRecord* nodes() const { return &node_[0]; }
-  const Point* ends() const { return &end_[0]; }
+  const PointRow* ends() const { return &end_[0]; }
   // Five nodes of eight pairs each: node and face; the first four are also those of two edges.
   const int* pack(std::size_t k) const { return &index_[40 * k]; }
   Eigen::Vector3d position(int node) const {
@@ -76,7 +76,7 @@ class Sheet {
   }
 
   AlignedBuffer<NodeRecord> node_;
-  AlignedBuffer<Point> end_;
+  AlignedBuffer<PointRow> end_;
   std::vector<int> index_ = std::vector<int>(40 * pack_count);
   std::mt19937_64 engine_{7};
   std::uniform_real_distribution<double> uniform_{-1, 1};
@@ -139,6 +139,21 @@ double separations_of_segments(const Sheet& sheet) {
   return sum(total, 8);
 }
 
+// With an extent that is known.
+double separations_within(const Sheet& sheet) {
+  Pack total(0.0);
+  const Vector3<Pack> d{Pack(0.1), Pack(0.2), Pack(0.9)};
+  const Vector3<Pack> extent{Pack(4.0), Pack(4.0), Pack(4.0)};
+  for (std::size_t k = 0; k < pack_count; ++k) {
+    const int* node = sheet.pack(k);
+    const auto heights = separation_within<Pack, 1, 4>(
+        extent, d, {gather<Pack>(sheet.nodes(), node)}, {gather<Pack>(sheet.ends(), node)},
+        gather_four(sheet.nodes(), node + 8), gather_four(sheet.ends(), node + 8));
+    total += where(heights.is_certain(), Pack(1.0), Pack(0.0));
+  }
+  return sum(total, 8);
+}
+
 double scalar_quads(const Sheet& sheet) {
   double total = 0;
   for (std::size_t k = 0; k < pack_count; ++k) {
@@ -180,6 +195,7 @@ void measure(int repetitions) {
                       {"segments, 8 lanes", segments},
                       {"segments, scalar function", scalar_segments},
                       {"separation of node and face, 8 lanes", separations},
+                      {"the same, extent known, 8 lanes", separations_within},
                       {"separation of segments, 8 lanes", separations_of_segments}};
   for (int k = 0; k < repetitions; ++k) {
     for (Kernel& kernel : kernels) {

@@ -10,8 +10,9 @@
 /// the order in which the face lists its vertices. Flat is a face whose two sheets, seen from the node, are
 /// within `flatness` of each other, and not less than 16 roundings of the coordinates; up to twice as much
 /// the mean passes over linearly into the weights of the nearer sheet. So sum w_k x_k is the closest point to
-/// a few roundings, or to twice the flatness, and then it is displaced along the offset, which leaves angular
-/// momentum alone.
+/// a few roundings, or within twice the flatness: along the offset, and across it by no more than the angle
+/// between the sheets times the distance. (With a flatness, forces along node minus sum w_k x_k leave angular
+/// momentum alone; such along the offset do but for the part across.)
 
 #include "contact/detection/closest_on_triangle.hpp"
 
@@ -78,7 +79,7 @@ BRIO_INLINE HullFoot<T> closest_of_two(const PlaneFoot<T>& p, const std::array<T
                                        const PlaneFoot<T>& q, const std::array<T, 4>& q_weights,
                                        const HullFoot<T>& on_edges, T resolution) {
   const MaskOf<T> is_same =
-      p.is_inside & q.is_inside & (largest_component(p.offset - q.offset) <= resolution);
+      p.is_inside & q.is_inside & (largest_magnitude(p.offset - q.offset) <= resolution);
   const MaskOf<T> is_q = q.is_inside & ((!p.is_inside) | (q.squared_distance < p.squared_distance));
   const T share = where(is_same, T(0.5), where(is_q, T(1.0), T(0.0)));
   const Vector3<T> offset = where<T>(is_q, q.offset, p.offset);
@@ -111,10 +112,10 @@ BRIO_INLINE ClosestOnHull<T> closest_on_hull(const Vector3<T>& node,
   const T one(1.0);
   const std::array<Vector3<T>, 4> from = {node - vertices[0], node - vertices[1], node - vertices[2],
                                           node - vertices[3]};
-  const T largest = max(max(largest_component(from[0]), largest_component(from[1])),
-                        max(largest_component(from[2]), largest_component(from[3])));
+  const T largest = max(max(largest_magnitude(from[0]), largest_magnitude(from[1])),
+                        max(largest_magnitude(from[2]), largest_magnitude(from[3])));
   const T resolution =
-      max(flatness, T(16 * unit_roundoff) * (largest + largest_component(node)) + T(0x1p-1000));
+      max(flatness, T(16 * unit_roundoff) * (largest + largest_magnitude(node)) + T(0x1p-1000));
 
   const auto foot_on = [&](int i, int j, const Vector3<T>& along, T inverse_square) {
     const SegmentFoot<T> foot = segment_foot(from[static_cast<std::size_t>(i)],
@@ -151,7 +152,7 @@ BRIO_INLINE ClosestOnHull<T> closest_on_hull(const Vector3<T>& node,
                                           {zero, in_132.first, in_132.third, in_132.second},
                                           nearer(on_sides, foot_on(1, 3, e13, i13)), resolution);
 
-  const T flat = clamp_to_unit(T(2.0) - largest_component(a.offset - b.offset) / resolution);
+  const T flat = clamp_to_unit(T(2.0) - largest_magnitude(a.offset - b.offset) / resolution);
   const T bilinear = bilinear_share(a.weights, b.weights);
   const MaskOf<T> is_b = b.squared_distance < a.squared_distance;
   const T share = where(is_b, one - flat * (one - bilinear), flat * bilinear);

@@ -55,15 +55,16 @@ BRIO_INLINE ClosestOnSegments<T> nearer(const ClosestOnSegments<T>& p, const Clo
 
 /// Parameters of the common perpendicular, found with `along` as the base.
 template <class T>
-struct Perpendicular {
+struct CommonPerpendicular {
   T on_base, on_other;
   T square;  ///< of what the other segment has at right angles to the base
 };
 
 /// `between` is the first end of the base minus that of the other.
 template <class T>
-BRIO_INLINE Perpendicular<T> perpendicular(const Vector3<T>& between, const Vector3<T>& base,
-                                           T inverse_square, const Vector3<T>& other, T product) {
+BRIO_INLINE CommonPerpendicular<T> common_perpendicular(const Vector3<T>& between, const Vector3<T>& base,
+                                                        T inverse_square, const Vector3<T>& other,
+                                                        T product) {
   const T lean = product * inverse_square;
   const Vector3<T> across = other - lean * base;
   const T shift = dot(between, base) * inverse_square;
@@ -78,9 +79,9 @@ BRIO_INLINE MaskOf<T> is_within_unit(T a) {
   return (a > T(0.0)) & (a < T(1.0));
 }
 
-/// Segments whose directions differ by fewer roundings are parallel, and distances that differ by fewer are
+/// In roundings: segments whose directions differ by less are parallel, and distances that differ by less are
 /// the same for them.
-inline constexpr double parallel_roundings = 8;
+inline constexpr double parallel_resolution = 8;
 
 /// Every end against the other segment.
 template <class T>
@@ -109,7 +110,7 @@ BRIO_INLINE ClosestOnSegments<T> middle_of_shared(const SegmentDifferences<T>& d
                                                   const ClosestOnSegments<T>& best) {
   const T nearest = sqrt(best.squared_distance);
   const T lengths = sqrt(d.square_a) + sqrt(d.square_b);
-  const T limit = nearest + T(parallel_roundings * unit_roundoff) * (nearest + lengths);
+  const T limit = nearest + T(parallel_resolution * unit_roundoff) * (nearest + lengths);
   const T limit_squared = limit * limit;
   T least_a = best.on_a;
   T least_b = best.on_b;
@@ -145,9 +146,11 @@ BRIO_INLINE ClosestOnSegments<T> closest_on_segments(const Vector3<T>& a0, const
   d.inverse_a = inverse_or_zero(d.square_a);
   d.inverse_b = inverse_or_zero(d.square_b);
   const T product = dot(d.along_a, d.along_b);
-  const Perpendicular<T> by_a = perpendicular(d.a0_b0, d.along_a, d.inverse_a, d.along_b, product);
-  const Perpendicular<T> by_b = perpendicular(T(-1.0) * d.a0_b0, d.along_b, d.inverse_b, d.along_a, product);
-  constexpr double sine = parallel_roundings * unit_roundoff;
+  const CommonPerpendicular<T> by_a =
+      common_perpendicular(d.a0_b0, d.along_a, d.inverse_a, d.along_b, product);
+  const CommonPerpendicular<T> by_b =
+      common_perpendicular(T(-1.0) * d.a0_b0, d.along_b, d.inverse_b, d.along_a, product);
+  constexpr double sine = parallel_resolution * unit_roundoff;
   const MaskOf<T> is_parallel =
       !(by_a.square * d.square_a + by_b.square * d.square_b > T(2 * sine * sine) * (d.square_a * d.square_b));
 

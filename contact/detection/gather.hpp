@@ -8,14 +8,14 @@
 namespace brio {
 
 /// x, y, z and a number that is not read.
-struct alignas(32) Point {
+struct alignas(32) PointRow {
   double component[4];
 };
 
 /// One node a lane; `node` lists as many as T has lanes. `first` points at row 0, rows are `stride` doubles
 /// apart and aligned to 32 bytes.
 template <class T>
-BRIO_INLINE Vector3<T> gather_rows(const double* first, std::size_t stride, const int* node) {
+BRIO_INLINE Vector3<T> gather_points(const double* first, std::size_t stride, const int* node) {
   const auto row = [&](int lane) { return first + stride * static_cast<std::size_t>(node[lane]); };
   if constexpr (NumberTraits<T>::lanes == 1) {
     const double* only = row(0);
@@ -47,10 +47,10 @@ BRIO_INLINE Vector3<T> gather_rows(const double* first, std::size_t stride, cons
 
 template <class T>
 BRIO_INLINE Vector3<T> gather(const NodeRecord* first, const int* node) {
-  return gather_rows<T>(first->position, sizeof(NodeRecord) / sizeof(double), node);
+  return gather_points<T>(first->position, sizeof(NodeRecord) / sizeof(double), node);
 }
 template <class T>
-BRIO_INLINE Vector3<T> gather(const Point* first, const int* node) {
-  return gather_rows<T>(first->component, sizeof(Point) / sizeof(double), node);
+BRIO_INLINE Vector3<T> gather(const PointRow* first, const int* node) {
+  return gather_points<T>(first->component, sizeof(PointRow) / sizeof(double), node);
 }
 }  // namespace brio

@@ -34,7 +34,7 @@ BRIO_INLINE T magnitude(T a) {
 
 /// The largest component, without its sign.
 template <class T>
-BRIO_INLINE T largest_component(const Vector3<T>& a) {
+BRIO_INLINE T largest_magnitude(const Vector3<T>& a) {
   return max(max(magnitude(a.x), magnitude(a.y)), magnitude(a.z));
 }
 

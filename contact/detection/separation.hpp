@@ -33,49 +33,58 @@ BRIO_INLINE T separation_bound(const Vector3<T>& d, const Vector3<T>& extent) {
   return T(12 * unit_roundoff) * height + T(0x1p-1000);
 }
 
-/// Grows to hold the components of a difference.
-template <class T>
-BRIO_INLINE void include(Vector3<T>& extent, const Vector3<T>& difference) {
-  extent.x = max(extent.x, magnitude(difference.x));
-  extent.y = max(extent.y, magnitude(difference.y));
-  extent.z = max(extent.z, magnitude(difference.z));
-}
-
 /// At one time; heights are taken over the first point of the second feature, so that the distance from the
 /// origin is no matter.
 template <class T, std::size_t N, std::size_t M>
 BRIO_INLINE T height_between(const Vector3<T>& d, const std::array<Vector3<T>, N>& first,
-                             const std::array<Vector3<T>, M>& second, Vector3<T>& extent) {
-  Vector3<T> difference = first[0] - second[0];
-  include(extent, difference);
-  T least = dot(d, difference);
+                             const std::array<Vector3<T>, M>& second) {
+  T least = dot(d, first[0] - second[0]);
 #pragma GCC unroll 8
-  for (std::size_t k = 1; k < N; ++k) {
-    difference = first[k] - second[0];
-    include(extent, difference);
-    least = min(least, dot(d, difference));
-  }
+  for (std::size_t k = 1; k < N; ++k) least = min(least, dot(d, first[k] - second[0]));
   T greatest(0.0);
 #pragma GCC unroll 8
-  for (std::size_t k = 1; k < M; ++k) {
-    difference = second[k] - second[0];
-    include(extent, difference);
-    greatest = max(greatest, dot(d, difference));
-  }
+  for (std::size_t k = 1; k < M; ++k) greatest = max(greatest, dot(d, second[k] - second[0]));
   return least - greatest;
 }
 
+/// Grows to hold the differences that heights are taken of.
+template <class T, std::size_t N, std::size_t M>
+BRIO_INLINE void include(Vector3<T>& extent, const std::array<Vector3<T>, N>& first,
+                         const std::array<Vector3<T>, M>& second) {
+  const auto include_one = [&](const Vector3<T>& difference) {
+    extent.x = max(extent.x, magnitude(difference.x));
+    extent.y = max(extent.y, magnitude(difference.y));
+    extent.z = max(extent.z, magnitude(difference.z));
+  };
+#pragma GCC unroll 8
+  for (std::size_t k = 0; k < N; ++k) include_one(first[k] - second[0]);
+#pragma GCC unroll 8
+  for (std::size_t k = 1; k < M; ++k) include_one(second[k] - second[0]);
+}
+
 /// Of any two features, by the positions of their points at the start and the end of the step. d need not
-/// have unit length; a direction kept in single precision is widened, nothing is lost.
+/// have unit length; a direction kept in single precision is widened, nothing is lost. This one takes the
+/// extent as known: a pair that a search has found is no larger than two of its boxes.
+template <class T, std::size_t N, std::size_t M>
+BRIO_INLINE Separation<T> separation_within(const Vector3<T>& extent, const Vector3<T>& d,
+                                            const std::array<Vector3<T>, N>& first_start,
+                                            const std::array<Vector3<T>, N>& first_end,
+                                            const std::array<Vector3<T>, M>& second_start,
+                                            const std::array<Vector3<T>, M>& second_end) {
+  return {height_between(d, first_start, second_start), height_between(d, first_end, second_end),
+          separation_bound(d, extent)};
+}
+
+/// The same with the extent found from the points.
 template <class T, std::size_t N, std::size_t M>
 BRIO_INLINE Separation<T> separation(const Vector3<T>& d, const std::array<Vector3<T>, N>& first_start,
                                      const std::array<Vector3<T>, N>& first_end,
                                      const std::array<Vector3<T>, M>& second_start,
                                      const std::array<Vector3<T>, M>& second_end) {
   Vector3<T> extent{T(0.0), T(0.0), T(0.0)};
-  const T start = height_between(d, first_start, second_start, extent);
-  const T end = height_between(d, first_end, second_end, extent);
-  return {start, end, separation_bound(d, extent)};
+  include(extent, first_start, second_start);
+  include(extent, first_end, second_end);
+  return separation_within(extent, d, first_start, first_end, second_start, second_end);
 }
 
 /// A node over the hull of a face: d points from face to node.

@@ -203,6 +203,33 @@ TEST(ClosestOnHull, WeightsOfAFlatFaceAreItsShapeFunctions) {
   }
 }
 
+// As a face goes from a warp to the opposite one its nearer sheet changes; with a flatness the weights go
+// over gradually. The point that they give moves along the offset; across it by no more than the distance
+// times the angle between the sheets, by which their closest points differ.
+TEST(ClosestOnHull, WithAFlatnessWeightsAreContinuousInTheWarp) {
+  Random random(60);
+  const double flatness = 1e-3;
+  for (int i = 0; i < 200; ++i) {
+    FaceQuery query{random.vector(0.4) + Vector3d(0.5, 0.5, 0), {}};
+    const double height = random.power_of_ten(-2, 0);
+    query.node[2] = random.coin() ? height : -height;
+    std::array<double, 4> before{};
+    for (int k = -400; k <= 400; ++k) {
+      const double warp = 0.02 * flatness * k;
+      query.face = {Vector3d(0, 0, warp), Vector3d(1, 0, 0), Vector3d(1, 1, warp), Vector3d(0, 1, 0)};
+      const auto result = closest_on_hull(plain(query.node), corners(query.face), flatness);
+      const Vector3d shift = offset_by_weights(query, result.weights) - eigen(result.offset);
+      ASSERT_LE(shift.norm(), 2 * flatness);
+      ASSERT_LE(shift.cross(eigen(result.offset).normalized()).norm(), 2 * std::abs(warp) * height + 1e-15);
+      for (std::size_t c = 0; c < 4; ++c) {
+        const double change = k > -400 ? std::abs(result.weights[c] - before[c]) : 0;
+        ASSERT_LE(change, 0.03) << i << ' ' << k;
+        before[c] = result.weights[c];
+      }
+    }
+  }
+}
+
 TEST(ClosestOnHull, ATriangularFaceHasNoWeightOnItsFourthVertex) {
   Random random(59);
   for (int i = 0; i < 10000; ++i) {

@@ -46,7 +46,7 @@ void judge(std::uint64_t seed, int queries) {
     const double rounding = roundings * unit_roundoff * largest_difference(query);
     const double distance = std::sqrt(result.squared_distance);
     const double lengths = (query.a[1] - query.a[0]).norm() + (query.b[1] - query.b[0]).norm();
-    const double same = result.parallel ? parallel_roundings * unit_roundoff * (distance + lengths) : 0;
+    const double same = result.parallel ? parallel_resolution * unit_roundoff * (distance + lengths) : 0;
     EXPECT_TRUE(std::min(result.on_a, result.on_b) >= 0 && std::max(result.on_a, result.on_b) <= 1);
     EXPECT_LE((offset_by_parameters(query, result.on_a, result.on_b) - eigen(result.offset))
                   .lpNorm<Eigen::Infinity>(),
@@ -59,7 +59,7 @@ void judge(std::uint64_t seed, int queries) {
   }
 }
 
-TEST(ClosestOnSegments, RightToRoundingByExactArithmetic) { judge(61, 30000); }
+TEST(ClosestOnSegments, RightToRoundingByExactArithmetic) { judge(62, 40000); }
 TEST(ClosestOnSegmentsSlow, RightToRoundingByExactArithmetic) { judge(62, 1000000); }
 
 void compare_with_scalar(std::uint64_t seed, int queries) {

@@ -42,7 +42,7 @@ void expect_positions() {
 }
 
 TEST(Gather, FromNodeRecords) { expect_positions<NodeRecord>(); }
-TEST(Gather, FromCompactPoints) { expect_positions<Point>(); }
+TEST(Gather, FromCompactPoints) { expect_positions<PointRow>(); }
 
 }  // namespace
 }  // namespace brio

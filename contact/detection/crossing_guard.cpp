@@ -54,10 +54,11 @@ class Look {
       ++guard_.certified;
       return;
     }
-    const HullPoint first = closest_on_hull(x, start), last = closest_on_hull(y, end);
+    const bool as_hull = list.spaced[pair] != 0;
+    const HullPoint first = closest_on_face(x, start, as_hull), last = closest_on_face(y, end, as_hull);
     if (renews(list, pair, separates, first.offset, last.offset)) return;
     ++guard_.checked;
-    const auto touch = first_touch({x, y - x}, start, end);
+    const auto touch = first_touch({x, y - x}, start, end, as_hull);
     if (!touch) return;
     Hit hit{.kind = PairKind::node_face, .pair = pair, .time = touch->time, .at_start = {}, .at_hit = {}};
     Contact contact;
@@ -148,12 +149,12 @@ class Look {
     return false;
   }
 
-  // The four triangles of the hull, the one that is met first.
+  // The triangles of the face, the one that is met first.
   static std::optional<VelocityContact> first_touch(const MovingNode& node, const FaceVertices& start,
-                                                    const FaceVertices& end) {
+                                                    const FaceVertices& end, bool as_hull) {
     constexpr std::size_t corner[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}};
     std::optional<VelocityContact> first;
-    const std::size_t triangles = is_triangle(start) ? 1 : 4;
+    const std::size_t triangles = is_triangle(start) ? 1 : as_hull ? 4 : 2;
     for (std::size_t t = 0; t < triangles; ++t) {
       MovingFace moving;
       for (std::size_t k = 0; k < 4; ++k) {

@@ -189,6 +189,7 @@ void FeaturePairs::find_edge_edge(const SurfaceFeatures& features, const Surface
       const EdgeFeature& b = features.edge[static_cast<std::size_t>(other)];
       if (share_node(a, b) || !kinds_meet(a, b) || on_one_face(a, b) || !may_meet(surface, a, b)) continue;
       const bool spaced = !one_piece(surface, excluded, a, b);
+      if (!spaced && (a.kind == EdgeKind::cross_diagonal || b.kind == EdgeKind::cross_diagonal)) continue;
       if (!spaced && !grown(box_of(a), 2 * features.skin + 2 * band).overlaps(box_of(b))) continue;
       edge_edge.add(static_cast<int>(e), other, spaced);
     }

@@ -90,7 +90,8 @@ void add_diagonals(SurfaceFeatures& features, const Surface& surface) {
     for (std::size_t k = 0; k < 2; ++k) {
       const int a = surface.slave(face.node[k]), b = surface.slave(face.node[k + 2]);
       if (a == b) continue;
-      EdgeFeature edge = edge_on(surface, features, f, a, b, EdgeKind::diagonal);
+      EdgeFeature edge =
+          edge_on(surface, features, f, a, b, k == 0 ? EdgeKind::diagonal : EdgeKind::cross_diagonal);
       set_wings(edge, surface);
       features.edge.push_back(edge);
     }

@@ -21,7 +21,8 @@
 
 namespace brio {
 
-enum class EdgeKind : std::uint8_t { side, diagonal, beam, particle, node };
+/// The diagonal of a face is that from its first corner; the other one is its cross diagonal.
+enum class EdgeKind : std::uint8_t { side, diagonal, cross_diagonal, beam, particle, node };
 
 struct EdgeFeature {
   std::array<int, 2> node{};  ///< slave indices, ascending; the same twice: a point
@@ -37,7 +38,7 @@ struct EdgeFeature {
   double radius = 0;
 
   bool is_point() const { return node[0] == node[1]; }
-  bool of_face() const { return kind == EdgeKind::side || kind == EdgeKind::diagonal; }
+  bool of_face() const { return kind <= EdgeKind::cross_diagonal; }
 };
 
 struct SurfaceFeatures {

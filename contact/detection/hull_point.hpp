@@ -1,26 +1,30 @@
 #pragma once
-#include <limits>
+/// Closest point of a face as a feature: of its hull, or among neighbours of one piece of its two triangles.
+
 #include "contact/closest_point.hpp"
+#include "contact/detection/closest_on_hull.hpp"
+
 namespace brio {
+
 struct HullPoint {
-  Eigen::Vector3d offset;
-  std::array<double, 4> weights{};
-  double squared_distance = 0;
+  Eigen::Vector3d offset;           ///< node minus closest point
+  std::array<double, 4> weights{};  ///< of the corners
+  double squared_distance = 0;      ///< 0 inside of the hull
 };
-inline HullPoint closest_on_hull(const Eigen::Vector3d& x, const FaceVertices& at) {
-  constexpr std::size_t corner[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}};
-  HullPoint best;
-  best.squared_distance = std::numeric_limits<double>::infinity();
-  const std::size_t triangles = is_triangle(at) ? 1 : 4;
-  for (std::size_t t = 0; t < triangles; ++t) {
-    const TrianglePoint p =
-        closest_point_on_triangle(x, {at[corner[t][0]], at[corner[t][1]], at[corner[t][2]]});
-    if (!(p.squared_distance < best.squared_distance)) continue;
-    best.squared_distance = p.squared_distance;
-    best.offset = -p.offset;
-    best.weights = {};
-    for (std::size_t k = 0; k < 3; ++k) best.weights[corner[t][k]] = p.weights[k];
+
+inline HullPoint closest_on_face(const Eigen::Vector3d& x, const FaceVertices& at, bool as_hull) {
+  if (as_hull) {
+    const auto components = [](const Eigen::Vector3d& a) { return Vector3<double>{a[0], a[1], a[2]}; };
+    const ClosestOnHull<double> found = closest_on_hull<double>(
+        components(x), {components(at[0]), components(at[1]), components(at[2]), components(at[3])});
+    return {{found.offset.x, found.offset.y, found.offset.z}, found.weights, found.squared_distance};
   }
-  return best;
+  const TrianglePoint first = closest_point_on_triangle(x, {at[0], at[1], at[2]});
+  const TrianglePoint second = closest_point_on_triangle(x, {at[0], at[2], at[3]});
+  if (is_triangle(at) || first.squared_distance <= second.squared_distance)
+    return {-first.offset, {first.weights[0], first.weights[1], first.weights[2], 0}, first.squared_distance};
+  return {
+      -second.offset, {second.weights[0], 0, second.weights[1], second.weights[2]}, second.squared_distance};
 }
+
 }  // namespace brio

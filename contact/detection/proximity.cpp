@@ -117,7 +117,7 @@ class Finder {
     list.wake[pair] = path + apart - reach - band_;
     if (apart > reach + band_ + ahead) return;
     ++proximity_.closest_points;
-    const HullPoint closest = closest_on_hull(x, at);
+    const HullPoint closest = closest_on_face(x, at, list.spaced[pair] != 0);
     const double distance = std::sqrt(closest.squared_distance);
     list.wake[pair] = path + distance - reach - band_;
     if (distance < no_distance * features_.smallest_edge) return;

@@ -336,6 +336,8 @@ class Resolution {
   static constexpr int most_rounds = 8;
   static constexpr int most_zone_rounds = 60;
   static constexpr int least_passes = 20;
+  static constexpr double same_weight = 0.01;
+  static constexpr double same_direction = 0.9999;
 
   void find_constraints() {
     if (distance_.changed) {
@@ -409,13 +411,19 @@ class Resolution {
       if (hit.at_hit && (again || hit.at_start.normal.isZero(0))) add(*hit.at_hit, ordinary);
     }
   }
+  static bool is_same(const Contact& a, const Contact& b) {
+    double apart = 0;
+    for (std::size_t k = 0; k < 5; ++k) apart = std::max(apart, std::abs(a.weight[k] - b.weight[k]));
+    return a.node == b.node && apart < same_weight && a.normal.dot(b.normal) > same_direction;
+  }
   // \returns whether such a constraint is there already
   bool add(const Contact& wanted, std::size_t ordinary) {
     if (wanted.normal.isZero(0)) return true;
     for (std::size_t i = ordinary; i < scene_.contacts.size(); ++i) {
       Contact& known = scene_.contacts[i];
-      if (known.node != wanted.node || known.normal.dot(wanted.normal) < 0.9999) continue;
-      known.gap = 0.5 * std::min(known.gap, wanted.gap);
+      if (!is_same(known, wanted)) continue;
+      known.gap = std::min(known.gap, wanted.gap);
+      if (known.gap > 0) known.gap *= 0.5;
       return true;
     }
     scene_.contacts.push_back(wanted);

@@ -173,12 +173,12 @@ class Look {
     return first;
   }
 
-  // Below the separation there is no approach at all.
+  // What is nearer than the separation does not approach, and is recovered as an overlap is.
   void set_start(Hit& hit, Contact& contact, const Vector3d& offset, double floor) const {
     const double distance = offset.norm();
     if (distance < no_distance * features_.smallest_edge) return;
     contact.normal = offset / distance;
-    contact.gap = std::max(distance - floor - separation_, 0.0);
+    contact.gap = distance - floor - separation_;
     hit.at_start = contact;
   }
 
@@ -190,7 +190,7 @@ class Look {
     contact.normal = normal;
     const double gap = normal.dot(offset);
     if (gap <= 0) return;
-    contact.gap = std::max(gap - separation_, 0.0);
+    contact.gap = gap - separation_;
     hit.at_hit = contact;
   }
 

@@ -13,6 +13,15 @@ namespace {
 constexpr std::size_t rows_a_task = 512;
 constexpr std::size_t blocks_a_task = 512;
 
+/// Islands of more rows are worked on by the whole team.
+constexpr std::size_t most_rows_of_small = 4096;
+
+template <class Task>
+void each_of(ThreadTeam* team, std::size_t count, Task&& task) {
+  if (team != nullptr) return team->for_each(count, task);
+  for (std::size_t i = 0; i < count; ++i) task(i);
+}
+
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 Vector vector_of(const double* a) { return {a[0], a[1], a[2]}; }
 bool is_diagonal(const SymmetricTensor<double>& a) { return a.xy == 0 && a.yz == 0 && a.xz == 0; }
@@ -27,10 +36,11 @@ void store_given_of(const RowUnknowns<double, true>& unknown, const ConstraintRo
   given.slope_1 = impulse[2];
 }
 
+/// \param place of the first slot among the packs.
 template <class Packs, class Visit>
-void each_pack(Packs& packs, std::size_t first_slot, std::size_t begin, std::size_t end, Visit&& visit) {
+void each_pack(Packs& packs, std::size_t place, std::size_t begin, std::size_t end, Visit&& visit) {
   constexpr std::size_t lanes = lane_count<double>;
-  for (std::size_t slot = begin; slot < end; slot += lanes) visit(packs[(slot - first_slot) / lanes], slot);
+  for (std::size_t slot = begin; slot < end; slot += lanes, place += lanes) visit(packs[place / lanes], slot);
 }
 
 RowSums<double> reduced(const RowSums<Lanes<double>>& sums) {
@@ -44,10 +54,10 @@ RowSums<double> reduced(const RowSums<Lanes<double>>& sums) {
 }
 
 template <class Packs>
-RowSums<double> change_packs(Packs& packs, std::size_t first_slot, std::size_t begin, std::size_t end,
+RowSums<double> change_packs(Packs& packs, std::size_t place, std::size_t begin, std::size_t end,
                              const double* velocity, double momentum, RowImpulse* given) {
   RowSums<Lanes<double>> sums;
-  each_pack(packs, first_slot, begin, end, [&](auto& pack, std::size_t slot) {
+  each_pack(packs, place, begin, end, [&](auto& pack, std::size_t slot) {
     change_impulses(pack, velocity, momentum, sums, given + slot);
   });
   return reduced(sums);
@@ -57,7 +67,7 @@ RowSums<double> change_packs(Packs& packs, std::size_t first_slot, std::size_t b
 
 void ImpulseSolver::store_given(const ConstraintRows& rows, Kind kind, std::size_t begin, std::size_t end) {
   const auto store_packs = [&](const auto& packs) {
-    each_pack(packs, first_slot_[kind], begin, end,
+    each_pack(packs, place_[begin], begin, end,
               [&](const auto& pack, std::size_t slot) { store_impulses(pack, &given_[slot]); });
   };
   switch (kind) {
@@ -72,7 +82,7 @@ void ImpulseSolver::store_given(const ConstraintRows& rows, Kind kind, std::size
   }
   for (std::size_t slot = begin; slot < end; ++slot)
     if (row_of_slot_[slot] != no_row)
-      store_given_of(general_[slot - first_slot_[general]], rows.row[row_of_slot_[slot]], given_[slot]);
+      store_given_of(general_[place_[slot]], rows.row[row_of_slot_[slot]], given_[slot]);
 }
 
 ImpulseSolver::Sums ImpulseSolver::change_general(const ConstraintRows& rows, double momentum,
@@ -84,38 +94,47 @@ ImpulseSolver::Sums ImpulseSolver::change_general(const ConstraintRows& rows, do
     const Vector u =
         RowMap(rows, row).velocity([&](int b) { return vector_of(extrapolated_[index(b)].component); });
     const double velocity[3] = {dot(row.normal, u), dot(row.tangent[0], u), dot(row.tangent[1], u)};
-    RowUnknowns<double, true>& unknown = general_[slot - first_slot_[general]];
+    RowUnknowns<double, true>& unknown = general_[place_[slot]];
     change_impulse(unknown, velocity, momentum, sums);
     store_given_of(unknown, row, given_[slot]);
   }
   return sums;
 }
 
-ImpulseSolver::Sums ImpulseSolver::change_impulses(const ConstraintRows& rows, double momentum,
-                                                   ThreadTeam& team) {
-  sums_.resize(slot_ranges());
+ImpulseSolver::Sums ImpulseSolver::change_impulses(const ConstraintRows& rows, const Island& island,
+                                                   double momentum, ThreadTeam* team) {
   const double* velocity = extrapolated_.data()->component;
-  each_slot_range(team, [&](Kind kind, std::size_t begin, std::size_t end, std::size_t range) {
-    const auto change = [&](auto& packs) {
-      return change_packs(packs, first_slot_[kind], begin, end, velocity, momentum, given_.data());
-    };
-    sums_[range] = kind == normal_only     ? change(normal_packs_)
-                   : kind == with_friction ? change(friction_packs_)
-                   : kind == with_tilt     ? change(tilt_packs_)
-                                           : change_general(rows, momentum, begin, end);
+  each_of(team, island.piece_end - island.piece_begin, [&](std::size_t p) {
+    const auto& [kind, begin, end] = piece_[island.piece_begin + p];
+    const std::size_t place = place_[begin];
+    RowImpulse* given = given_.data();
+    Sums& sums = sums_[island.piece_begin + p];
+    switch (kind) {
+      case normal_only:
+        sums = change_packs(normal_packs_, place, begin, end, velocity, momentum, given);
+        break;
+      case with_friction:
+        sums = change_packs(friction_packs_, place, begin, end, velocity, momentum, given);
+        break;
+      case with_tilt:
+        sums = change_packs(tilt_packs_, place, begin, end, velocity, momentum, given);
+        break;
+      default:
+        sums = change_general(rows, momentum, begin, end);
+    }
   });
   Sums total;
-  for (const Sums& sums : sums_) {
-    total.turned += sums.turned;
-    total.residual = std::max(total.residual, sums.residual);
-    total.largest = std::max(total.largest, sums.largest);
+  for (std::size_t p = island.piece_begin; p < island.piece_end; ++p) {
+    total.turned += sums_[p].turned;
+    total.residual = std::max(total.residual, sums_[p].residual);
+    total.largest = std::max(total.largest, sums_[p].largest);
   }
   total.residual = std::sqrt(total.residual);
   return total;
 }
 
-void ImpulseSolver::gather(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, double momentum,
-                           ThreadTeam& team) {
+void ImpulseSolver::gather(const ConstraintRows& rows, std::span<const VelocityBlock> blocks,
+                           const Island& island, double momentum, ThreadTeam* team) {
   const auto given_to = [&](std::size_t b) {
     Row4 sum = {};
     for (const TranslationItem* item = translation_.begin(b); item != translation_.end(b); ++item)
@@ -136,8 +155,11 @@ void ImpulseSolver::gather(const ConstraintRows& rows, std::span<const VelocityB
     }
     return sum;
   };
-  team.for_ranges(blocks.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
+  const std::uint32_t* order = block_order_.data() + island.block_begin;
+  const std::size_t count = island.block_end - island.block_begin;
+  each_of(team, (count + blocks_a_task - 1) / blocks_a_task, [&](std::size_t task) {
+    for (std::size_t k = task * blocks_a_task; k < std::min((task + 1) * blocks_a_task, count); ++k) {
+      const std::size_t b = order[k];
       const SymmetricTensor<double>& w = blocks[b].inverse_mass;
       const Row4 sum = given_to(b);
       Row4 change = Row4{w.xx, w.yy, w.zz, 0} * sum;
@@ -160,7 +182,7 @@ void ImpulseSolver::store(ConstraintRows& rows, std::span<VelocityBlock> blocks,
   };
   team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t place = slot_[i] - first_slot_[kind_[i]];
+      const std::size_t place = place_[slot_[i]];
       double impulse[3] = {0, 0, 0};
       for (int axis = 0; axis < (kind_[i] == normal_only ? 1 : 3); ++axis)
         impulse[axis] = kind_[i] == normal_only     ? impulse_in_pack(normal_packs_, place, axis)
@@ -185,22 +207,63 @@ SolveReport ImpulseSolver::solve(const SolveOptions& options, ConstraintRows& ro
 
 SolveReport ImpulseSolver::solve_further(const SolveOptions& options, ConstraintRows& rows,
                                          std::span<VelocityBlock> blocks, ThreadTeam& team) {
-  SolveReport report;
   const std::size_t known = free_.size();
   free_.resize(blocks.size());
   for (std::size_t b = known; b < blocks.size(); ++b)
     free_[b] = {{blocks[b].velocity.x, blocks[b].velocity.y, blocks[b].velocity.z, 0}};
-  if (rows.size() == 0) return report;
-  now_ = free_;
-  extrapolated_.resize(blocks.size());
+  SolveReport total;
+  if (rows.size() == 0) return total;
+  now_ = extrapolated_ = free_;
   prepare(rows, blocks, team);
-  gather(rows, blocks, 0, team);
+  sums_.resize(piece_.size());
+  report_.resize(island_.size());
+  // Small islands in groups of about as many rows: where each begins.
+  small_.clear();
+  std::size_t gathered = rows_a_task;
+  for (std::size_t n = 0; n < island_.size(); ++n) {
+    if (island_[n].rows > most_rows_of_small) continue;
+    if (gathered >= rows_a_task) {
+      small_.push_back(static_cast<std::uint32_t>(n));
+      gathered = 0;
+    }
+    gathered += island_[n].rows;
+  }
+  team.for_each(small_.size(), [&](std::size_t group) {
+    const std::size_t end = group + 1 < small_.size() ? small_[group + 1] : island_.size();
+    for (std::size_t n = small_[group]; n < end; ++n)
+      if (island_[n].rows <= most_rows_of_small)
+        report_[n] = solve_island(options, rows, blocks, island_[n], nullptr);
+  });
+  for (std::size_t n = 0; n < island_.size(); ++n) {
+    if (island_[n].rows > most_rows_of_small)
+      report_[n] = solve_island(options, rows, blocks, island_[n], &team);
+    const SolveReport& own = report_[n];
+    total.iterations = std::max(total.iterations, own.iterations);
+    total.restarts += own.restarts;
+    total.residual = std::max(total.residual, own.residual);
+    total.largest_velocity = std::max(total.largest_velocity, own.largest_velocity);
+    total.converged = total.converged && own.converged;
+    total.islands += own.islands;
+    total.row_iterations += own.row_iterations;
+  }
+  store(rows, blocks, team);
+  return total;
+}
+
+// \param team of a large island; null: one thread alone.
+SolveReport ImpulseSolver::solve_island(const SolveOptions& options, const ConstraintRows& rows,
+                                        std::span<const VelocityBlock> blocks, const Island& island,
+                                        ThreadTeam* team) {
+  SolveReport report;
+  if (island.rows == 0) return report;
+  gather(rows, blocks, island, 0, team);
   double momentum = 0;
   double theta = 1;
+  report.islands = 1;
   report.converged = false;
   while (report.iterations < options.max_iterations && !report.converged) {
     ++report.iterations;
-    const Sums sums = change_impulses(rows, momentum, team);
+    const Sums sums = change_impulses(rows, island, momentum, team);
     report.residual = sums.residual;
     report.largest_velocity = sums.largest;
     report.converged = sums.residual <= options.tolerance * sums.largest;
@@ -209,9 +272,9 @@ SolveReport ImpulseSolver::solve_further(const SolveOptions& options, Constraint
     const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
     momentum = restart ? 0 : (theta - 1) / next;
     theta = restart ? 1 : next;
-    gather(rows, blocks, momentum, team);
+    gather(rows, blocks, island, momentum, team);
   }
-  store(rows, blocks, team);
+  report.row_iterations = island.rows * static_cast<std::size_t>(report.iterations);
   return report;
 }
 

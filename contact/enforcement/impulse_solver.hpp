@@ -23,6 +23,10 @@
 /// c_e shares of one, so that a row whose block bears others of far more weight is not slowed down by them.
 /// A step is stable whatever the number of rows at a block, and changes impulses by a symmetric matrix times
 /// what is missing: a lag only takes energy.
+///
+/// Rows that share no block that can move, nor are joined by others, are islands: each has its own momentum,
+/// restarts and convergence, so what one does is not seen by another, and what rests costs one check. Small
+/// ones are solved side by side, each by one thread.
 
 #include <cstddef>
 #include <span>
@@ -30,6 +34,7 @@
 
 #include "contact/enforcement/constraint_row.hpp"
 #include "contact/enforcement/entry_lists.hpp"
+#include "contact/enforcement/islands.hpp"
 #include "contact/enforcement/row_pack.hpp"
 #include "src/base/parallel.hpp"
 
@@ -42,12 +47,15 @@ struct SolveOptions {
   double tolerance = 1e-4;
 };
 
+/// Of all islands together.
 struct SolveReport {
-  int iterations = 0;
+  int iterations = 0;  ///< most of an island
   int restarts = 0;
   double residual = 0;          ///< largest change of a relative velocity in the last iteration
   double largest_velocity = 0;  ///< that an impulse stands for
   bool converged = true;
+  int islands = 0;
+  std::size_t row_iterations = 0;  ///< iterations times rows, summed over islands
 };
 
 class ImpulseSolver {
@@ -65,7 +73,7 @@ class ImpulseSolver {
  private:
   /// How a row is worked on; slots are given to one kind after the other.
   static constexpr std::uint32_t no_row = ~std::uint32_t{0};
-  static constexpr std::size_t slots_a_task = 512;
+  static constexpr std::uint32_t slots_a_piece = 512;
   enum Kind : std::uint8_t { normal_only, with_friction, with_tilt, general, kinds };
   using Sums = RowSums<double>;
 
@@ -89,10 +97,22 @@ class ImpulseSolver {
     std::uint32_t entry;
   };
 
+  /// Slots of one kind and island, whole packs.
+  struct Piece {
+    Kind kind;
+    std::uint32_t begin, end;
+  };
+  struct Island {
+    std::uint32_t piece_begin, piece_end;  ///< in piece_
+    std::uint32_t block_begin, block_end;  ///< in block_order_
+    std::uint32_t rows;
+  };
+
   void prepare(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, ThreadTeam& team);
   void measure_blocks(std::span<const VelocityBlock> blocks, ThreadTeam& team);
   void measure_rows(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, ThreadTeam& team);
-  void assign_slots(const ConstraintRows& rows, ThreadTeam& team);
+  void assign_slots(const ConstraintRows& rows);
+  void order_blocks(std::size_t blocks);
   void list_entries(const ConstraintRows& rows, std::size_t blocks, ThreadTeam& team);
   void sum_block_norms(const ConstraintRows& rows, std::size_t blocks, ThreadTeam& team);
   void fill_rows(const ConstraintRows& rows, ThreadTeam& team);
@@ -102,28 +122,32 @@ class ImpulseSolver {
   void fill_general(const ConstraintRows& rows, std::size_t row);
   void store_given(const ConstraintRows& rows, Kind kind, std::size_t begin, std::size_t end);
 
-  std::size_t slot_ranges() const;
-  /// `visit(kind, begin, end, range)` for ranges of slots of one kind, from and to whole packs.
-  template <class Visit>
-  void each_slot_range(ThreadTeam& team, Visit&& visit) const;
   Sums change_general(const ConstraintRows& rows, double momentum, std::size_t begin, std::size_t end);
-  Sums change_impulses(const ConstraintRows& rows, double momentum, ThreadTeam& team);
-  void gather(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, double momentum,
-              ThreadTeam& team);
+  Sums change_impulses(const ConstraintRows& rows, const Island& island, double momentum, ThreadTeam* team);
+  void gather(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, const Island& island,
+              double momentum, ThreadTeam* team);
+  SolveReport solve_island(const SolveOptions& options, const ConstraintRows& rows,
+                           std::span<const VelocityBlock> blocks, const Island& island, ThreadTeam* team);
   void store(ConstraintRows& rows, std::span<VelocityBlock> blocks, ThreadTeam& team) const;
 
   std::vector<RowPack<false, false>> normal_packs_;
   std::vector<RowPack<true, false>> friction_packs_;
   std::vector<RowPack<true, true>> tilt_packs_;
   std::vector<RowUnknowns<double, true>> general_;
-  std::size_t first_slot_[kinds + 1] = {};
+  std::vector<Piece> piece_;
+  std::vector<Island> island_;
   std::vector<RowImpulse> given_;  ///< by slot
 
-  std::vector<Kind> kind_;           ///< by row
-  std::vector<std::uint32_t> slot_;  ///< by row
+  std::vector<Kind> kind_;            ///< by row
+  std::vector<std::uint32_t> slot_;   ///< by row
+  std::vector<std::uint32_t> place_;  ///< by slot: among the packs, or general rows, of its kind
   std::vector<std::uint32_t> row_of_slot_;
+  std::vector<std::uint32_t> mover_;  ///< by row: a block that it moves, then its island
+  std::size_t slots_of_kind_[kinds] = {};
   std::vector<double> scale_;  ///< s of each row
-  std::vector<std::uint32_t> kind_count_;
+  IslandFinder finder_;
+  std::vector<std::uint32_t> count_;        ///< rows by island and kind, then the next slot
+  std::vector<std::uint32_t> block_order_;  ///< blocks that rows move, island by island
 
   EntryLists<TranslationItem> translation_;
   EntryLists<TiltedItem> tilted_;  ///< of rows with tilt, and of general ones
@@ -133,32 +157,9 @@ class ImpulseSolver {
   std::vector<double> block_root_;  ///< bound of |W^(1/2)|; negative where W is not a multiple of one
 
   std::vector<BlockVelocity> free_, now_, extrapolated_;  ///< by block
-  std::vector<Sums> sums_;                                ///< by range of slots
+  std::vector<Sums> sums_;                                ///< by piece
+  std::vector<SolveReport> report_;                       ///< by island
+  std::vector<std::uint32_t> small_;                      ///< first of each group of small islands
 };
-
-inline std::size_t ImpulseSolver::slot_ranges() const {
-  std::size_t ranges = 0;
-  for (std::size_t kind = 0; kind < kinds; ++kind)
-    ranges += (first_slot_[kind + 1] - first_slot_[kind] + slots_a_task - 1) / slots_a_task;
-  return ranges;
-}
-
-template <class Visit>
-void ImpulseSolver::each_slot_range(ThreadTeam& team, Visit&& visit) const {
-  team.for_each(slot_ranges(), [&](std::size_t range) {
-    std::size_t own = range;
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-      const std::size_t last = first_slot_[kind + 1];
-      const std::size_t ranges = (last - first_slot_[kind] + slots_a_task - 1) / slots_a_task;
-      if (own < ranges) {
-        const std::size_t begin = first_slot_[kind] + own * slots_a_task;
-        visit(static_cast<Kind>(kind), begin, begin + slots_a_task < last ? begin + slots_a_task : last,
-              range);
-        return;
-      }
-      own -= ranges;
-    }
-  });
-}
 
 }  // namespace brio

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include "contact/enforcement/impulse_solver.hpp"
 
@@ -9,177 +9,88 @@ using Vector = Vector3<double>;
 
 namespace {
 
-/// Rows and blocks of a task: whatever the number of threads.
-constexpr std::size_t rows_a_task = 512;
 constexpr std::size_t blocks_a_task = 1024;
-/// Nothing can move where only rounding of a weight moves the row: below this share of what its lightest
-/// block alone would move.
-constexpr double held_share = 1e-20;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-// Bound of the spectral norm: exact where the matrix is diagonal.
-double norm_bound(const SymmetricTensor<double>& a) {
-  const double xy = std::abs(a.xy);
-  const double yz = std::abs(a.yz);
-  const double xz = std::abs(a.xz);
-  return std::max({std::abs(a.xx) + xy + xz, std::abs(a.yy) + xy + yz, std::abs(a.zz) + xz + yz});
-}
-bool is_isotropic(const SymmetricTensor<double>& a) {
-  return a.xx == a.yy && a.yy == a.zz && a.xy == 0 && a.yz == 0 && a.xz == 0;
-}
-double frobenius_squared(const Tensor<double>& a) {
-  double sum = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) sum += a.m[i][j] * a.m[i][j];
-  return sum;
-}
-double energy(const SymmetricTensor<double>& inverse_mass, const Vector& impulse) {
-  return dot(impulse, inverse_mass * impulse);
-}
-
-/// c of each kind of entry, times the scale of the row: |W^(1/2) B^T|, of the normal alone where there is no
-/// friction. `root` is as in block_root_.
-double entry_norm(const ConstraintRow& row, const TranslationEntry& entry, const VelocityBlock& block,
-                  double root) {
-  const double weight = std::abs(entry.weight);
-  if (row.friction_coefficient == 0)
-    return weight * (root >= 0 ? root : std::sqrt(energy(block.inverse_mass, row.normal)));
-  const double tilt = entry.tilt[0] * entry.tilt[0] + entry.tilt[1] * entry.tilt[1];
-  const double map = tilt == 0 ? weight : 0.5 * (std::sqrt(tilt) + std::sqrt(tilt + 4 * weight * weight));
-  return map * std::abs(root);
-}
-double entry_norm(const ConstraintRow& row, const RotationEntry& entry, const VelocityBlock& block,
-                  double root) {
-  if (row.friction_coefficient == 0)
-    return std::sqrt(energy(block.inverse_mass, cross(entry.arm, row.normal)));
-  return std::sqrt(dot(entry.arm, entry.arm)) * std::abs(root);
-}
-double entry_norm(const ConstraintRow& row, const MatrixEntry& entry, const VelocityBlock& block,
-                  double root) {
-  if (row.friction_coefficient == 0)
-    return std::sqrt(energy(block.inverse_mass, transposed_times(entry.matrix, row.normal)));
-  return std::sqrt(frobenius_squared(entry.matrix)) * std::abs(root);
-}
-
-bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<const VelocityBlock> blocks) {
-  const RowMap map(rows, row);
-  double lightest = 0;
-  for (const TranslationEntry& entry : map.translations())
-    lightest = std::max(lightest, energy(blocks[index(entry.block)].inverse_mass, row.normal));
-  return !(map.inverse_mass(row.normal, blocks) > held_share * lightest);
-}
-
 }  // namespace
 
-void ImpulseSolver::measure_blocks(std::span<const VelocityBlock> blocks, ThreadTeam& team) {
-  block_root_.resize(blocks.size());
-  block_norm_.resize(blocks.size());
-  team.for_ranges(blocks.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const double root = std::sqrt(norm_bound(blocks[b].inverse_mass));
-      block_root_[b] = is_isotropic(blocks[b].inverse_mass) ? root : -root;
-    }
-  });
-}
-
-// c of all entries and the scale of rows; which kind a row is of.
-void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const VelocityBlock> blocks,
-                                 ThreadTeam& team) {
-  const std::size_t rotations = rows.translation.size();
-  const std::size_t matrices = rotations + rows.rotation.size();
-  norm_.resize(matrices + rows.matrix.size());
-  kind_.resize(rows.size());
-  scale_.resize(rows.size());
-  const auto measure = [&](std::size_t i) {
-    const ConstraintRow& row = rows.row[i];
-    double sum = 0;
-    double along_normal = 0;
-    double lightest = 0;
-    bool tilted = false;
-    bool plain = row.rotation.size() + row.matrix.size() == 0;
-    const auto add = [&](const auto& entry, double& norm) {
-      norm = entry_norm(row, entry, blocks[index(entry.block)], block_root_[index(entry.block)]);
-      sum += norm * norm;
-    };
-    for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) {
-      const TranslationEntry& entry = rows.translation[e];
-      const double root = block_root_[index(entry.block)];
-      add(entry, norm_[e]);
-      along_normal += square(entry.weight * root);
-      lightest = std::max(lightest, square(root));
-      plain = plain && root >= 0;
-      tilted = tilted || entry.tilt[0] != 0 || entry.tilt[1] != 0;
-    }
-    for (std::uint32_t e = row.rotation.begin; e < row.rotation.end; ++e)
-      add(rows.rotation[e], norm_[rotations + e]);
-    for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e)
-      add(rows.matrix[e], norm_[matrices + e]);
-    const bool held = plain ? !(along_normal > held_share * lightest) : is_held(rows, row, blocks);
-    scale_[i] = held ? 0 : std::sqrt(sum);
-    const double inverse = held ? 0 : 1 / scale_[i];
-    for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) norm_[e] *= inverse;
-    for (std::uint32_t e = row.rotation.begin; e < row.rotation.end; ++e) norm_[rotations + e] *= inverse;
-    for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e) norm_[matrices + e] *= inverse;
-    const bool packed = row.rotation.size() + row.matrix.size() == 0 &&
-                        row.translation.size() <= RowPack<false, false>::entries;
-    kind_[i] = !packed                         ? general
-               : row.friction_coefficient == 0 ? normal_only
-               : tilted                        ? with_tilt
-                                               : with_friction;
-  };
-  team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) measure(i);
-  });
-}
-
-// Kind after kind, each from a full pack on, in the order of rows.
-void ImpulseSolver::assign_slots(const ConstraintRows& rows, ThreadTeam& team) {
+// Island after island and kind after kind, each from a full pack on, in the order of rows. Rows that move
+// nothing are an island at the end.
+void ImpulseSolver::assign_slots(const ConstraintRows& rows) {
   constexpr std::size_t lanes = lane_count<double>;
-  const std::size_t ranges = (rows.size() + rows_a_task - 1) / rows_a_task;
-  kind_count_.assign(ranges * kinds, 0);
   slot_.resize(rows.size());
-  team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
-    std::uint32_t* count = &kind_count_[begin / rows_a_task * kinds];
-    for (std::size_t i = begin; i < end; ++i) ++count[kind_[i]];
-  });
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    mover_[i] = mover_[i] == no_row ? no_row : finder_.number(mover_[i]);
+  const std::size_t islands = finder_.size() + 1;
+  count_.assign(islands * kinds, 0);
+  const auto key = [&](std::size_t i) {
+    return (mover_[i] == no_row ? islands - 1 : mover_[i]) * kinds + kind_[i];
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) ++count_[key(i)];
+  island_.clear();
+  piece_.clear();
+  place_.clear();
   std::uint32_t next = 0;
-  std::uint32_t last[kinds];  // end of the rows of a kind, before the lanes that stay empty
-  for (std::size_t kind = 0; kind < kinds; ++kind) {
-    first_slot_[kind] = next;
-    for (std::size_t r = 0; r < ranges; ++r) {
-      const std::uint32_t own = kind_count_[r * kinds + kind];
-      kind_count_[r * kinds + kind] = next;
-      next += own;
+  std::uint32_t next_place[kinds] = {};
+  for (std::size_t n = 0; n < islands; ++n) {
+    Island& island = island_.emplace_back();
+    island.piece_begin = static_cast<std::uint32_t>(piece_.size());
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+      std::uint32_t& count = count_[n * kinds + kind];
+      island.rows += count;
+      const auto end = static_cast<std::uint32_t>(next + (count + lanes - 1) / lanes * lanes);
+      count = next;
+      for (; next < end; next += slots_a_piece) {
+        const std::uint32_t last = std::min(next + slots_a_piece, end);
+        piece_.push_back({static_cast<Kind>(kind), next, last});
+      }
+      next = end;
+      while (place_.size() < end) place_.push_back(next_place[kind]++);
     }
-    last[kind] = next;
-    next = static_cast<std::uint32_t>((next + lanes - 1) / lanes * lanes);
+    island.piece_end = static_cast<std::uint32_t>(piece_.size());
   }
-  first_slot_[kinds] = next;
-  row_of_slot_.resize(next);
-  for (std::size_t kind = 0; kind < kinds; ++kind)
-    for (std::size_t slot = last[kind]; slot < first_slot_[kind + 1]; ++slot) row_of_slot_[slot] = no_row;
-  team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
-    std::uint32_t* at = &kind_count_[begin / rows_a_task * kinds];
-    for (std::size_t i = begin; i < end; ++i) {
-      slot_[i] = at[kind_[i]]++;
-      row_of_slot_[slot_[i]] = static_cast<std::uint32_t>(i);
+  row_of_slot_.assign(next, no_row);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    slot_[i] = count_[key(i)]++;
+    row_of_slot_[slot_[i]] = static_cast<std::uint32_t>(i);
+  }
+  for (std::size_t kind = 0; kind < kinds; ++kind) slots_of_kind_[kind] = next_place[kind];
+}
+
+void ImpulseSolver::order_blocks(std::size_t blocks) {
+  count_.assign(island_.size() + 1, 0);
+  const auto each_moved = [&](auto&& visit) {
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const auto block = static_cast<std::uint32_t>(b);
+      const std::uint32_t island = block_root_[b] == 0 ? IslandFinder::none : finder_.number_if_any(block);
+      if (island != IslandFinder::none) visit(block, island);
     }
-  });
+  };
+  each_moved([&](std::uint32_t, std::uint32_t island) { ++count_[island]; });
+  std::uint32_t next = 0;
+  for (std::size_t n = 0; n < island_.size(); ++n) {
+    island_[n].block_begin = next;
+    next += count_[n];
+    count_[n] = island_[n].block_begin;
+    island_[n].block_end = next;
+  }
+  block_order_.resize(next);
+  each_moved([&](std::uint32_t block, std::uint32_t island) { block_order_[count_[island]++] = block; });
 }
 
 void ImpulseSolver::list_entries(const ConstraintRows& rows, std::size_t blocks, ThreadTeam& team) {
-  const std::size_t packed_plain = first_slot_[with_tilt];
   const auto is_plain = [&](std::size_t i) { return kind_[i] == normal_only || kind_[i] == with_friction; };
-  translation_.build(packed_plain > 0 ? rows.size() : 0, blocks, team, [&](std::size_t i, auto&& visit) {
-    if (!is_plain(i)) return;
-    const EntryRange range = rows.row[i].translation;
-    for (std::uint32_t e = range.begin; e < range.end; ++e)
-      visit(rows.translation[e].block, [&] {
-        return TranslationItem{slot_[i], e, rows.translation[e].weight};
-      });
-  });
-  const bool any_tilted = first_slot_[kinds] > packed_plain;
+  translation_.build(slots_of_kind_[normal_only] + slots_of_kind_[with_friction] > 0 ? rows.size() : 0,
+                     blocks, team, [&](std::size_t i, auto&& visit) {
+                       if (!is_plain(i)) return;
+                       const EntryRange range = rows.row[i].translation;
+                       for (std::uint32_t e = range.begin; e < range.end; ++e)
+                         visit(rows.translation[e].block, [&] {
+                           return TranslationItem{slot_[i], e, rows.translation[e].weight};
+                         });
+                     });
+  const bool any_tilted = slots_of_kind_[with_tilt] + slots_of_kind_[general] > 0;
   tilted_.build(any_tilted ? rows.size() : 0, blocks, team, [&](std::size_t i, auto&& visit) {
     if (is_plain(i)) return;
     const EntryRange range = rows.row[i].translation;
@@ -246,7 +157,7 @@ template <bool friction, bool tilt>
 void ImpulseSolver::fill_lane(std::vector<RowPack<friction, tilt>>& packs, const ConstraintRows& rows,
                               std::size_t i) {
   const ConstraintRow& row = rows.row[i];
-  const std::size_t place = slot_[i] - first_slot_[kind_[i]];
+  const std::size_t place = place_[slot_[i]];
   RowPack<friction, tilt>& pack = packs[place / lane_count<double>];
   const auto lane = static_cast<int>(place % lane_count<double>);
   double majorant = 0;
@@ -260,7 +171,7 @@ void ImpulseSolver::fill_lane(std::vector<RowPack<friction, tilt>>& packs, const
       for (int t = 0; t < 2; ++t) pack.tilt[2 * k + t].set(lane, entry.tilt[t]);
   }
   for (; k < RowPack<friction, tilt>::entries; ++k) {
-    pack.block[k][lane] = row.translation.size() > 0 ? pack.block[0][lane] : 0;
+    pack.block[k][lane] = pack.block[0][lane];
     pack.weight[k].set(lane, 0);
     if constexpr (tilt)
       for (int t = 0; t < 2; ++t) pack.tilt[2 * k + t].set(lane, 0);
@@ -287,29 +198,38 @@ void ImpulseSolver::fill_general(const ConstraintRows& rows, std::size_t i) {
     add(norm_[rotations + e], rows.rotation[e].block);
   for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e)
     add(norm_[matrices + e], rows.matrix[e].block);
-  start(general_[slot_[i] - first_slot_[general]], row, scale_[i] * scale_[i] * majorant,
+  start(general_[place_[slot_[i]]], row, scale_[i] * scale_[i] * majorant,
         [](double& to, double value) { to = value; });
 }
 
 void ImpulseSolver::fill_rows(const ConstraintRows& rows, ThreadTeam& team) {
   constexpr std::size_t lanes = lane_count<double>;
-  const auto packs = [&](Kind kind) { return (first_slot_[kind + 1] - first_slot_[kind]) / lanes; };
-  normal_packs_.resize(packs(normal_only));
-  friction_packs_.resize(packs(with_friction));
-  tilt_packs_.resize(packs(with_tilt));
-  general_.resize(first_slot_[kinds] - first_slot_[general]);
-  given_.resize(first_slot_[kinds]);
-  // Lanes beyond the last row.
-  if (!normal_packs_.empty()) normal_packs_.back() = {};
-  if (!friction_packs_.empty()) friction_packs_.back() = {};
-  if (!tilt_packs_.empty()) tilt_packs_.back() = {};
-  each_slot_range(team, [&](Kind kind, std::size_t begin, std::size_t end, std::size_t) {
-    for (std::size_t slot = begin; slot < end; ++slot) {
+  normal_packs_.resize(slots_of_kind_[normal_only] / lanes);
+  friction_packs_.resize(slots_of_kind_[with_friction] / lanes);
+  tilt_packs_.resize(slots_of_kind_[with_tilt] / lanes);
+  general_.resize(slots_of_kind_[general]);
+  given_.resize(row_of_slot_.size());
+  // The last pack of a kind and island: lanes without a row read a block of their island.
+  const auto clear = [&](auto& packs, std::size_t end) {
+    const ConstraintRow& row = rows.row[row_of_slot_[end - lanes]];
+    auto& pack = packs[place_[end - 1] / lanes];
+    pack = {};
+    for (auto& blocks : pack.block)
+      std::fill(std::begin(blocks), std::end(blocks), rows.translation[row.translation.begin].block);
+  };
+  team.for_each(piece_.size(), [&](std::size_t p) {
+    const Piece& piece = piece_[p];
+    if (row_of_slot_[piece.end - 1] == no_row) {
+      if (piece.kind == normal_only) clear(normal_packs_, piece.end);
+      if (piece.kind == with_friction) clear(friction_packs_, piece.end);
+      if (piece.kind == with_tilt) clear(tilt_packs_, piece.end);
+    }
+    for (std::size_t slot = piece.begin; slot < piece.end; ++slot) {
       const std::uint32_t i = row_of_slot_[slot];
       if (i == no_row) continue;
       const Vector& normal = rows.row[i].normal;
       given_[slot] = {{0, 0, 0}, 0, {normal.x, normal.y, normal.z}, 0};
-      switch (kind) {
+      switch (piece.kind) {
         case normal_only:
           fill_lane(normal_packs_, rows, i);
           break;
@@ -323,7 +243,7 @@ void ImpulseSolver::fill_rows(const ConstraintRows& rows, ThreadTeam& team) {
           fill_general(rows, i);
       }
     }
-    store_given(rows, kind, begin, end);
+    store_given(rows, piece.kind, piece.begin, piece.end);
   });
 }
 
@@ -331,7 +251,8 @@ void ImpulseSolver::prepare(const ConstraintRows& rows, std::span<const Velocity
                             ThreadTeam& team) {
   measure_blocks(blocks, team);
   measure_rows(rows, blocks, team);
-  assign_slots(rows, team);
+  assign_slots(rows);
+  order_blocks(blocks.size());
   list_entries(rows, blocks.size(), team);
   sum_block_norms(rows, blocks.size(), team);
   fill_rows(rows, team);

@@ -272,6 +272,63 @@ TEST(SolverInvariants, RestCostsOneCheck) {
   for (const VelocityBlock& block : scene.blocks) EXPECT_LT(norm(block.velocity), 1e-15);
 }
 
+/// Scenes side by side.
+RowScene together(const std::vector<RowScene>& scenes) {
+  RowScene all;
+  for (const RowScene& scene : scenes) {
+    const auto first = static_cast<int>(all.blocks.size());
+    all.blocks.insert(all.blocks.end(), scene.blocks.begin(), scene.blocks.end());
+    ConstraintRows shifted = scene.rows;
+    for (TranslationEntry& entry : shifted.translation) entry.block += first;
+    for (RotationEntry& entry : shifted.rotation) entry.block += first;
+    for (MatrixEntry& entry : shifted.matrix) entry.block += first;
+    all.rows.append(shifted);
+  }
+  return all;
+}
+
+TEST(SolverInvariants, AnIslandDoesNotSeeOthers) {
+  std::vector<RowScene> scenes;
+  for (unsigned seed = 0; seed < 60; ++seed)
+    scenes.push_back(seed % 3 == 0 ? resting_stack(3 + static_cast<int>(seed), 0.01, 0.3)
+                                   : tangle(seed, 20 + static_cast<int>(seed), 60, seed % 2 == 0 ? 0 : 0.3));
+  // One that the whole team works on.
+  scenes.push_back(tangle(100, 3000, 5000, 0.3));
+  RowScene all = together(scenes);
+  const SolveOptions options{60, 1e-6};
+  solve(all, options, 3);
+  std::size_t first = 0;
+  for (RowScene& alone : scenes) {
+    solve(alone, options);
+    for (std::size_t b = 0; b < alone.blocks.size(); ++b)
+      EXPECT_EQ(norm(all.blocks[first + b].velocity - alone.blocks[b].velocity), 0);
+    first += alone.blocks.size();
+  }
+}
+
+TEST(SolverInvariants, RestCostsOneCheckBesideAnImpact) {
+  RowScene all =
+      together({resting_stack(10, 0.01, 0.3), tangle(3, 100, 150, 0.3), resting_stack(20, 0.01, 0)});
+  const SolveReport report = solve(all, {100, 1e-6});
+  EXPECT_EQ(report.islands, 3);
+  EXPECT_GT(report.iterations, 10);
+  EXPECT_EQ(report.row_iterations, 30 + 150 * static_cast<std::size_t>(report.iterations));
+}
+
+// A floor that is held altogether joins nothing.
+TEST(SolverInvariants, WhatIsHeldDoesNotJoinIslands) {
+  RowScene scene;
+  scene.blocks.push_back({{0, 0, 0}, isotropic(0.0)});
+  for (int b = 1; b <= 5; ++b) {
+    scene.blocks.push_back(moving(1, {0, 0, -0.1 * b}));
+    scene.rows.add_row({0, 0, 1}, 0, 0.3);
+    scene.rows.add_point(b, Side::first);
+    scene.rows.add_point(0, Side::second);
+  }
+  EXPECT_EQ(solve(scene, to_the_end()).islands, 5);
+  for (const VelocityBlock& block : scene.blocks) EXPECT_EQ(norm(block.velocity), 0);
+}
+
 // Impulses lag behind disturbances when iterations are few: the energy that is left is no more than with the
 // impulses at the start.
 TEST(SolverInvariants, UnconvergedIterationsOnlyTakeEnergyFromRest) {

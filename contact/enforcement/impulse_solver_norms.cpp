@@ -1,0 +1,160 @@
+// c of all entries, s of rows and S of blocks (impulse_solver.hpp), and which rows move together.
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/enforcement/impulse_solver.hpp"
+
+namespace brio {
+
+using Vector = Vector3<double>;
+
+namespace {
+
+/// Rows and blocks of a task: whatever the number of threads.
+constexpr std::size_t rows_a_task = 512;
+constexpr std::size_t blocks_a_task = 1024;
+/// Nothing can move where only rounding of a weight moves the row: below this share of what its lightest
+/// block alone would move.
+constexpr double held_share = 1e-20;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+// Bound of the spectral norm: exact where the matrix is diagonal.
+double norm_bound(const SymmetricTensor<double>& a) {
+  const double xy = std::abs(a.xy);
+  const double yz = std::abs(a.yz);
+  const double xz = std::abs(a.xz);
+  return std::max({std::abs(a.xx) + xy + xz, std::abs(a.yy) + xy + yz, std::abs(a.zz) + xz + yz});
+}
+bool is_isotropic(const SymmetricTensor<double>& a) {
+  return a.xx == a.yy && a.yy == a.zz && a.xy == 0 && a.yz == 0 && a.xz == 0;
+}
+double frobenius_squared(const Tensor<double>& a) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) sum += a.m[i][j] * a.m[i][j];
+  return sum;
+}
+double energy(const SymmetricTensor<double>& inverse_mass, const Vector& impulse) {
+  return dot(impulse, inverse_mass * impulse);
+}
+
+/// c of each kind of entry, times the scale of the row: |W^(1/2) B^T|, of the normal alone where there is no
+/// friction. `root` is as in block_root_.
+double entry_norm(const ConstraintRow& row, const TranslationEntry& entry, const VelocityBlock& block,
+                  double root) {
+  const double weight = std::abs(entry.weight);
+  if (row.friction_coefficient == 0)
+    return weight * (root >= 0 ? root : std::sqrt(energy(block.inverse_mass, row.normal)));
+  const double tilt = entry.tilt[0] * entry.tilt[0] + entry.tilt[1] * entry.tilt[1];
+  const double map = tilt == 0 ? weight : 0.5 * (std::sqrt(tilt) + std::sqrt(tilt + 4 * weight * weight));
+  return map * std::abs(root);
+}
+double entry_norm(const ConstraintRow& row, const RotationEntry& entry, const VelocityBlock& block,
+                  double root) {
+  if (row.friction_coefficient == 0)
+    return std::sqrt(energy(block.inverse_mass, cross(entry.arm, row.normal)));
+  return std::sqrt(dot(entry.arm, entry.arm)) * std::abs(root);
+}
+double entry_norm(const ConstraintRow& row, const MatrixEntry& entry, const VelocityBlock& block,
+                  double root) {
+  if (row.friction_coefficient == 0)
+    return std::sqrt(energy(block.inverse_mass, transposed_times(entry.matrix, row.normal)));
+  return std::sqrt(frobenius_squared(entry.matrix)) * std::abs(root);
+}
+
+bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<const VelocityBlock> blocks) {
+  const RowMap map(rows, row);
+  double lightest = 0;
+  for (const TranslationEntry& entry : map.translations())
+    lightest = std::max(lightest, energy(blocks[index(entry.block)].inverse_mass, row.normal));
+  return !(map.inverse_mass(row.normal, blocks) > held_share * lightest);
+}
+
+}  // namespace
+
+void ImpulseSolver::measure_blocks(std::span<const VelocityBlock> blocks, ThreadTeam& team) {
+  block_root_.resize(blocks.size());
+  block_norm_.resize(blocks.size());
+  team.for_ranges(blocks.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const double root = std::sqrt(norm_bound(blocks[b].inverse_mass));
+      block_root_[b] = is_isotropic(blocks[b].inverse_mass) ? root : -root;
+    }
+  });
+}
+
+// c of all entries and the scale of rows; which kind a row is of.
+void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const VelocityBlock> blocks,
+                                 ThreadTeam& team) {
+  const std::size_t rotations = rows.translation.size();
+  const std::size_t matrices = rotations + rows.rotation.size();
+  norm_.resize(matrices + rows.matrix.size());
+  kind_.resize(rows.size());
+  scale_.resize(rows.size());
+  const auto measure = [&](std::size_t i) {
+    const ConstraintRow& row = rows.row[i];
+    double sum = 0;
+    double along_normal = 0;
+    double lightest = 0;
+    bool tilted = false;
+    bool plain = row.rotation.size() + row.matrix.size() == 0;
+    const auto add = [&](const auto& entry, double& norm) {
+      norm = entry_norm(row, entry, blocks[index(entry.block)], block_root_[index(entry.block)]);
+      sum += norm * norm;
+    };
+    for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) {
+      const TranslationEntry& entry = rows.translation[e];
+      const double root = block_root_[index(entry.block)];
+      add(entry, norm_[e]);
+      along_normal += square(entry.weight * root);
+      lightest = std::max(lightest, square(root));
+      plain = plain && root >= 0;
+      tilted = tilted || entry.tilt[0] != 0 || entry.tilt[1] != 0;
+    }
+    for (std::uint32_t e = row.rotation.begin; e < row.rotation.end; ++e)
+      add(rows.rotation[e], norm_[rotations + e]);
+    for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e)
+      add(rows.matrix[e], norm_[matrices + e]);
+    const bool held = plain ? !(along_normal > held_share * lightest) : is_held(rows, row, blocks);
+    scale_[i] = held ? 0 : std::sqrt(sum);
+    const double inverse = held ? 0 : 1 / scale_[i];
+    for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) norm_[e] *= inverse;
+    for (std::uint32_t e = row.rotation.begin; e < row.rotation.end; ++e) norm_[rotations + e] *= inverse;
+    for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e) norm_[matrices + e] *= inverse;
+    const bool packed = row.rotation.size() + row.matrix.size() == 0 && row.translation.size() > 0 &&
+                        row.translation.size() <= RowPack<false, false>::entries;
+    kind_[i] = !packed                         ? general
+               : row.friction_coefficient == 0 ? normal_only
+               : tilted                        ? with_tilt
+                                               : with_friction;
+  };
+  const auto join_blocks = [&](const ConstraintRow& row) {
+    std::uint32_t first = no_row;
+    const auto join = [&](int block) {
+      if (block_root_[index(block)] == 0) return;
+      const auto own = static_cast<std::uint32_t>(block);
+      if (first == no_row) {
+        first = own;
+      } else {
+        finder_.join(first, own);
+      }
+    };
+    const RowMap map(rows, row);
+    for (const TranslationEntry& entry : map.translations()) join(entry.block);
+    for (const RotationEntry& entry : map.rotations()) join(entry.block);
+    for (const MatrixEntry& entry : map.matrices()) join(entry.block);
+    return first;
+  };
+  finder_.reset(blocks.size());
+  mover_.resize(rows.size());
+  team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      measure(i);
+      mover_[i] = join_blocks(rows.row[i]);
+    }
+  });
+}
+
+}  // namespace brio

@@ -140,7 +140,6 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   }
   if (options.rule == DetectionRule::distance) {
     scene.distance.emplace();
-    scene.distance->pairs = FeaturePairs(options.search);
     measure(scene.distance->features, scene.surface, nodes);
   }
   const std::size_t slaves = scene.surface.slaves();
@@ -213,14 +212,14 @@ void store_solution(ContactScene& scene, Nodes& nodes, double dt, const Ties& ti
 // DEBUG_STATS_BEGIN
 struct Stats {
   double t[6] = {};
-  std::uint64_t n[12] = {};
+  std::uint64_t n[12] = {};  // DEBUG
   ~Stats() {
     if (n[0] == 0) return;
     std::fprintf(stderr,
-                 "STATS steps %lu pairs vf %lu ee %lu awake vf %lu ee %lu rows %lu+%lu closest %lu cert %lu "
+                 "STATS searches %lu steps %lu pairs vf %lu ee %lu awake vf %lu ee %lu rows %lu+%lu closest %lu cert %lu "
                  "renewed %lu checked %lu hits %lu hitsteps %lu rounds %lu zones %lu unres %lu passes %lu| t "
                  "begin %.2f find %.2f solve %.2f follow %.2f guard %.2f search %.2f\n",
-                 n[0], n[1] / n[0], n[2] / n[0], n[3] / n[0], n[4] / n[0], n[5] / n[0], n[6] / n[0],
+                 n[8], n[0], n[1] / n[0], n[2] / n[0], n[3] / n[0], n[4] / n[0], n[5] / n[0], n[6] / n[0],
                  g[0] / n[0], g[1] / n[0], g[2], g[3], g[4], g[5], g[6], g[7], g[8], n[7] / n[0], t[0], t[1],
                  t[2], t[3], t[4], t[5]);
   }
@@ -362,6 +361,8 @@ class Resolution {
 
   void search() {
     Lap lap{stats.t[5]};
+    ++stats.n[8];
+    ++stats.n[8];
     const Clock::time_point start = Clock::now();
     distance_.pairs.find(distance_.features, scene_.surface, scene_.excluded, scene_.options,
                          distance_.motion, team_);

@@ -224,7 +224,12 @@ void TreeSearch::find_in_group(std::span<const CaptureBox> boxes, std::size_t be
 
 void TreeSearch::find(const SearchNodes& nodes, std::span<const CaptureBox> boxes, ThreadTeam& team,
                       CandidatePairs& pairs, SearchCounts& counts) {
-  tree_.build(nodes, team);
+  build(nodes, team);
+  find(boxes, team, pairs, counts);
+}
+
+void TreeSearch::find(std::span<const CaptureBox> boxes, ThreadTeam& team, CandidatePairs& pairs,
+                      SearchCounts& counts) {
   lay_centres(boxes, tree_.bounds(), team, centres_);
   box_order_.sort(centres_, team);
   const std::size_t groups = (box_order_.size() + group_size - 1) / group_size;

@@ -81,6 +81,12 @@ class TreeSearch {
   void find(const SearchNodes& nodes, std::span<const CaptureBox> boxes, ThreadTeam& team,
             CandidatePairs& pairs, SearchCounts& counts);
 
+  /// The same in two steps, so that one tree serves several searches: the tree of the nodes as they are now
+  /// ...
+  void build(const SearchNodes& nodes, ThreadTeam& team) { tree_.build(nodes, team); }
+  /// ... and the pairs with the nodes as they were then.
+  void find(std::span<const CaptureBox> boxes, ThreadTeam& team, CandidatePairs& pairs, SearchCounts& counts);
+
  private:
   void find_in_group(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end,
                      NodesNearby& nearby, PairPiece& piece) const;

@@ -8,8 +8,15 @@ namespace brio {
 
 namespace {
 
-/// Steps of the present motion that boxes hold.
-constexpr double steps_ahead = 10;
+/// Steps of the present motion that boxes hold: at least so many, and as many as take a node as far as this
+/// share of the mean edge.
+constexpr double least_steps_ahead = 10;
+constexpr double most_steps_ahead = 200;
+constexpr double way_ahead = 0.2;
+/// What would leave its box within so many steps is looked for together with what does.
+constexpr double steps_of_notice = 4;
+/// Share of the nodes of which more than that leaving means to search for all.
+constexpr double most_leaving = 0.2;
 /// Of ContactOptions::reach_buffer: both features of a pair have a box that is larger on both sides.
 constexpr double share_of_buffer = 0.25;
 
@@ -69,7 +76,7 @@ bool may_meet(const Surface& surface, const EdgeFeature& a, const EdgeFeature& b
 }
 
 // Edges of one piece: a node of one is not held apart from a face of the other.
-bool one_piece(const Surface& surface, const Lists& excluded, const EdgeFeature& a, const EdgeFeature& b) {
+bool one_piece(const Lists& excluded, const EdgeFeature& a, const EdgeFeature& b) {
   const auto excludes = [&](const EdgeFeature& edge, const EdgeFeature& other) {
     for (int node : edge.node)
       for (int f : other.face)
@@ -78,7 +85,6 @@ bool one_piece(const Surface& surface, const Lists& excluded, const EdgeFeature&
   };
   if (a.body != b.body) return false;
   if (!a.of_face() && !b.of_face()) return true;  // beams of one body that were drawn together
-  (void)surface;
   return excludes(a, b) || excludes(b, a);
 }
 
@@ -100,100 +106,179 @@ void PairList::add(int a, int b, bool keep_distance) {
   spaced.push_back(keep_distance ? 1 : 0);
 }
 
-bool FeaturePairs::is_due(const Surface& surface, const FeatureMotion& motion) const {
-  if (box_.size() != surface.slaves()) return true;
-  const double* since = motion.frame_since_restart();
-  const double* frame = motion.frame();
-  double moved[3];
-  for (int axis = 0; axis < 3; ++axis) moved[axis] = since[axis] + frame[axis];
-  for (std::size_t s = 0; s < box_.size(); ++s) {
-    if (surface.node[s] < 0) continue;
-    bool inside = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double x = motion.node[s].end[axis] - moved[axis];
-      inside = inside && x >= box_[s].lower[axis] && x <= box_[s].upper[axis];
-    }
-    if (!inside) return true;
+bool FeaturePairs::is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const {
+  const NodeMotion64& node = motion.node[slave];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double moved = motion.frame_since_restart()[axis];
+    const double x =
+        node.start[axis] - moved + steps * (node.end[axis] - node.start[axis] - motion.frame()[axis]);
+    if (!(x >= reach_[slave].lower[axis] && x <= reach_[slave].upper[axis])) return false;
   }
+  return true;
+}
+
+bool FeaturePairs::is_due(const Surface& surface, const FeatureMotion& motion) const {
+  if (reach_.size() != surface.slaves()) return true;
+  for (std::size_t s = 0; s < reach_.size(); ++s)
+    if (surface.node[s] >= 0 && !is_inside(s, motion, 1)) return true;
   return false;
 }
 
-void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
-                        const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team) {
-  motion.restart(features, surface);
-  const double margin = share_of_buffer * options.reach_buffer * features.mean_edge;
-  box_.assign(surface.slaves(), empty_box);
-  for (std::size_t s = 0; s < box_.size(); ++s) {
-    if (surface.node[s] < 0) continue;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double x = motion.node[s].start[axis];
-      const double ahead = steps_ahead * (motion.node[s].end[axis] - x - motion.frame()[axis]);
-      box_[s].lower[axis] = x + std::min(ahead, 0.0) - margin;
-      box_[s].upper[axis] = x + std::max(ahead, 0.0) + margin;
-    }
+void FeaturePairs::place(std::size_t slave, const Scene& scene, const FeatureMotion& motion) {
+  const double step = motion.node_step(static_cast<int>(slave));
+  const double steps = std::clamp(step > 0 ? way_ahead * scene.features.mean_edge / step : most_steps_ahead,
+                                  least_steps_ahead, most_steps_ahead);
+  const NodeMotion64& node = motion.node[slave];
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = node.start[axis] - motion.frame_since_restart()[axis];
+    const double ahead = steps * (node.end[axis] - node.start[axis] - motion.frame()[axis]);
+    reach_[slave].lower[axis] = x + std::min(ahead, 0.0) - scene.margin;
+    reach_[slave].upper[axis] = x + std::max(ahead, 0.0) + scene.margin;
   }
-  find_node_face(features, surface, excluded, team);
-  find_edge_edge(features, surface, excluded, team);
 }
 
 CaptureBox FeaturePairs::box_of(const Surface& surface, const Face& face) const {
   CaptureBox box = empty_box;
-  for (int corner : face.node) box = joined(box, box_[static_cast<std::size_t>(surface.slave(corner))]);
+  for (int corner : face.node) box = joined(box, reach_[static_cast<std::size_t>(surface.slave(corner))]);
   return box;
 }
-
 CaptureBox FeaturePairs::box_of(const EdgeFeature& edge) const {
-  return joined(box_[static_cast<std::size_t>(edge.node[0])], box_[static_cast<std::size_t>(edge.node[1])]);
+  return joined(reach_[static_cast<std::size_t>(edge.node[0])],
+                reach_[static_cast<std::size_t>(edge.node[1])]);
+}
+CaptureBox FeaturePairs::node_box(const Scene& scene, std::size_t slave) const {
+  return grown(reach_[slave], scene.features.node_radius[slave] + 0.5 * scene.band);
+}
+CaptureBox FeaturePairs::face_box(const Scene& scene, std::size_t face) const {
+  return grown(box_of(scene.surface, scene.surface.face[face]),
+               scene.features.face_radius[face] + 0.5 * scene.band);
+}
+CaptureBox FeaturePairs::edge_box(const Scene& scene, std::size_t edge) const {
+  const EdgeFeature& own = scene.features.edge[edge];
+  return grown(box_of(own), own.radius + 0.5 * scene.band);
 }
 
-void FeaturePairs::find_node_face(const SurfaceFeatures& features, const Surface& surface,
-                                  const Lists& excluded, ThreadTeam& team) {
-  const double band = 0.5 * proximity_band * features.smallest_edge;
-  first_box_.assign(surface.slaves(), empty_box);
-  for (std::size_t s = 0; s < surface.slaves(); ++s)
-    if (surface.node[s] >= 0) first_box_[s] = grown(box_[s], features.node_radius[s] + band);
-  second_box_.assign(surface.face.size(), empty_box);
+void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
+                        const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team) {
+  const Scene scene{features, surface, excluded, share_of_buffer * options.reach_buffer * features.mean_edge,
+                    proximity_band * features.smallest_edge};
+  if (reach_.size() == surface.slaves() && collect_leaving(scene, motion))
+    find_leaving(scene, motion, team);
+  else
+    find_all(scene, motion, team);
+}
+
+void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
+  motion.restart(scene.features, scene.surface);
+  const Surface& surface = scene.surface;
+  reach_.assign(surface.slaves(), empty_box);
+  node_box_.start(surface.slaves());
+  for (std::size_t s = 0; s < reach_.size(); ++s) {
+    if (surface.node[s] < 0) continue;
+    place(s, scene, motion);
+    node_box_.set(s, node_box(scene, s));
+  }
+  face_box_.start(surface.face.size());
+  for (std::size_t f = 0; f < surface.face.size(); ++f)
+    if (surface.face[f].alive()) face_box_.set(f, face_box(scene, f));
+  edge_box_.start(scene.features.edge.size());
+  for (std::size_t e = 0; e < scene.features.edge.size(); ++e) edge_box_.set(e, edge_box(scene, e));
+  node_box_.build(team);
+  face_box_.build(team);
+  edge_box_.build(team);
+  node_leaves_.assign(node_box_.size(), 0);
+  face_leaves_.assign(face_box_.size(), 0);
+  edge_leaves_.assign(edge_box_.size(), 0);
+
+  node_face.clear();
+  node_box_.find(face_box_.boxes(), team, counts,
+                 [&](std::size_t f, int s) { add_node_face(scene, s, static_cast<int>(f)); });
+  edge_edge.clear();
+  edge_box_.find(edge_box_.boxes(), team, counts, [&](std::size_t e, int other) {
+    if (other > static_cast<int>(e)) add_edge_edge(scene, static_cast<int>(e), other);
+  });
+}
+
+// \returns whether they are few
+bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& motion) {
+  const Surface& surface = scene.surface;
+  for (int s : node_) node_leaves_[static_cast<std::size_t>(s)] = 0;
+  for (int f : face_) face_leaves_[static_cast<std::size_t>(f)] = 0;
+  for (int e : edge_) edge_leaves_[static_cast<std::size_t>(e)] = 0;
+  node_.clear();
+  face_.clear();
+  edge_.clear();
+  for (std::size_t s = 0; s < reach_.size(); ++s)
+    if (surface.node[s] >= 0 && !is_inside(s, motion, steps_of_notice)) {
+      node_.push_back(static_cast<int>(s));
+      node_leaves_[s] = 1;
+    }
+  const auto few = static_cast<double>(node_box_.size()) * most_leaving;
+  if (static_cast<double>(node_.size() + node_box_.changed()) > few) return false;
   for (std::size_t f = 0; f < surface.face.size(); ++f) {
     if (!surface.face[f].alive()) continue;
-    second_box_[f] = grown(box_of(surface, surface.face[f]), features.face_radius[f] + band);
+    for (int corner : surface.face[f].node)
+      face_leaves_[f] |= node_leaves_[static_cast<std::size_t>(surface.slave(corner))];
+    if (face_leaves_[f] != 0) face_.push_back(static_cast<int>(f));
   }
-  search_.find(SearchNodes(first_box_), second_box_, team, found_, counts);
-  node_face.clear();
-  for (std::size_t f = 0; f < surface.face.size(); ++f) {
-    const Face& face = surface.face[f];
-    if (!face.alive()) continue;
-    const CaptureBox near_face = grown(box_of(surface, face), 2 * features.skin + 2 * band);
-    for (int s : found_.of_box(f)) {
-      if (face.has(surface.node[static_cast<std::size_t>(s)]) || surface.never_touch(s, face)) continue;
-      const bool spaced = !is_excluded(excluded, s, static_cast<int>(f));
-      if (!spaced && !near_face.overlaps(box_[static_cast<std::size_t>(s)])) continue;
-      node_face.add(s, static_cast<int>(f), spaced);
-    }
+  for (std::size_t e = 0; e < scene.features.edge.size(); ++e) {
+    for (int node : scene.features.edge[e].node)
+      edge_leaves_[e] |= node_leaves_[static_cast<std::size_t>(node)];
+    if (edge_leaves_[e] != 0) edge_.push_back(static_cast<int>(e));
   }
+  return true;
 }
 
-void FeaturePairs::find_edge_edge(const SurfaceFeatures& features, const Surface& surface,
-                                  const Lists& excluded, ThreadTeam& team) {
-  const double band = 0.5 * proximity_band * features.smallest_edge;
-  first_box_.resize(features.edge.size());
-  for (std::size_t e = 0; e < features.edge.size(); ++e) {
-    const EdgeFeature& edge = features.edge[e];
-    first_box_[e] = grown(box_of(edge), edge.radius + band);
-  }
-  search_.find(SearchNodes(first_box_), first_box_, team, found_, counts);
-  edge_edge.clear();
-  for (std::size_t e = 0; e < features.edge.size(); ++e) {
-    const EdgeFeature& a = features.edge[e];
-    for (int other : found_.of_box(e)) {
-      if (other <= static_cast<int>(e)) continue;
-      const EdgeFeature& b = features.edge[static_cast<std::size_t>(other)];
-      if (share_node(a, b) || !kinds_meet(a, b) || on_one_face(a, b) || !may_meet(surface, a, b)) continue;
-      const bool spaced = !one_piece(surface, excluded, a, b);
-      if (!spaced && (a.kind == EdgeKind::cross_diagonal || b.kind == EdgeKind::cross_diagonal)) continue;
-      if (!spaced && !grown(box_of(a), 2 * features.skin + 2 * band).overlaps(box_of(b))) continue;
-      edge_edge.add(static_cast<int>(e), other, spaced);
-    }
-  }
+void FeaturePairs::find_leaving(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team) {
+  const auto leaves = [](const std::vector<std::uint8_t>& flags, int feature) {
+    return flags[static_cast<std::size_t>(feature)] != 0;
+  };
+  const auto gather = [&](const FeatureBoxes& boxes, const std::vector<int>& features) {
+    query_.clear();
+    for (int feature : features) query_.push_back(boxes.of(feature));
+  };
+  for (int s : node_) place(static_cast<std::size_t>(s), scene, motion);
+  for (int s : node_) node_box_.change(s, node_box(scene, static_cast<std::size_t>(s)));
+  for (int f : face_) face_box_.change(f, face_box(scene, static_cast<std::size_t>(f)));
+  for (int e : edge_) edge_box_.change(e, edge_box(scene, static_cast<std::size_t>(e)));
+
+  node_face.remove_if([&](int s, int f) { return leaves(node_leaves_, s) || leaves(face_leaves_, f); });
+  gather(face_box_, face_);
+  node_box_.find(query_, team, counts, [&](std::size_t i, int s) { add_node_face(scene, s, face_[i]); });
+  gather(node_box_, node_);
+  face_box_.find(query_, team, counts, [&](std::size_t i, int f) {
+    if (!leaves(face_leaves_, f)) add_node_face(scene, node_[i], f);
+  });
+
+  edge_edge.remove_if([&](int a, int b) { return leaves(edge_leaves_, a) || leaves(edge_leaves_, b); });
+  gather(edge_box_, edge_);
+  edge_box_.find(query_, team, counts, [&](std::size_t i, int other) {
+    const int own = edge_[i];
+    if (other == own || (leaves(edge_leaves_, other) && other < own)) return;
+    add_edge_edge(scene, std::min(own, other), std::max(own, other));
+  });
+}
+
+void FeaturePairs::add_node_face(const Scene& scene, int slave, int f) {
+  const Face& face = scene.surface.face[static_cast<std::size_t>(f)];
+  if (face.has(scene.surface.node[static_cast<std::size_t>(slave)]) || scene.surface.never_touch(slave, face))
+    return;
+  const bool spaced = !is_excluded(scene.excluded, slave, f);
+  if (!spaced && !grown(box_of(scene.surface, face), 2 * scene.features.skin + scene.band)
+                      .overlaps(reach_[static_cast<std::size_t>(slave)]))
+    return;
+  node_face.add(slave, f, spaced);
+}
+
+void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
+  const EdgeFeature& a = scene.features.edge[static_cast<std::size_t>(first)];
+  const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
+  if (share_node(a, b) || !kinds_meet(a, b) || on_one_face(a, b) || !may_meet(scene.surface, a, b)) return;
+  const bool spaced = !one_piece(scene.excluded, a, b);
+  if (!spaced && (a.kind == EdgeKind::cross_diagonal || b.kind == EdgeKind::cross_diagonal ||
+                  !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b))))
+    return;
+  edge_edge.add(first, second, spaced);
 }
 
 }  // namespace brio

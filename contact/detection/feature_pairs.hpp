@@ -2,17 +2,18 @@
 /// Pairs of features that may come near each other before the next search: nodes and faces, edges and edges.
 ///
 /// Every node has a box that holds its motion of some steps ahead, in the frame of the mean motion; features
-/// whose boxes meet are paired. A search is due when the end of a node's step leaves its box: until then no
-/// pair is missing. Left out are pairs that share a node, that are parts of one rigid body, of one face, or
-/// that the deck keeps from touching. Pairs of one piece (the fold of a shell, the sides of one element) are
-/// listed too: not their radii, which overlap as drawn, but two skins are kept between them.
+/// whose boxes meet are paired. A search is due when the end of a node's step leaves its box, for the
+/// features at such nodes alone: until then no pair is missing, and a fast splinter makes nobody else search.
+/// Left out are pairs that share a node, that are parts of one rigid body, of one face, or that the deck
+/// keeps from touching. Pairs of one piece (the fold of a shell, the sides of one element) are listed too:
+/// not their radii, which overlap as drawn, but two skins are kept between them.
 
 #include <cstdint>
 #include <vector>
 
+#include "contact/detection/feature_boxes.hpp"
 #include "contact/detection/feature_motion.hpp"
 #include "contact/detection/features.hpp"
-#include "contact/global_search.hpp"
 #include "contact/options.hpp"
 
 namespace brio {
@@ -27,6 +28,9 @@ struct PairList {
   std::size_t size() const { return first.size(); }
   void clear();
   void add(int a, int b, bool keep_distance);
+  /// Take out those for which `leaves(first, second)`; the others keep their order.
+  template <class Leaves>
+  void remove_if(const Leaves& leaves);
   Eigen::Vector3d direction_of(std::size_t pair) const {
     return {direction[0][pair], direction[1][pair], direction[2][pair]};
   }
@@ -35,34 +39,68 @@ struct PairList {
   }
 };
 
+template <class Leaves>
+void PairList::remove_if(const Leaves& leaves) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (leaves(first[i], second[i])) continue;
+    first[kept] = first[i];
+    second[kept] = second[i];
+    for (auto& axis : direction) axis[kept] = axis[i];
+    wake[kept] = wake[i];
+    spaced[kept] = spaced[i];
+    ++kept;
+  }
+  first.resize(kept);
+  second.resize(kept);
+  for (auto& axis : direction) axis.resize(kept);
+  wake.resize(kept);
+  spaced.resize(kept);
+}
+
 class FeaturePairs {
  public:
-  explicit FeaturePairs(SearchStrategy strategy = SearchStrategy::automatic) : search_(strategy) {}
-
   PairList node_face;
   PairList edge_edge;
   SearchCounts counts;
 
   /// Whether some node's step ends outside of its box, or there has been no search since `expire`.
   bool is_due(const Surface& surface, const FeatureMotion& motion) const;
-  /// Search again; the paths of the motion restart.
+  /// Renew the pairs of what has left its boxes, or where that is much, all; then the paths of the motion
+  /// restart.
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
             const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team);
-  void expire() { box_.clear(); }
+  /// The surface has changed.
+  void expire() { reach_.clear(); }
 
  private:
-  void find_node_face(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
-                      ThreadTeam& team);
-  void find_edge_edge(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
-                      ThreadTeam& team);
+  struct Scene {
+    const SurfaceFeatures& features;
+    const Surface& surface;
+    const Lists& excluded;
+    double margin;  ///< of boxes of nodes
+    double band;    ///< half of it for either feature
+  };
 
+  bool is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const;
+  void place(std::size_t slave, const Scene& scene, const FeatureMotion& motion);
   CaptureBox box_of(const Surface& surface, const Face& face) const;
   CaptureBox box_of(const EdgeFeature& edge) const;
+  CaptureBox node_box(const Scene& scene, std::size_t slave) const;
+  CaptureBox face_box(const Scene& scene, std::size_t face) const;
+  CaptureBox edge_box(const Scene& scene, std::size_t edge) const;
 
-  std::vector<CaptureBox> box_;  ///< of each slave node: where it may be until the next search
-  std::vector<CaptureBox> first_box_, second_box_;
-  GlobalSearch search_;
-  CandidatePairs found_;
+  bool collect_leaving(const Scene& scene, const FeatureMotion& motion);
+  void find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
+  void find_leaving(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team);
+  void add_node_face(const Scene& scene, int slave, int face);
+  void add_edge_edge(const Scene& scene, int first, int second);
+
+  std::vector<CaptureBox> reach_;  ///< of each slave node: where it may be until the next search
+  FeatureBoxes node_box_, face_box_, edge_box_;
+  std::vector<int> node_, face_, edge_;  ///< what has left its boxes, ascending
+  std::vector<std::uint8_t> node_leaves_, face_leaves_, edge_leaves_;
+  std::vector<CaptureBox> query_;
 };
 
 /// Distance beyond touching at which constraints are formed, over the smallest edge.

@@ -33,6 +33,9 @@ struct Beam2 {
   static constexpr std::string_view name = "beam2";
   static constexpr int nodes = 2;
   static constexpr bool rotations = true;
+  /// Strains come from differences of positions and triads since the start: rounded to float, these would do
+  /// work in every step and heat the beam.
+  static constexpr bool always_double = true;
   template <class Law>
   static constexpr bool accepts = FibreLaw<Law>;
 

@@ -18,10 +18,9 @@ bool accepts(const Element& element, const Material& material) {
 
 namespace {
 
-// Beams take strains from differences of positions and triads since the start: rounded to float, these would
-// do work in every step and heat the beam.
 Precision precision_of(const Element& element, Precision wanted) {
-  return std::holds_alternative<Beam2>(element) ? Precision::double_precision : wanted;
+  const auto always_double = [](const auto& kind) { return is_always_double<std::decay_t<decltype(kind)>>; };
+  return std::visit(always_double, element) ? Precision::double_precision : wanted;
 }
 
 }  // namespace

@@ -388,13 +388,17 @@ void set_kernel(Block& block) {
   block.loses_elements = can_fail<Law> || block.deletion.names_a_criterion();
 }
 
+/// Whatever precision the deck asks for.
+template <class Kind>
+constexpr bool is_always_double = requires {
+  requires Kind::always_double;
+};
+
 template <class Kind, class Law>
 void set_kernel(Block& block) {
-  if (block.precision == Precision::double_precision) {
-    set_kernel<Kind, Law, double>(block);
-  } else {
-    set_kernel<Kind, Law, float>(block);
-  }
+  if constexpr (!is_always_double<Kind>)
+    if (block.precision == Precision::single_precision) return set_kernel<Kind, Law, float>(block);
+  set_kernel<Kind, Law, double>(block);
 }
 
 /// \param settings what the deck says; a law that fails is another type than one that does not.
@@ -409,8 +413,8 @@ void set_kernel_with_failure(const Settings& settings, Block& block) {
   set_kernel<Kind, Law>(block);
 }
 
-/// Sets block.kernel and block.pack_bytes; instantiates every accepted law in both precisions. Compiled in
-/// one source a kind.
+/// Sets block.kernel and block.pack_bytes; instantiates every accepted law in the precisions of the
+/// kind. Compiled in one source a kind.
 template <class Kind>
 void choose_kernel_of(Block& block) {
   std::visit(

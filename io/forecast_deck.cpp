@@ -132,7 +132,7 @@ ScenePrepared prepare_scene(const ForecastOptions& options) {
   scene.deck = load_deck(options.deck, options.overrides, scene.model);
   scene.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   ThreadTeam team(options.threads);
-  update_velocities(scene.model, scene.deck.numerics.energy_error_limit, team);
+  make_first_step(scene.deck, scene.model, team);
   return scene;
 }
 

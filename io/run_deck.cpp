@@ -165,22 +165,32 @@ class Output {
   std::int64_t next_kept_ = 0;
 };
 
-// Steps until the end, a failure or a stop. \return why it ended early, empty if it did not.
-std::string march(const Deck& deck, const RunOptions& options, Model& model, Output& output, Summary& state) {
-  ThreadTeam team(options.threads);
+/// \return what breaks down, empty if nothing does
+template <class Action>
+std::string fault_of(const Action& action) {
+  try {
+    action();
+  } catch (const Breakdown& breakdown) {
+    return breakdown.what();
+  }
+  return {};
+}
+
+// From a first step that is made to the end, a failure or a stop.
+// \param fault of the first step \return why it ended early, empty if it did not.
+std::string march(const Deck& deck, const RunOptions& options, Model& model, Output& output, ThreadTeam& team,
+                  std::string fault, Summary& state) {
   ProgressReporter progress(options, deck.time.end);
   state.status = "finished";
   while (true) {
     const int signal = options.stop != nullptr ? options.stop->load() : 0;
     const bool at_end = model.times.time >= deck.time.end;
-    try {
-      update_velocities(model, deck.numerics.energy_error_limit, team);
-      output.write_what_is_due(at_end || signal != 0, team);
-    } catch (const Breakdown& breakdown) {
+    if (fault.empty()) fault = fault_of([&] { output.write_what_is_due(at_end || signal != 0, team); });
+    if (!fault.empty()) {
       state.status = "failed";
       state.exit_code = 3;
       output.write_last_good_state();
-      return breakdown.what();
+      return fault;
     }
     progress.report(model, at_end || signal != 0);
     if (at_end) return "";
@@ -189,14 +199,10 @@ std::string march(const Deck& deck, const RunOptions& options, Model& model, Out
       state.exit_code = 128 + signal;
       return state.status + " at time " + std::to_string(model.times.time);
     }
-    try {
+    fault = fault_of([&] {
       update_positions(model, team);
-    } catch (const Breakdown& breakdown) {
-      state.status = "failed";
-      state.exit_code = 3;
-      output.write_last_good_state();
-      return breakdown.what();
-    }
+      update_velocities(model, deck.numerics.energy_error_limit, team);
+    });
   }
 }
 
@@ -222,11 +228,24 @@ Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>
   return deck;
 }
 
+void make_first_step(const Deck& deck, Model& model, ThreadTeam& team) {
+  update_velocities(model, deck.numerics.energy_error_limit, team);
+  constexpr double most_steps = 0x1p53;
+  const double steps = deck.time.end / model.times.next;
+  if (steps > most_steps)
+    throw DeckError((deck.time.place.empty() ? deck.file : deck.time.place) + ": 'end' is " +
+                    written(deck.time.end) + ", which takes " + written(steps) + " steps of " +
+                    written(model.times.next) + "; at most " + written(most_steps) +
+                    " are accepted: beyond, a step no longer changes the time");
+}
+
 RunOutcome run_deck(const RunOptions& options) {
   const auto start = Clock::now();
   Model model;
   const Deck deck = load_deck(options.deck, options.overrides, model);
   if (options.built) options.built();
+  ThreadTeam team(options.threads);
+  const std::string fault = fault_of([&] { make_first_step(deck, model, team); });
   const std::string name = options.deck.stem().string();
   RunOutcome outcome;
   outcome.folder = options.output.empty() ? std::filesystem::path(name + ".results") : options.output;
@@ -246,7 +265,7 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.initial_overlaps = model.initial_overlaps;
   Output output(deck, model, writer);
   Summary state;
-  outcome.message = march(deck, options, model, output, state);
+  outcome.message = march(deck, options, model, output, team, fault, state);
   const Impulse momentum_of_good = model.momentum.now;
 
   outcome.summary = observe_end(model);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/parallel.hpp"
 #include "src/deck.hpp"
 #include "src/model.hpp"
 #include "src/summary.hpp"
@@ -54,7 +55,12 @@ Model build_scene(const Deck& deck);
 /// A deck read, its parts meshed and the scene put together. \throws DeckError
 Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, Model& model);
 
-/// Runs to the end time, a numerical failure, or a stop. Nothing is written before the scene is built.
+/// The first step of a scene, with which it is known how many there will be.
+/// \throws DeckError where these are so many that the time stops advancing, Breakdown
+void make_first_step(const Deck& deck, Model& model, ThreadTeam& team);
+
+/// Runs to the end time, a numerical failure, or a stop. Nothing is written before the first step
+/// is made.
 /// \throws DeckError for what the deck gets wrong, FileError for what the file system refuses.
 RunOutcome run_deck(const RunOptions& options);
 

@@ -6,6 +6,7 @@
 
 #include "contact/audit.hpp"
 #include "src/diagnosis.hpp"
+#include "src/leap.hpp"
 #include "src/motion.hpp"
 #include "src/motion_through_walls.hpp"
 #include "src/release_ties.hpp"
@@ -313,6 +314,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
     const StageTimer timer(model.stages, Stage::nodes);
     kinetic = accelerate(model.nodes, model.times.mean(), model.kinetic_sums, team);
   }
+  expect_no_leap(model, kinetic);
   constrain(model);
   carry_tied_nodes(model);
   accelerate_rigid(model, team);

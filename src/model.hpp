@@ -15,6 +15,7 @@
 #include "src/constraints.hpp"
 #include "src/deck.hpp"
 #include "src/erosion.hpp"
+#include "src/leap.hpp"
 #include "src/ledger.hpp"
 #include "src/loads.hpp"
 #include "src/mass_scaling.hpp"
@@ -42,6 +43,7 @@ struct Model {
   StepTimes times;
   StepControl control;
   Nodes nodes;
+  Extent extent;  ///< of the nodes at the start
   std::vector<Block> blocks;
   std::vector<PartInModel> parts;
   std::unordered_map<std::string, std::size_t> part_number;  ///< by name

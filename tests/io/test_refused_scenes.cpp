@@ -1,5 +1,6 @@
 // What only shows when a scene is put together is refused with the place of the key that is responsible.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -135,6 +136,41 @@ constexpr const char* same_motions[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(Equal, AcceptedScene, testing::ValuesIn(same_motions));
+
+/// What the first step of the scene says with this section of time; nothing where it is made.
+std::string fault_of_first_step(const std::string& time) {
+  std::string text = scene;
+  const std::string given = "{end: 1e-3}";
+  text.replace(text.find(given), given.size(), time);
+  const Deck deck = parse_deck(text, "a.yaml");
+  Model model = build_scene(deck);
+  ThreadTeam team(1);
+  try {
+    make_first_step(deck, model, team);
+  } catch (const DeckError& fault) {
+    return fault.what();
+  }
+  return {};
+}
+
+// An ulp of a time is 2^-53 of it: the last of so many steps are lost in rounding.
+TEST(RefusedScene, WithMoreStepsThanATimeCanCountIsRefusedWhateverSetsTheStep) {
+  const Deck deck = parse_deck(scene, "a.yaml", {"time.end=1"});
+  Model model = build_scene(deck);
+  ThreadTeam team(1);
+  make_first_step(deck, model, team);
+  const double step = model.times.next;
+  const auto end_after = [](double steps, double of) { return "{end: " + fmt::format("{}", steps * of); };
+  for (const double steps : {1.01 * 0x1p53, 1e30, 1e300})
+    for (const std::string& time : {end_after(steps, step) + "}", end_after(steps, 1e-6) + ", step: 1e-6}",
+                                    end_after(steps, 0.5 / 0.9 * step) + ", step_scale: 0.5}"}) {
+      const std::string said = fault_of_first_step(time);
+      EXPECT_EQ(said.substr(0, 21), "a.yaml:9:7: 'end' is ") << time << ": " << said;
+      EXPECT_NE(said.find(" steps of "), std::string::npos) << time << ": " << said;
+    }
+  EXPECT_EQ(fault_of_first_step(end_after(0.99 * 0x1p53, step) + "}"), "");
+  EXPECT_EQ(fault_of_first_step(end_after(0.99 * 0x1p53, 1e-6) + ", step: 1e-6}"), "");
+}
 
 TEST(RefusedScene, WithMoreNodesThanCanBeNumberedIsRefusedBeforeAnythingIsMade) {
   std::string text =

@@ -78,6 +78,28 @@ TEST_F(FailingRuns, FromVelocitiesThatResultsCannotHold) {
   expect_failure("", {"a value of 'velocity' at time 0 is too large for the results", "check units"});
 }
 
+// Contact is not asked what meets nodes that are everywhere.
+TEST_F(FailingRuns, FromLoadsThatThrowNodesOutOfTheSceneBeforeTheFirstStep) {
+  write_deck("[0, 0, -10]", "loads: [{gravity: [0, 0, -1e156]}]\ncontact: {surfaces: all}\n");
+  const std::vector<std::string> says{" of part 'cube' at (", " at time 0; likely cause: loads",
+                                      "check units"};
+  expect_failure("", says);
+  const Ending check = brio("check cube.yaml");
+  EXPECT_EQ(check.exit_code, 3);
+  for (const std::string& word : says) EXPECT_NE(check.faults.find(word), std::string::npos) << check.faults;
+}
+
+// It is known with the first step, before anything is written.
+TEST_F(FailingRuns, AreNotBegunWhereTheTimeCouldNotAdvanceToTheEnd) {
+  write_deck("[0, 0, -10]", "", "1e30");
+  for (const std::string command : {"run cube.yaml --quiet", "check cube.yaml"}) {
+    const Ending ending = brio(command);
+    EXPECT_EQ(ending.exit_code, 2) << command;
+    EXPECT_EQ(ending.faults.substr(0, 24), "cube.yaml:7:7: 'end' is ") << ending.faults;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "cube.results"));
+}
+
 // Earlier results are not mixed with those of the run that failed: they are moved aside.
 TEST_F(FailingRuns, BeforeTheFirstDumpLeaveEarlierResultsWhole) {
   write_deck("[0, 0, -10]", "");

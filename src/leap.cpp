@@ -1,0 +1,65 @@
+#include "src/leap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/breakdown.hpp"
+#include "src/diagnosis.hpp"
+#include "src/model.hpp"
+#include "src/node_name.hpp"
+
+namespace brio {
+
+namespace {
+
+/// Widths of the scene in a step. What follows from elastic forces is far below one: elements pass their
+/// limits before, and steps are shorter than the time of sound through an element.
+constexpr double most_widths = 100;
+
+/// Largest component of the change of velocity of a node, as `accelerate` made it.
+struct Leap {
+  std::size_t node = 0;
+  double speed = 0;
+};
+
+Leap largest_change(const Nodes& nodes, double mean_step) {
+  Leap largest;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double change =
+          std::abs(nodes.force[i].component[axis]) * (nodes.free_inverse_mass(i, axis) * mean_step);
+      if (change > largest.speed) largest = {i, change};
+    }
+  return largest;
+}
+
+}  // namespace
+
+Extent extent_of(const Nodes& nodes) {
+  Extent extent;
+  for (const double mass : nodes.mass) extent.mass += mass;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [least, most] = std::minmax_element(
+        nodes.record.begin(), nodes.record.end(),
+        [axis](const auto& a, const auto& b) { return a.position[axis] < b.position[axis]; });
+    if (least != most) extent.width = std::max(extent.width, most->position[axis] - least->position[axis]);
+  }
+  return extent;
+}
+
+// The energies tell a leap of most of the mass, which is what nodes near everything are; the nodes themselves
+// are looked at only then.
+void expect_no_leap(const Model& model, const KineticEnergy& kinetic) {
+  const double most = most_widths * model.extent.width / model.times.next;
+  if (!(most > 0) || kinetic.half - kinetic.now <= 0.5 * model.extent.mass * most * most) return;
+  const Leap leap = largest_change(model.nodes, model.times.mean());
+  if (!(leap.speed > most)) return;
+  throw Breakdown(
+      "forces throw " + name_of_node(model, leap.node) + " " +
+      written(leap.speed * model.times.next / model.extent.width) +
+      " widths of the scene away in one step, at time " + written(model.times.time) +
+      "; likely cause: loads that are too large for the masses they act on; check units, densities "
+      "and loads of the deck");
+}
+
+}  // namespace brio

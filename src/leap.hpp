@@ -1,0 +1,25 @@
+#pragma once
+/// Forces that throw nodes out of the scene within one step.
+
+#include "src/motion.hpp"
+
+namespace brio {
+
+struct Model;
+
+/// What a step's change of velocities is measured against: the scene as it starts.
+struct Extent {
+  double width = 0;  ///< longest side of the box around all nodes; 0: nothing can be said
+  double mass = 0;   ///< of all nodes
+};
+
+Extent extent_of(const Nodes& nodes);
+
+/// After forces have changed velocities, before contact looks for what meets: nodes that a single step's
+/// forces would carry past everything there is meet nothing rightly, and are near everything. What moves that
+/// fast already, as in a frame that does, is let be.
+/// \param kinetic of `accelerate`
+/// \throws Breakdown naming element, node, time and the likely cause
+void expect_no_leap(const Model& model, const KineticEnergy& kinetic);
+
+}  // namespace brio

@@ -76,9 +76,8 @@ bool one_piece(const Surface& surface, const Lists& excluded, const EdgeFeature&
         if (f >= 0 && is_excluded(excluded, node, f)) return true;
     return false;
   };
-  if (a.body != b.body) return false;
-  if (!a.of_face() && !b.of_face()) return true;  // beams of one body that were drawn together
-  (void)surface;
+  if (!surface.held.one_piece(a.body, b.body)) return false;
+  if (!a.of_face() && !b.of_face()) return a.body == b.body;  // beams that were drawn together
   return excludes(a, b) || excludes(b, a);
 }
 

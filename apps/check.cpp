@@ -135,10 +135,17 @@ void tell_wait(const ForecastOptions& options) {
 
 void print_overlaps(std::span<const InitialOverlap> overlaps) {
   for (const InitialOverlap& overlap : overlaps)
-    write_out(
-        "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
-        "{:.3g}\n",
-        overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
+    if (overlap.is_overlap()) {
+      write_out(
+          "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
+          "{:.3g}\n",
+          overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
+    } else {
+      write_out(
+          "gap of contact: {} nodes of '{}' touched '{}' or nearly so; nodes were moved by up to {:.3g} to make "
+          "a gap of {:.3g}\n",
+          overlap.nodes, overlap.node_part, overlap.face_part, overlap.moved, overlap.gap);
+    }
 }
 
 void check(const ForecastOptions& options, bool json) {

@@ -55,8 +55,8 @@ class Auditor {
     }
   }
 
-  Audit of_node(int slave) const {
-    Audit found;
+  BruteForceAudit of_node(int slave) const {
+    BruteForceAudit found;
     const auto s = static_cast<std::size_t>(slave);
     if (surface_.node[s] < 0) return found;
     const Vector3d x = position(nodes_, surface_.node[s]);
@@ -72,8 +72,8 @@ class Auditor {
   }
 
   // Beams that cross shells.
-  Audit of_round(int index) const {
-    Audit found;
+  BruteForceAudit of_round(int index) const {
+    BruteForceAudit found;
     const RoundElement& element = surface_.round[static_cast<std::size_t>(index)];
     if (element.alive() && !element.is_point() && pierces_shell(element.node[0], element.node[1]))
       ++found.shells_pierced;
@@ -81,8 +81,8 @@ class Auditor {
   }
 
   // Edges of one face that cross shells; an edge of two faces counts with the first.
-  Audit of_edges(int f) const {
-    Audit found;
+  BruteForceAudit of_edges(int f) const {
+    BruteForceAudit found;
     const auto own = static_cast<std::size_t>(f);
     const Face& face = surface_.face[own];
     if (!face.alive()) return found;
@@ -102,12 +102,12 @@ class Auditor {
            is_excluded(scene_.excluded, slave, static_cast<int>(face));
   }
 
-  bool note(double depth, Audit& found) const {
+  bool note(double depth, BruteForceAudit& found) const {
     found.deepest = std::max(found.deepest, depth);
     return true;
   }
 
-  bool too_close_to_shell(int slave, const Vector3d& x, Audit& found) const {
+  bool too_close_to_shell(int slave, const Vector3d& x, BruteForceAudit& found) const {
     bool close = false;
     for (std::size_t f : shell_) {
       const double touching = touching_distance(surface_, scene_.options, static_cast<int>(f), slave);
@@ -120,7 +120,7 @@ class Auditor {
   }
 
   // The closest place of the whole body decides, with its pseudo-normal.
-  bool inside_other_body(int body, int slave, const Vector3d& x, Audit& found) const {
+  bool inside_other_body(int body, int slave, const Vector3d& x, BruteForceAudit& found) const {
     double nearest = infinity;
     int nearest_face = -1;
     ClosestPoint nearest_point;
@@ -143,7 +143,7 @@ class Auditor {
   // A node of a body that does not cut itself sees its own surface from the surface: less than once around.
   // At the bottom of a closed cleft it is all around, and more by the wedge in which its flanks overlap. The
   // tip of a spike narrower than that wedge is not found.
-  bool inside_own_body(int slave, const Vector3d& x, Audit& found) const {
+  bool inside_own_body(int slave, const Vector3d& x, BruteForceAudit& found) const {
     if (surface_.of_solid[static_cast<std::size_t>(slave)] == 0) return false;
     const int body = surface_.body[static_cast<std::size_t>(slave)];
     double depth = infinity;
@@ -210,7 +210,7 @@ class Auditor {
 
 }  // namespace
 
-Audit& Audit::operator+=(const Audit& other) {
+BruteForceAudit& BruteForceAudit::operator+=(const BruteForceAudit& other) {
   inside_solids += other.inside_solids;
   shells_too_close += other.shells_too_close;
   shells_pierced += other.shells_pierced;
@@ -222,12 +222,12 @@ Audit& Audit::operator+=(const Audit& other) {
   return *this;
 }
 
-Audit audit(const ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
+BruteForceAudit brute_force_audit(const ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   const Auditor auditor(scene, nodes);
   const std::size_t slaves = scene.surface.slaves();
   const std::size_t faces = scene.surface.face.size();
   const std::size_t all = slaves + faces + scene.surface.round.size();
-  std::vector<Audit> piece((all + nodes_per_task - 1) / nodes_per_task);
+  std::vector<BruteForceAudit> piece((all + nodes_per_task - 1) / nodes_per_task);
   team.for_ranges(all, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       piece[begin / nodes_per_task] += i < slaves ? auditor.of_node(static_cast<int>(i))
@@ -235,8 +235,8 @@ Audit audit(const ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
                                            ? auditor.of_edges(static_cast<int>(i - slaves))
                                            : auditor.of_round(static_cast<int>(i - slaves - faces));
   });
-  Audit sum;
-  for (const Audit& part : piece) sum += part;
+  BruteForceAudit sum;
+  for (const BruteForceAudit& part : piece) sum += part;
   if (scene.lines) {
     const LineAudit lines = audit_lines(scene, nodes, team);
     sum += {.lines_crossed = lines.crossed, .deepest = lines.deepest, .deepest_node = lines.deepest_node};

@@ -9,7 +9,7 @@ namespace brio {
 
 /// Missed contacts. A penetration counts when it is deeper than a tenth of the smaller of the face's shortest
 /// edge and, where shells meet, the touching distance.
-struct Audit {
+struct BruteForceAudit {
   int inside_solids = 0;     ///< nodes that lie too deep inside a closed body, their own folded body included
   int shells_too_close = 0;  ///< nodes nearer to the middle surface of a shell than their thickness allows
   int shells_pierced = 0;    ///< edges and beams that cross the middle surface of a shell
@@ -17,11 +17,11 @@ struct Audit {
   double deepest = 0;        ///< of the penetrations that count
   int deepest_node = -1;     ///< global number
 
-  Audit& operator+=(const Audit& other);
+  BruteForceAudit& operator+=(const BruteForceAudit& other);
   int missed() const { return inside_solids + shells_too_close + shells_pierced + lines_crossed; }
 };
 
 /// Cost grows with the square of the size of the surface.
-Audit audit(const ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
+BruteForceAudit brute_force_audit(const ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
 
 }  // namespace brio

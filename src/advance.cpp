@@ -334,7 +334,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
 void audit_contacts(Model& model, ThreadTeam& team) {
   if (!model.missed_contacts) return;
   for (const ContactScene& scene : model.contacts) {
-    const Audit found = audit(scene, model.nodes, team);
+    const BruteForceAudit found = brute_force_audit(scene, model.nodes, team);
     if (found.deepest > model.missed_contacts->found.deepest)
       model.missed_contacts->time_of_deepest = model.times.time;
     model.missed_contacts->found += found;

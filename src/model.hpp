@@ -32,7 +32,7 @@ namespace brio {
 
 /// What audits have found so far.
 struct MissedContacts {
-  Audit found;
+  BruteForceAudit found;
   double time_of_deepest = 0;
 };
 

@@ -367,7 +367,7 @@ Summary observe_end(Model& model) {
     summary.contact.line_candidate_pairs = static_cast<std::int64_t>(lines.counts.candidate_pairs);
   }
   if (model.missed_contacts) {
-    const Audit& found = model.missed_contacts->found;
+    const BruteForceAudit& found = model.missed_contacts->found;
     summary.contact.missed = found.missed();
     summary.contact.missed_by_kind = {.inside_solids = found.inside_solids,
                                       .shells_too_close = found.shells_too_close,

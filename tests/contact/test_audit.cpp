@@ -18,11 +18,11 @@ TEST(Audit, FindsAPlantedPenetrationOfSolids) {
   model.add_box({3, 3, 3}, {3, 3, 3}, 1, shifted({0, 0, 0}));
   const int upper = model.add_box({1, 1, 1}, {0.9, 0.9, 0.9}, 1, shifted({1, 1, 3.001}));
   model.start({});
-  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+  EXPECT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0);
   move_nodes(model, upper, model.count(), {0, 0, -0.05});
-  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << "shallower than a tenth";
+  EXPECT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0) << "shallower than a tenth";
   move_nodes(model, upper, model.count(), {0, 0, -0.1});
-  const Audit found = audit(model.scene, model.nodes, team);
+  const BruteForceAudit found = brute_force_audit(model.scene, model.nodes, team);
   EXPECT_EQ(found.inside_solids, 4);
   EXPECT_NEAR(found.deepest, 0.149, 1e-12);
   EXPECT_GE(found.deepest_node, upper);
@@ -36,7 +36,7 @@ TEST(Audit, CountsNothingBesideAFlakeTurnedInsideOut) {
   const int beside = model.add_box({1, 1, 1}, {1, 1, 1}, 1, shifted({0, 0, 1.3}));
   model.start({});
   for (int n = 0; n < beside; ++n) move_nodes(model, n, n + 1, {0, 0, 1 - 2 * model.x(n)[2]});
-  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+  EXPECT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0);
 }
 
 TEST(Audit, FindsShellsTooCloseAndPierced) {
@@ -47,13 +47,13 @@ TEST(Audit, FindsShellsTooCloseAndPierced) {
     return {1.1 + x[0], 1.2, 0.101 + x[1]};
   });
   model.start({});
-  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+  EXPECT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0);
   move_nodes(model, upper, model.count(), {0, 0, -0.02});
-  const Audit close = audit(model.scene, model.nodes, team);
+  const BruteForceAudit close = brute_force_audit(model.scene, model.nodes, team);
   EXPECT_EQ(close.shells_too_close, 5);
   EXPECT_EQ(close.shells_pierced, 0);
   move_nodes(model, upper, model.count(), {0, 0, -0.4});
-  EXPECT_EQ(audit(model.scene, model.nodes, team).shells_pierced, 5 + 3)
+  EXPECT_EQ(brute_force_audit(model.scene, model.nodes, team).shells_pierced, 5 + 3)
       << "its uprights, and columns of the lower";
 }
 
@@ -76,7 +76,7 @@ TEST(Audit, CountsNothingAtTheBottomOfAClosedCleft) {
     open.start({});
     closed.start({});
     for (int n = 0; n < open.count(); ++n) move_nodes(open, n, n + 1, closed.x(n) - open.x(n));
-    return audit(open.scene, open.nodes, team).missed();
+    return brute_force_audit(open.scene, open.nodes, team).missed();
   };
   EXPECT_EQ(missed(0.1), 0);
   EXPECT_EQ(missed(0), 0);
@@ -94,7 +94,7 @@ TEST(Audit, FindsASolidThatCutsItself) {
     return {(3 + x[0]) * std::cos(angle), x[1], (3 + x[0]) * std::sin(angle)};
   });
   model.start({});
-  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+  EXPECT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0);
   // The first section, made narrower, is turned back until it lies inside the last cell.
   for (int n = 0; n < 4; ++n) {
     const double angle = -0.16 * std::numbers::pi;
@@ -102,7 +102,7 @@ TEST(Audit, FindsASolidThatCutsItself) {
     move_nodes(model, n, n + 1,
                Vector3d(radius * std::cos(angle), n < 2 ? 0.3 : 0.7, radius * std::sin(angle)) - model.x(n));
   }
-  EXPECT_EQ(audit(model.scene, model.nodes, team).inside_solids, 4);
+  EXPECT_EQ(brute_force_audit(model.scene, model.nodes, team).inside_solids, 4);
 }
 
 }  // namespace

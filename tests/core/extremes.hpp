@@ -225,7 +225,7 @@ struct Watched {
       contacts.push_back(m.contacts[0].step.contacts);
       active.push_back(m.contacts[0].step.active);
       if (audit_every > 0 && step++ % audit_every == 0)
-        missed += audit(m.contacts[0], m.nodes, team).missed();
+        missed += brute_force_audit(m.contacts[0], m.nodes, team).missed();
     });
   }
   explicit Watched(const Deck& deck, int audit_every = 0) : Watched(deck, build_model(deck), audit_every) {}

@@ -100,7 +100,7 @@ Outcome drop(Kind upper_kind, Kind lower_kind, double friction) {
   Outcome outcome;
   int step = 0;
   run(model, deck, team, [&](Model& m) {
-    if (step++ % 50 == 0) outcome.missed += audit(m.contacts[0], m.nodes, team).missed();
+    if (step++ % 50 == 0) outcome.missed += brute_force_audit(m.contacts[0], m.nodes, team).missed();
   });
   Momentum now = momentum(model.nodes);
   add_momentum(model.rigid, now);

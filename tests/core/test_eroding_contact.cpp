@@ -80,7 +80,7 @@ Outcome run_scene(const Deck& deck, int threads, int audit_every) {
     if (outcome.first_contact == 0 && active > 0) outcome.first_contact = m.times.time;
     if (!m.erosion->deleted.empty()) outcome.contacts_while_deleting += active;
     outcome.worst_energy = std::max(outcome.worst_energy, std::abs(m.energy.relative_error()));
-    if (m.step % audit_every == 0) outcome.missed += audit(m.contacts[0], m.nodes, team).missed();
+    if (m.step % audit_every == 0) outcome.missed += brute_force_audit(m.contacts[0], m.nodes, team).missed();
   });
   outcome.positions.reserve(3 * model.nodes.size());
   for (const NodeRecord& record : model.nodes.record)

@@ -274,7 +274,7 @@ TEST(ExtremesSpeed, ProjectileThatCrossesManyFacesAStepIsStopped) {
         const double* x = m.nodes.record[static_cast<std::size_t>(node)].position;
         if (std::abs(x[0]) < 0.5 && std::abs(x[1]) < 0.5) lowest = std::min(lowest, x[2]);
       }
-      missed += audit(m.contacts[0], m.nodes, team).missed();
+      missed += brute_force_audit(m.contacts[0], m.nodes, team).missed();
     });
     std::printf("faces crossed in a step: up to %.1f; lowest node %.1e\n", longest, lowest);
     EXPECT_GT(longest, 3);

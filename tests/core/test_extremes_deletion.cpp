@@ -98,7 +98,7 @@ TEST(ExtremesDeletion, TwoNeighboursInOneStepLayBareWhatWasBetweenThem) {
       if (!m.erosion->deleted.empty())
         deaths.emplace_back(m.erosion->deleted.begin(), m.erosion->deleted.end());
       touched = std::max(touched, m.contacts[0].step.active);
-      missed += audit(m.contacts[0], m.nodes, team).missed();
+      missed += brute_force_audit(m.contacts[0], m.nodes, team).missed();
       most_overlap = m.contacts[0].totals.deepest_overlap;
     });
     ASSERT_FALSE(deaths.empty());

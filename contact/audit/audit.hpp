@@ -39,6 +39,8 @@ struct Audit {
 
   Audit& operator+=(const Audit& other);
   std::int64_t missed() const { return crossings + too_close + swallowed; }
+  /// Without crossings of less than a tenth of an edge.
+  std::int64_t deep() const { return deep_crossings + too_close + swallowed; }
   /// The deepest of all.
   const AuditPlace& deepest() const {
     return deepest_too_close.depth > deepest_crossing.depth ? deepest_too_close : deepest_crossing;

@@ -62,36 +62,39 @@ void AuditedSurface::find_pieces() {
 }
 
 void AuditedSurface::collect_faces() {
-  std::vector<AuditedFace> unsorted;
+  std::vector<int> alive;
   std::vector<BoundingBox> box;
   for (std::size_t f = 0; f < surface.face.size(); ++f) {
-    const Face& known = surface.face[f];
-    if (!known.alive()) continue;
-    AuditedFace& own = unsorted.emplace_back();
+    if (!surface.face[f].alive()) continue;
+    alive.push_back(static_cast<int>(f));
     BoundingBox& bounds = box.emplace_back();
-    own.node = known.node;
-    own.shell = known.shell;
-    own.corners = known.corners();
-    own.face = static_cast<int>(f);
-    own.piece = piece_of_node(known.node[0]);
-    own.rigid = surface.rigid_body(known.node[0]);
-    for (std::size_t k = 0; k < 4; ++k) {
-      own.x[k] = position(known.node[k]);
-      bounds.add(own.x[k]);
-    }
-    own.shortest_edge = HUGE_VAL;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(own.corners); ++k)
-      own.shortest_edge = std::min(
-          own.shortest_edge, (own.x[(k + 1) % static_cast<std::size_t>(own.corners)] - own.x[k]).norm());
-    (known.shell ? has_shells : has_solids) = true;
+    for (int node : surface.face[f].node) bounds.add(position(node));
   }
   std::vector<BoundingBox> sorted(box.size());
   face.reserve(box.size());
   for (int i : morton_order(box)) {
     sorted[face.size()] = box[static_cast<std::size_t>(i)];
-    face.push_back(unsorted[static_cast<std::size_t>(i)]);
+    add_face(alive[static_cast<std::size_t>(i)]);
   }
   tree = BoxTree(std::move(sorted));
+}
+
+void AuditedSurface::add_face(int number) {
+  const Face& known = surface.face[static_cast<std::size_t>(number)];
+  AuditedFace& own = face.emplace_back();
+  own.node = known.node;
+  own.shell = known.shell;
+  own.corners = known.corners();
+  own.face = number;
+  own.piece = piece_of_node(known.node[0]);
+  own.rigid = surface.rigid_body(known.node[0]);
+  for (std::size_t k = 0; k < 4; ++k) own.x[k] = position(known.node[k]);
+  const auto corners = static_cast<std::size_t>(own.corners);
+  double shortest = HUGE_VAL;
+  for (std::size_t k = 0; k < corners; ++k)
+    shortest = std::min(shortest, (own.x[(k + 1) % corners] - own.x[k]).squaredNorm());
+  own.shortest_edge = std::sqrt(shortest);
+  (known.shell ? has_shells : has_solids) = true;
 }
 
 void AuditedSurface::find_continuation() {

@@ -63,6 +63,7 @@ struct AuditedSurface {
  private:
   void find_pieces();
   void collect_faces();
+  void add_face(int number);
   void find_continuation();
 };
 

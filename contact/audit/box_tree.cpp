@@ -40,15 +40,40 @@ std::vector<int> morton_order(std::span<const BoundingBox> boxes) {
   return order;
 }
 
-BoxTree::BoxTree(std::vector<BoundingBox> boxes) {
-  if (boxes.empty()) return;
-  level_.push_back(std::move(boxes));
-  while (level_.back().size() > width) {
-    const std::vector<BoundingBox>& below = level_.back();
-    std::vector<BoundingBox> branches((below.size() + width - 1) / width);
-    for (std::size_t i = 0; i < below.size(); ++i) branches[i / width].add(below[i]);
-    level_.push_back(std::move(branches));
+BoxTree::Bounds BoxTree::rounded_outwards(const BoundingBox& box) {
+  constexpr double unit = 0x1p-23;  // twice the relative error of single precision
+  Bounds bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    bounds.lower[axis] = static_cast<float>(box.lower[axis] - unit * std::abs(box.lower[axis]));
+    bounds.upper[axis] = static_cast<float>(box.upper[axis] + unit * std::abs(box.upper[axis]));
   }
+  return bounds;
+}
+
+BoxTree::BoxTree(std::vector<BoundingBox> boxes) : box_(std::move(boxes)) {
+  if (box_.empty()) return;
+  std::vector<Bounds> below(box_.size());
+  for (std::size_t i = 0; i < below.size(); ++i) below[i] = rounded_outwards(box_[i]);
+  do {
+    const std::size_t count = (below.size() + width - 1) / width;
+    std::vector<Branch>& branches = level_.emplace_back(count);
+    std::vector<Bounds> all(count);
+    for (std::size_t b = 0; b < count; ++b)
+      for (int axis = 0; axis < 3; ++axis) {
+        float lower = HUGE_VALF, upper = -HUGE_VALF;
+        for (std::size_t i = 0; i < width; ++i) {
+          const std::size_t child = width * b + i;
+          const bool known = child < below.size();
+          branches[b].lower[axis][i] = known ? below[child].lower[axis] : HUGE_VALF;
+          branches[b].upper[axis][i] = known ? below[child].upper[axis] : -HUGE_VALF;
+          lower = std::min(lower, branches[b].lower[axis][i]);
+          upper = std::max(upper, branches[b].upper[axis][i]);
+        }
+        all[b].lower[axis] = lower;
+        all[b].upper[axis] = upper;
+      }
+    below = std::move(all);
+  } while (below.size() > 1);
 }
 
 }  // namespace brio

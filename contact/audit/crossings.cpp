@@ -1,6 +1,7 @@
 #include "contact/audit/crossings.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 
@@ -16,7 +17,6 @@ constexpr double deep_ratio = 0.1;
 
 /// Edges of a quadrilateral, then its diagonals; a triangle has the first three.
 constexpr std::size_t segment_end[6][2] = {{0, 1}, {1, 2}, {2, 0}, {2, 3}, {3, 0}, {1, 3}};
-constexpr int segments_of(int corners) { return corners == 3 ? 3 : 6; }
 
 /// A face's corners, or a beam's ends, that may cross triangles.
 struct CrossingElement {
@@ -43,8 +43,8 @@ class CrossingSearch {
       const AuditedFace& other = face(j);
       if (own.rigid >= 0 && own.rigid == other.rigid) return;
       PairOfElements pair;
-      cross(element(own), other, pair);
-      cross(element(other), own, pair);
+      cross(element(own), other, audited_.tree.box(j), pair);
+      cross(element(other), own, audited_.tree.box(i), pair);
       note(pair, std::min(own.shortest_edge, other.shortest_edge), own.piece, other.piece, result);
       if (!pair.crosses && own.piece != other.piece && !(own.shell && other.shell))
         result.near_faces.push_back({i, j});
@@ -61,7 +61,7 @@ class CrossingSearch {
         .x = x, .node = beam.node.data(), .corners = 2, .part = beam.part, .face = nullptr};
     audited_.tree.for_overlapping(box, 0, [&](int j) {
       PairOfElements pair;
-      cross(own, face(j), pair);
+      cross(own, face(j), audited_.tree.box(j), pair);
       note(pair, std::min(face(j).shortest_edge, (x[1] - x[0]).norm()), audited_.piece_of_node(beam.node[0]),
            face(j).piece, result);
     });
@@ -82,23 +82,44 @@ class CrossingSearch {
   }
 
   // Segments of the element with triangles of the face.
-  void cross(const CrossingElement& own, const AuditedFace& other, PairOfElements& pair) const {
+  void cross(const CrossingElement& own, const AuditedFace& other, const BoundingBox& box_of_other,
+             PairOfElements& pair) const {
+    const unsigned near = segments_near(own, other, box_of_other);
+    if (near == 0) return;
     for (int t = 0; t < other.triangles(); ++t) {
       const SurfaceTriangle triangle = other.triangle(t);
       std::array<SurfaceTriangle::Volume, 4> volume;
-      bool above = false, below = false;
-      for (int c = 0; c < own.corners; ++c) {
-        volume[static_cast<std::size_t>(c)] = triangle.volume(own.x[c]);
-        above |= volume[static_cast<std::size_t>(c)].value > -volume[static_cast<std::size_t>(c)].error;
-        below |= volume[static_cast<std::size_t>(c)].value < volume[static_cast<std::size_t>(c)].error;
-      }
-      if (!above || !below) continue;
+      for (std::size_t c = 0; c < static_cast<std::size_t>(own.corners); ++c)
+        volume[c] = triangle.volume(own.x[c]);
       const double touch = audited_.tolerance * triangle.twice_area;
-      for (int s = 0; s < (own.corners == 2 ? 1 : segments_of(own.corners)); ++s) {
-        const std::size_t a = segment_end[s][0], b = segment_end[s][1];
+      for (unsigned bits = near; bits != 0; bits &= bits - 1) {
+        const auto& [a, b] = segment_end[std::countr_zero(bits)];
         if (may_cross(volume[a], volume[b], touch)) keep_crossing(own, a, b, other, triangle, pair);
       }
     }
+  }
+
+  // Bit s: segment s shares no node with the face, and its box overlaps that of the face.
+  static unsigned segments_near(const CrossingElement& own, const AuditedFace& other,
+                                const BoundingBox& box) {
+    bool shared[4], below[4][3], above[4][3];
+    for (int c = 0; c < own.corners; ++c) {
+      shared[c] = other.has(own.node[c]);
+      for (int axis = 0; axis < 3; ++axis) {
+        below[c][axis] = own.x[c][axis] < box.lower[axis];
+        above[c][axis] = own.x[c][axis] > box.upper[axis];
+      }
+    }
+    unsigned near = 0;
+    const int segments = own.corners == 2 ? 1 : own.corners == 3 ? 3 : 6;
+    for (int s = 0; s < segments; ++s) {
+      const auto& [a, b] = segment_end[s];
+      bool apart = shared[a] || shared[b];
+      for (int axis = 0; axis < 3; ++axis)
+        apart |= (below[a][axis] && below[b][axis]) || (above[a][axis] && above[b][axis]);
+      near |= (apart ? 0u : 1u) << s;
+    }
+    return near;
   }
 
   // Whether the ends may lie on different sides, and neither within the tolerance for certain.
@@ -109,7 +130,6 @@ class CrossingSearch {
 
   void keep_crossing(const CrossingElement& own, std::size_t a, std::size_t b, const AuditedFace& other,
                      const SurfaceTriangle& triangle, PairOfElements& pair) const {
-    if (other.has(own.node[a]) || other.has(own.node[b])) return;
     const Vector3d &from = own.x[a], &to = own.x[b];
     for (int axis = 0; axis < 3; ++axis) {
       const auto at = [&](std::size_t k) { return triangle.corner[k][axis]; };

@@ -61,10 +61,16 @@ class NodeProximity {
     const double touching = half_thickness(face) + radius;
     const double least = touching - tolerated_ratio * std::min(touching, face.shortest_edge);
     if (box.squared_distance(x) >= least * least) return 0;
-    const auto excluded = scene_.excluded.of(slave);
-    if (std::binary_search(excluded.begin(), excluded.end(), face.face)) return 0;
+    if (is_excluded(slave, face.face)) return 0;
     const double distance = distance_to_face(x, face.x, face.corners);
     return distance < least && !surface_.never_touch(slave, known(face)) ? touching - distance : 0;
+  }
+
+  // Lists are short: all of one is compared at once.
+  bool is_excluded(int slave, int face) const {
+    int found = 0;
+    for (int other : scene_.excluded.of(slave)) found |= other == face ? 1 : 0;
+    return found != 0;
   }
 
   int part_of(int slave) const {

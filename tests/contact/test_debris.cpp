@@ -1,7 +1,7 @@
 // Nodes left without elements that stay in contact with a radius.
 #include <gtest/gtest.h>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "contact/face_geometry.hpp"
 #include "tests/contact/spring_model.hpp"
 
@@ -47,7 +47,7 @@ TEST(Debris, FliesAgainstAPlateAndTurnsAtItsRadius) {
         model.step(dt);
         for (int n = first; n < first + 8; ++n) nearest = std::min(nearest, distance_to_surface(model, n));
         if (i % 20 == 0) {
-          ASSERT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0);
+          ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
         }
       }
       EXPECT_LT((model.momentum() - momentum).norm(), 1e-12 * momentum.norm());
@@ -92,7 +92,7 @@ TEST(Debris, IsOutsideOfTheBodyThatItWasPartOf) {
       model.step(1e-3);
       nearest = std::min(nearest, distance_to_surface(model, node));
       if (i % 20 == 0) {
-        ASSERT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0);
+        ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
       }
     }
     EXPECT_LT((model.momentum() - momentum).norm(), 1e-12);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -34,10 +34,10 @@ TEST(FoldingStripSlow, NeverPassesThroughItself) {
       model.step(dt);
       most_contacts = std::max(most_contacts, model.scene.step.active);
       if (i % 50 != 0) continue;
-      ASSERT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0) << refine << " step " << i;
+      ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << refine << " step " << i;
     }
     EXPECT_GT(most_contacts, 0) << "it has folded onto itself";
-    EXPECT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0);
+    EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
     EXPECT_LT(model.scene.totals.deepest_overlap, 0.01 * 0.25);
   }
 }

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "contact/solve.hpp"
 #include "tests/contact/spring_model.hpp"
 
@@ -284,7 +284,7 @@ TEST(ShellSides, NodesEndWhereTheyCameFrom) {
     ThreadTeam team(1);
     for (int i = 0; i < 400; ++i) {
       model.step(1e-3);
-      ASSERT_EQ(brute_force_audit(model.scene, model.nodes, team).missed(), 0) << side << " step " << i;
+      ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << side << " step " << i;
     }
     EXPECT_GT(side * (model.centre(sheet_end, model.count())[2] - model.centre(0, sheet_end)[2]), 0.2);
   }

@@ -92,13 +92,14 @@ TEST(ExtremesDeletion, TwoNeighboursInOneStepLayBareWhatWasBetweenThem) {
     Model model = build_model(deck);
     ThreadTeam team(1);
     std::vector<std::vector<DeletedElement>> deaths;
-    int touched = 0, missed = 0;
+    int touched = 0;
+    std::int64_t missed = 0;
     double most_overlap = 0;
     run(model, deck, team, [&](Model& m) {
       if (!m.erosion->deleted.empty())
         deaths.emplace_back(m.erosion->deleted.begin(), m.erosion->deleted.end());
       touched = std::max(touched, m.contacts[0].step.active);
-      missed += brute_force_audit(m.contacts[0], m.nodes, team).missed();
+      missed += audit(m.contacts[0], m.nodes, team).missed();
       most_overlap = m.contacts[0].totals.deepest_overlap;
     });
     ASSERT_FALSE(deaths.empty());

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -126,7 +126,7 @@ TEST(SlidingBlock, FallsThroughAFloorThatItMustNotTouch) {
   ThreadTeam team(1);
   run(model, deck, team);
   EXPECT_NEAR(centre_of(model, 0)[2], 0.25 - 0.5 * weight * 0.01, 1e-3);
-  EXPECT_EQ(brute_force_audit(model.contacts[0], model.nodes, team).missed(), 0);
+  EXPECT_EQ(audit(model.contacts[0], model.nodes, team).missed(), 0);
   EXPECT_EQ(model.contacts[0].totals.contacts, 0U);
 }
 

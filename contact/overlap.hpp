@@ -17,7 +17,7 @@ struct InitialOverlap {
   double depth = 0;       ///< the deepest, the gap that contact keeps included
   int nodes = 0;
   double moved = 0;  ///< how far the nodes of both were moved at most
-  double gap = 0;  ///< that contact by distances keeps between them beyond their thickness
+  double gap = 0;    ///< that contact by distances keeps between them beyond their thickness
 
   /// Whether more was missing than the gap.
   bool is_overlap() const { return depth > (1 + rounding) * gap; }

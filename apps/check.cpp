@@ -141,7 +141,7 @@ void print_overlaps(std::span<const InitialOverlap> overlaps) {
       write_out(
           "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
           "{:.3g}\n",
-          overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth - overlap.gap, overlap.moved);
+          overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
       continue;
     }
     if (first == nullptr) first = &overlap;

@@ -9,7 +9,6 @@
 #include "contact/face_geometry.hpp"
 #include "contact/global_search.hpp"
 #include "contact/velocity_check.hpp"
-#include "contact/winding.hpp"
 
 namespace brio {
 
@@ -51,24 +50,11 @@ std::optional<double> first_meeting(const MovingNode& way, const FaceVertices& a
   return first;
 }
 
-// Whether an end of the edge lies in the body of the face.
-bool lies_in(const Surface& surface, const Nodes& nodes, const EdgeFeature& edge, const Face& pierced) {
-  if (pierced.shell || edge.body == pierced.body) return false;
-  return std::any_of(edge.node.begin(), edge.node.end(), [&](int slave) {
-    const Vector3d x = position(nodes, surface.node[static_cast<std::size_t>(slave)]);
-    double winding = 0;
-    for (const Face& face : surface.face)
-      if (face.alive() && !face.shell && face.body == pierced.body)
-        winding += winding_share(vertices(nodes, face), x);
-    return winding > 0.5;
-  });
-}
-
 [[noreturn]] void refuse(const Surface& surface, const EdgeFeature& edge, const Face& face,
-                         const Vector3d& at, bool inside) {
+                         const Vector3d& at) {
   std::ostringstream text;
   text << "contact: part '" << surface.part_name[static_cast<std::size_t>(edge.part)]
-       << (inside ? "' lies in part '" : "' goes through part '")
+       << (face.shell ? "' goes through part '" : "' lies in part '")
        << surface.part_name[static_cast<std::size_t>(face.part)] << "', whose surface it crosses at ("
        << at[0] << ", " << at[1] << ", " << at[2] << "); accepted are bodies that begin beside each other";
   throw std::invalid_argument(text.str());
@@ -124,11 +110,8 @@ void expect_nothing_crosses(const SurfaceFeatures& features, const Surface& surf
       return !face_of(one).shell || surface.held.one_piece(face_of(one).body, edge_of(one).body);
     });
   if (found.empty()) return;
-  const auto inside = std::find_if(found.begin(), found.end(), [&](const Piercing& one) {
-    return lies_in(surface, nodes, edge_of(one), face_of(one));
-  });
-  const Piercing& told = inside == found.end() ? found.front() : *inside;
-  refuse(surface, edge_of(told), face_of(told), told.point, inside != found.end());
+  const Piercing& told = found.front();
+  refuse(surface, edge_of(told), face_of(told), told.point);
 }
 
 }  // namespace brio

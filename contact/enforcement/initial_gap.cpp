@@ -83,11 +83,9 @@ class GapMaker {
       search();
       find(0);
     }
-    for (const SidedPair& pair : found_) {
-      if (!is_missing(pair)) continue;
-      expect_within_limit(pair);
-      if (!is_held(pair) || must_move(pair)) record(pair);
-    }
+    expect_within_limit();
+    for (const SidedPair& pair : found_)
+      if (is_missing(pair) && (!is_held(pair) || must_move(pair))) record(pair);
     if (!report_.empty()) make_gap();
     expect_uncrossed(false);
     expect_bodies_apart(scene_, nodes_);
@@ -168,9 +166,13 @@ class GapMaker {
     if (scene_.erosion) scene_.erosion->keeps_numbers = true;
   }
 
-  void expect_within_limit(const SidedPair& pair) const {
-    if (overlap(pair) > scene_.options.initial_overlap_limit * pair.scale)
-      refuse(pair, "deeper than initial_overlap_limit allows");
+  void expect_within_limit() const {
+    const SidedPair* deepest = nullptr;
+    for (const SidedPair& pair : found_)
+      if (overlap(pair) > scene_.options.initial_overlap_limit * pair.scale &&
+          (deepest == nullptr || overlap(pair) > overlap(*deepest)))
+        deepest = &pair;
+    if (deepest != nullptr) refuse(*deepest, "deeper than initial_overlap_limit allows");
   }
 
   [[noreturn]] void refuse(const SidedPair& pair, const char* why) const {
@@ -193,7 +195,7 @@ class GapMaker {
       near_.emplace_back();
     }
     InitialOverlap& known = report_[entry];
-    known.depth = std::max(known.depth, -pair.contact.gap);
+    if (overlap(pair) > resolved_share * pair.scale) known.depth = std::max(known.depth, overlap(pair));
     known.gap = std::max(known.gap, pair.skin);
     near_[entry].insert(pair.contact.node.begin(), pair.contact.node.begin() + pair.contact.own);
     known.nodes = static_cast<int>(near_[entry].size());

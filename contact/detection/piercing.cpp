@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
+#include <stdexcept>
 
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
@@ -48,11 +50,21 @@ std::optional<double> first_meeting(const MovingNode& way, const FaceVertices& a
   return first;
 }
 
+[[noreturn]] void refuse(const Surface& surface, const EdgeFeature& edge, const Face& face,
+                         const Vector3d& at) {
+  std::ostringstream text;
+  text << "contact: part '" << surface.part_name[static_cast<std::size_t>(edge.part)]
+       << (face.shell ? "' goes through part '" : "' lies in part '")
+       << surface.part_name[static_cast<std::size_t>(face.part)] << "', whose surface it crosses at ("
+       << at[0] << ", " << at[1] << ", " << at[2] << "); accepted are bodies that begin beside each other";
+  throw std::invalid_argument(text.str());
+}
+
 }  // namespace
 
 std::vector<Piercing> find_piercings(const SurfaceFeatures& features, const Surface& surface,
-                                     const Lists& excluded, const ContactOptions& options,
-                                     const Nodes& nodes, ThreadTeam& team) {
+                                     const Lists& excluded, const ContactOptions& options, const Nodes& nodes,
+                                     ThreadTeam& team) {
   std::vector<CaptureBox> edges(features.edge.size(), empty_box), faces(surface.face.size(), empty_box);
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (!features.edge[e].is_point()) edges[e] = box_around(nodes, ends_of(surface, features.edge[e]));
@@ -81,6 +93,25 @@ std::vector<Piercing> find_piercings(const SurfaceFeatures& features, const Surf
     }
   }
   return found;
+}
+
+void expect_nothing_crosses(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
+                            const ContactOptions& options, const Nodes& nodes, bool shells_alone,
+                            ThreadTeam& team) {
+  std::vector<Piercing> found = find_piercings(features, surface, excluded, options, nodes, team);
+  const auto edge_of = [&](const Piercing& one) -> const EdgeFeature& {
+    return features.edge[static_cast<std::size_t>(one.edge)];
+  };
+  const auto face_of = [&](const Piercing& one) -> const Face& {
+    return surface.face[static_cast<std::size_t>(one.face)];
+  };
+  if (shells_alone)
+    std::erase_if(found, [&](const Piercing& one) {
+      return !face_of(one).shell || surface.held.one_piece(face_of(one).body, edge_of(one).body);
+    });
+  if (found.empty()) return;
+  const Piercing& told = found.front();
+  refuse(surface, edge_of(told), face_of(told), told.point);
 }
 
 }  // namespace brio

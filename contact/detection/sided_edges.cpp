@@ -10,6 +10,9 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// Edges that are more parallel meet with their ends.
+constexpr double crossing_sine = 0.05;
+
 class EdgesAndEdges {
  public:
   EdgesAndEdges(const SidedLook& look, const FeaturePairs& pairs, double band, std::vector<SidedPair>& found)
@@ -58,7 +61,7 @@ class EdgesAndEdges {
     const Vector3d normal = closest.offset / distance;
     if (!solids || are_outside(a, b, normal)) {
       add(pair, feet, normal, distance, true);
-    } else {
+    } else if (cross(sa, sb) && is_behind(b, closest.offset) && is_behind(a, -closest.offset)) {
       add(pair, feet, -normal, -distance, false);
     }
   }
@@ -77,6 +80,18 @@ class EdgesAndEdges {
       sum += (at[2] - at[0]).cross(at[3] - at[1]).normalized();
     }
     return sum;
+  }
+  // Whether a point, from one on the edge, lies behind both faces.
+  bool is_behind(const EdgeFeature& edge, const Vector3d& offset) const {
+    return std::all_of(edge.face.begin(), edge.face.end(), [&](int f) {
+      if (f < 0) return true;
+      const FaceVertices at = look_.corners(surface_.face[static_cast<std::size_t>(f)]);
+      return (at[2] - at[0]).cross(at[3] - at[1]).normalized().dot(offset) < -coincident_;
+    });
+  }
+  static bool cross(const Segment& a, const Segment& b) {
+    const Vector3d along_a = (a[1] - a[0]).normalized(), along_b = (b[1] - b[0]).normalized();
+    return along_a.cross(along_b).norm() > crossing_sine;
   }
   bool are_outside(const EdgeFeature& a, const EdgeFeature& b, const Vector3d& from_b) const {
     return from_b.dot(normal_of(b)) >= 0 || from_b.dot(normal_of(a)) <= 0;
@@ -136,6 +151,7 @@ class EdgesAndEdges {
     contact.weight = {1 - feet.parameter[0], feet.parameter[0], feet.parameter[1] - 1, -feet.parameter[1], 0};
     contact.normal = normal;
     contact.gap = distance - reach;
+    one.distance = distance;
     one.skin = is_spaced(pair) ? look_.skin_in(a.radius) + look_.skin_in(b.radius) : 2 * features_.skin;
     one.scale = reach - one.skin > 0 ? reach - one.skin : features_.smallest_edge;
     one.is_apart = is_apart;

@@ -20,8 +20,9 @@ class Directions {
  public:
   void add(const Eigen::Vector3d& direction);
   /// Zero: there are none, or they cancel.
-  Eigen::Vector3d mean() const { return unit_or(sum_.norm() > least_sum ? sum_ : Eigen::Vector3d::Zero(),
-                                                Eigen::Vector3d::Zero()); }
+  Eigen::Vector3d mean() const {
+    return unit_or(sum_.norm() > least_sum ? sum_ : Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  }
 
  private:
   static constexpr double same_cosine = 0.9999;

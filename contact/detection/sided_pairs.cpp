@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 #include "contact/detection/sided_look.hpp"
@@ -75,9 +76,8 @@ class NodesAndFaces {
     }
     if (near.empty()) return;
     const double depth = std::sqrt(least);
-    const auto closest = std::find_if(near.begin(), near.end(), [&](const Near& one) {
-      return one.point.squared_distance == least;
-    });
+    const auto closest = std::find_if(near.begin(), near.end(),
+                                      [&](const Near& one) { return one.point.squared_distance == least; });
     const bool coincides = depth <= coincident_;
     if (!coincides && is_outside(surface_, look_.nodes, face_of(closest->pair), closest->point)) {
       for (const Near& one : near) look_by_distance(one.pair, s, x);
@@ -95,8 +95,7 @@ class NodesAndFaces {
     Vector3d way = out.mean();
     if (way.isZero(0) && coincides) way = between_surfaces(s, face_of(closest->pair), closest->point);
     if (way.isZero(0)) return;
-    for (const Near& one : near)
-      look_from_outside(one.pair, s, x, way, coincides ? 0 : depth);
+    for (const Near& one : near) look_from_outside(one.pair, s, x, way, coincides ? 0 : depth);
   }
 
   // Where the surfaces lie in each other's curves: the mean of both normals.
@@ -168,6 +167,7 @@ class NodesAndFaces {
     }
     contact.normal = normal;
     contact.gap = distance - reach;
+    one.distance = distance;
     one.skin = is_spaced(pair) ? look_.skin_in(features_.node_radius[static_cast<std::size_t>(s)]) +
                                      look_.skin_in(features_.face_radius[static_cast<std::size_t>(f)])
                                : 2 * features_.skin;
@@ -203,6 +203,20 @@ void keep_one_of_each(std::vector<SidedPair>& found, std::size_t begin) {
               found.end());
 }
 
+// Overlaps of edges wait until nodes are out.
+void leave_out_edges_beside_nodes(const Surface& surface, double coincident, std::vector<SidedPair>& found) {
+  const auto bodies = [&](const SidedPair& pair) -> std::pair<int, int> {
+    return std::minmax<int>(surface.body[static_cast<std::size_t>(pair.contact.node[0])],
+                       static_cast<int>(pair.contact.body));
+  };
+  std::set<std::pair<int, int>> waiting;
+  for (const SidedPair& pair : found)
+    if (pair.contact.face >= 0 && pair.distance < -coincident) waiting.insert(bodies(pair));
+  std::erase_if(found, [&](const SidedPair& pair) {
+    return pair.contact.face < 0 && pair.distance < -coincident && waiting.contains(bodies(pair));
+  });
+}
+
 }  // namespace
 
 void find_sided_pairs(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes,
@@ -214,6 +228,7 @@ void find_sided_pairs(const SurfaceFeatures& features, const Surface& surface, c
   const std::size_t edges = found.size();
   find_sided_edges(look, pairs, band, found);
   keep_one_of_each(found, edges);
+  leave_out_edges_beside_nodes(surface, coincident_share * features.smallest_edge, found);
 }
 
 }  // namespace brio

@@ -6,9 +6,11 @@
 /// looked at from where it would be had it come out: along the way to the closest point, on the face along
 /// the normals of those of its faces that the node's own neighbours do not reach behind. There the rule of
 /// distances tells the directions, and the gap is that of the node where it is; so a node in a groove is held
-/// off both of its sides, one at a corner off the corner alone. Two edges of solids overlap where they would
-/// be the closest of their surfaces, were each on the other's outside; where they coincide, the normals of
-/// their faces tell. Shells, beams and particles are on the side on which they are.
+/// off both of its sides, one at a corner off the corner alone. Two edges of solids overlap where each is
+/// behind both faces of the other, and they cross; that is looked at only between bodies of which no node
+/// lies in the other, as edges that are far from the surface would seem to overlap deeper than it is. Where
+/// edges coincide, the normals of their faces tell. Shells, beams and particles are on the side on which they
+/// are.
 
 #include <array>
 #include <vector>
@@ -22,11 +24,12 @@
 namespace brio {
 
 struct SidedPair {
-  Contact contact;  ///< gap: distance over the radii, or two skins; negative where that is missing
-  double skin = 0;  ///< what of the radii is skin
-  double scale = 0;  ///< length that overlap is measured against: of an edge, or the touching thickness
-  bool is_apart = true;         ///< the surfaces are on their sides, by more than rounding
-  bool spaced = true;           ///< by their radii; else by two skins, as they are one piece
+  double distance = 0;   ///< of the middle surfaces; negative: inside
+  Contact contact;       ///< gap: distance over the radii, or two skins; negative where that is missing
+  double skin = 0;       ///< what of the radii is skin
+  double scale = 0;      ///< length that overlap is measured against: of an edge, or the touching thickness
+  bool is_apart = true;  ///< the surfaces are on their sides, by more than rounding
+  bool spaced = true;    ///< by their radii; else by two skins, as they are one piece
   std::array<int, 2> feature{};  ///< node and face, or two edges
   std::array<int, 2> part{};
   std::array<int, 2> support{};  ///< what the closest points lie on

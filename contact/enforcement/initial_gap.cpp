@@ -13,7 +13,6 @@
 #include "contact/enforcement/impulse_solver.hpp"
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
-#include "contact/winding.hpp"
 
 namespace brio {
 
@@ -79,27 +78,23 @@ class GapMaker {
     depth_ = searched_depth();
     search();
     find(0);
-    expect_no_shell_crossed();
+    expect_uncrossed(true);
     while (exclude_within_pieces()) {
       search();
       find(0);
     }
-    for (const SidedPair& pair : found_) {
-      if (!is_missing(pair)) continue;
-      expect_within_limit(pair);
-      if (!is_held(pair) || must_move(pair)) record(pair);
-    }
+    expect_within_limit();
+    for (const SidedPair& pair : found_)
+      if (is_missing(pair) && (!is_held(pair) || must_move(pair))) record(pair);
     if (!report_.empty()) make_gap();
-    expect_nothing_crosses();
+    expect_uncrossed(false);
     expect_bodies_apart(scene_, nodes_);
     return std::move(report_);
   }
 
  private:
   static double overlap(const SidedPair& pair) { return -pair.contact.gap - pair.skin; }
-  bool is_missing(const SidedPair& pair) const {
-    return pair.contact.gap < -resolved_share * pair.scale;
-  }
+  bool is_missing(const SidedPair& pair) const { return pair.contact.gap < -resolved_share * pair.scale; }
   // Whether it is more than a gap that is missing.
   bool must_move(const SidedPair& pair) const {
     return !pair.is_apart || overlap(pair) > resolved_share * pair.scale;
@@ -146,9 +141,8 @@ class GapMaker {
           for (int f : other->face)
             if (f >= 0) drawn.emplace_back(node, f);
     }
-    std::erase_if(drawn, [&](const auto& pair) {
-      return is_excluded(scene_.excluded, pair.first, pair.second);
-    });
+    std::erase_if(drawn,
+                  [&](const auto& pair) { return is_excluded(scene_.excluded, pair.first, pair.second); });
     if (drawn.empty()) return false;
     exclude(drawn);
     return true;
@@ -172,31 +166,36 @@ class GapMaker {
     if (scene_.erosion) scene_.erosion->keeps_numbers = true;
   }
 
-  void expect_within_limit(const SidedPair& pair) const {
-    if (overlap(pair) > scene_.options.initial_overlap_limit * pair.scale)
-      refuse(pair, "deeper than initial_overlap_limit allows");
+  void expect_within_limit() const {
+    const SidedPair* deepest = nullptr;
+    for (const SidedPair& pair : found_)
+      if (overlap(pair) > scene_.options.initial_overlap_limit * pair.scale &&
+          (deepest == nullptr || overlap(pair) > overlap(*deepest)))
+        deepest = &pair;
+    if (deepest != nullptr) refuse(*deepest, "deeper than initial_overlap_limit allows");
   }
 
   [[noreturn]] void refuse(const SidedPair& pair, const char* why) const {
     const Vector3d x = position(nodes_, surface_.node[static_cast<std::size_t>(pair.contact.node[0])]);
     std::ostringstream text;
     text << "contact: part '" << part_name(pair.part[0]) << "' overlaps part '" << part_name(pair.part[1])
-         << "' by " << std::max(overlap(pair), 0.0) << " at (" << x[0] << ", " << x[1] << ", " << x[2] << "), "
-         << why;
+         << "' by " << std::max(overlap(pair), 0.0) << " at (" << x[0] << ", " << x[1] << ", " << x[2]
+         << "), " << why;
     throw std::invalid_argument(text.str());
   }
 
   void record(const SidedPair& pair) {
     const std::string &first = part_name(pair.part[0]), &second = part_name(pair.part[1]);
     std::size_t entry = 0;
-    while (entry < report_.size() && (report_[entry].node_part != first || report_[entry].face_part != second))
+    while (entry < report_.size() &&
+           (report_[entry].node_part != first || report_[entry].face_part != second))
       ++entry;
     if (entry == report_.size()) {
       report_.push_back({.node_part = first, .face_part = second});
       near_.emplace_back();
     }
     InitialOverlap& known = report_[entry];
-    known.depth = std::max(known.depth, -pair.contact.gap);
+    if (overlap(pair) > resolved_share * pair.scale) known.depth = std::max(known.depth, overlap(pair));
     known.gap = std::max(known.gap, pair.skin);
     near_[entry].insert(pair.contact.node.begin(), pair.contact.node.begin() + pair.contact.own);
     known.nodes = static_cast<int>(near_[entry].size());
@@ -284,7 +283,8 @@ class GapMaker {
       row.target_velocity = surplus_share * features_.smallest_edge - contact.gap;
       for (std::size_t k = 0; k < contact.node.size(); ++k)
         if (contact.weight[k] != 0)
-          rows_.add_point(block_of(contact.node[k]), static_cast<int>(k) < contact.own ? Side::first : Side::second,
+          rows_.add_point(block_of(contact.node[k]),
+                          static_cast<int>(k) < contact.own ? Side::first : Side::second,
                           std::abs(contact.weight[k]));
     }
     solver_.solve(solve_options, rows_, blocks_, team_);
@@ -320,16 +320,17 @@ class GapMaker {
       const bool edges = hit.kind == PairKind::edge_edge;
       const int first = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.first[p])].body
                               : surface_.body[static_cast<std::size_t>(pairs_.node_face.first[p])];
-      const int second = edges
-                             ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.second[p])].body
-                             : surface_.face[static_cast<std::size_t>(pairs_.node_face.second[p])].body;
+      const int second = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.second[p])].body
+                               : surface_.face[static_cast<std::size_t>(pairs_.node_face.second[p])].body;
       if (hit.time > 0 && !overlapping.contains(std::minmax(first, second)))
         share = std::min(share, share_of_hit * hit.time);
     }
     return share;
   }
 
-  int first_body(const Contact& contact) const { return surface_.body[static_cast<std::size_t>(contact.node[0])]; }
+  int first_body(const Contact& contact) const {
+    return surface_.body[static_cast<std::size_t>(contact.node[0])];
+  }
 
   int part_of(int slave) const {
     if (const auto faces = surface_.faces_of.of(slave); !faces.empty())
@@ -340,49 +341,8 @@ class GapMaker {
     return 0;
   }
 
-  std::vector<Piercing> piercings() const {
-    return find_piercings(features_, surface_, scene_.excluded, scene_.options, nodes_, team_);
-  }
-
-  // The middle surface of a shell has no inside that could be left.
-  void expect_no_shell_crossed() const {
-    for (const Piercing& piercing : piercings()) {
-      const EdgeFeature& edge = features_.edge[static_cast<std::size_t>(piercing.edge)];
-      const Face& face = surface_.face[static_cast<std::size_t>(piercing.face)];
-      if (face.shell && !surface_.held.one_piece(face.body, edge.body)) refuse_crossing(piercing);
-    }
-  }
-  void expect_nothing_crosses() const {
-    const std::vector<Piercing> found = piercings();
-    for (const Piercing& piercing : found)
-      if (lies_in(piercing)) refuse_crossing(piercing);
-    if (!found.empty()) refuse_crossing(found.front());
-  }
-
-  // Whether an end of the edge lies in the body of the face.
-  bool lies_in(const Piercing& piercing) const {
-    const Face& pierced = surface_.face[static_cast<std::size_t>(piercing.face)];
-    const EdgeFeature& edge = features_.edge[static_cast<std::size_t>(piercing.edge)];
-    if (pierced.shell || edge.body == pierced.body) return false;
-    return std::any_of(edge.node.begin(), edge.node.end(), [&](int slave) {
-      const Vector3d x = position(nodes_, surface_.node[static_cast<std::size_t>(slave)]);
-      double winding = 0;
-      for (const Face& face : surface_.face)
-        if (face.alive() && !face.shell && face.body == pierced.body)
-          winding += winding_share(vertices(nodes_, face), x);
-      return winding > 0.5;
-    });
-  }
-
-  [[noreturn]] void refuse_crossing(const Piercing& piercing) const {
-    const EdgeFeature& edge = features_.edge[static_cast<std::size_t>(piercing.edge)];
-    const Face& face = surface_.face[static_cast<std::size_t>(piercing.face)];
-    const Vector3d& x = piercing.point;
-    std::ostringstream text;
-    text << "contact: part '" << part_name(edge.part) << (lies_in(piercing) ? "' lies in" : "' goes through")
-         << " part '" << part_name(face.part) << "', whose surface it crosses at (" << x[0] << ", " << x[1]
-         << ", " << x[2] << "); accepted are bodies that begin beside each other";
-    throw std::invalid_argument(text.str());
+  void expect_uncrossed(bool shells_alone) const {
+    expect_nothing_crosses(features_, surface_, scene_.excluded, scene_.options, nodes_, shells_alone, team_);
   }
 
   ContactScene& scene_;

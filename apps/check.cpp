@@ -134,11 +134,25 @@ void tell_wait(const ForecastOptions& options) {
 }  // namespace
 
 void print_overlaps(std::span<const InitialOverlap> overlaps) {
-  for (const InitialOverlap& overlap : overlaps)
-    write_out(
-        "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
-        "{:.3g}\n",
-        overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
+  const InitialOverlap* first = nullptr;  // that only touches
+  double gap = 0, moved = 0;
+  for (const InitialOverlap& overlap : overlaps) {
+    if (overlap.is_overlap()) {
+      write_out(
+          "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
+          "{:.3g}\n",
+          overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
+      continue;
+    }
+    if (first == nullptr) first = &overlap;
+    gap = std::max(gap, overlap.gap);
+    moved = std::max(moved, overlap.moved);
+  }
+  if (first == nullptr) return;
+  write_out(
+      "gap of contact: parts touched, '{}' and '{}' among them; nodes were moved by up to {:.3g} to make "
+      "a gap of {:.3g}\n",
+      first->node_part, first->face_part, moved, gap);
 }
 
 void check(const ForecastOptions& options, bool json) {

@@ -159,4 +159,8 @@ void expect_nothing_enclosed(const ContactScene& scene, const Nodes& nodes) {
   enclosures.expect_bodies_apart();
 }
 
+void expect_bodies_apart(const ContactScene& scene, const Nodes& nodes) {
+  Enclosures(scene, nodes).expect_bodies_apart();
+}
+
 }  // namespace brio

@@ -10,4 +10,7 @@ namespace brio {
 /// \throws std::invalid_argument naming parts, depth and place.
 void expect_nothing_enclosed(const ContactScene& scene, const Nodes& nodes);
 
+/// The second of these alone: enough where no surfaces cross.
+void expect_bodies_apart(const ContactScene& scene, const Nodes& nodes);
+
 }  // namespace brio

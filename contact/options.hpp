@@ -43,7 +43,7 @@ struct ContactOptions {
   /// Initial overlaps up to this share of the edge (or of the thickness of a shell) are removed by moving
   /// nodes before the first step; deeper ones are an error of the input.
   double initial_overlap_limit = 0.2;
-  /// Count, by comparing every node with every face, the contacts that were missed.
+  /// Count at every dump of fields what contact should have kept apart and did not (contact/audit/audit.hpp).
   bool audit = false;
 
   static constexpr auto fields() {
@@ -71,7 +71,7 @@ struct ContactOptions {
                  "contact thickness over thickness of shells, -"),
         optional("initial_overlap_limit", &ContactOptions::initial_overlap_limit, fraction,
                  "deepest initial overlap removed by moving nodes, in edges or thicknesses, -"),
-        optional("audit", &ContactOptions::audit, any_number, "count missed contacts by brute force"));
+        optional("audit", &ContactOptions::audit, any_number, "count crossings of surfaces, and distances below thickness, at every dump"));
   }
 };
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "contact/enclosed.hpp"
+#include "contact/enforcement/initial_gap.hpp"
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
 
@@ -58,20 +59,6 @@ void find_anew(ContactScene& scene, const Nodes& nodes, ThreadTeam& team) {
   scene.candidates.growth[0] = -1;
   scene.travel.follow(scene.surface, nodes, {}, 0, team);
   find_contacts(scene, nodes, team);
-  if (!scene.distance) return;
-  // The skins of solids are made as overlaps are removed.
-  const SurfaceFeatures& features = scene.distance->features;
-  for (Contact& contact : scene.contacts) {
-    if (contact.of_lines()) {
-      const double touching = reach_of_node(scene.surface, scene.options, contact.node[0]) +
-                              reach_of_node(scene.surface, scene.options, contact.node[2]);
-      contact.gap -= std::max(touching, 2 * features.skin) - touching;
-    } else {
-      contact.gap -= features.node_radius[static_cast<std::size_t>(contact.slave)] +
-                     features.face_radius[static_cast<std::size_t>(contact.face)] -
-                     touching_distance(scene.surface, scene.options, contact.face, contact.slave);
-    }
-  }
 }
 
 // Pairs of one part that overlap from the start are how the part was drawn: corners, seams, flanges; so are
@@ -183,7 +170,7 @@ const Contact* deepest_unresolved(const ContactScene& scene) {
 std::vector<InitialOverlap> remove_initial_overlap(ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
   std::vector<InitialOverlap> report;
   if (scene.surface.node.empty()) return report;
-  if (scene.distance) collect(scene.distance->features, scene.surface, scene.options);
+  if (scene.distance) return make_initial_gap(scene, nodes, team);
   scene.candidates.depth_share = searched_depth_share;
   find_anew(scene, nodes, team);
   while (exclude_within_parts(scene)) find_anew(scene, nodes, team);

@@ -14,9 +14,12 @@ namespace brio {
 struct InitialOverlap {
   std::string node_part;  ///< the part whose nodes lie too deep ...
   std::string face_part;  ///< ... in, or too close to, this one
-  double depth = 0;       ///< the deepest
+  double depth = 0;       ///< the deepest; 0: nothing was missing but the gap of contact
   int nodes = 0;
   double moved = 0;  ///< how far the nodes of both were moved at most
+  double gap = 0;    ///< that contact by distances keeps between them beyond their thickness
+
+  bool is_overlap() const { return depth > 0; }
 };
 
 /// Find overlaps and move nodes until none is left. Nodes prescribed along an axis are not moved along it.

@@ -15,6 +15,8 @@
 #include "contact/candidates.hpp"
 #include "contact/detect.hpp"
 #include "contact/detection/crossing_guard.hpp"
+#include "contact/enforcement/contact_rows.hpp"
+#include "contact/enforcement/impulse_solver.hpp"
 #include "contact/erosion.hpp"
 #include "contact/held_contact.hpp"
 #include "contact/line_detect.hpp"
@@ -74,9 +76,9 @@ struct DistanceContact {
   FeaturePairs pairs;
   Proximity proximity;
   CrossingGuard guard;
-  bool changed = true;                     ///< the surface, since its features were collected
-  std::vector<RigidMotion> bodies_before;  ///< of the step, as predicted
-  std::vector<NodeVector> velocity_before, angular_before;  ///< of all nodes, where there are ties
+  ContactRows rows;  ///< of this step
+  ImpulseSolver solver;
+  bool changed = true;                        ///< the surface, since its features were collected
   std::vector<Eigen::Vector3d> zone_impulse;  ///< of each slave node, in this step; empty: no zone
   std::vector<int> zone_of;                   ///< of each slave node and body
   std::uint64_t steps_with_hits = 0, rounds = 0, zones = 0, unresolved = 0;
@@ -126,6 +128,12 @@ void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
 /// entry and on return
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
              std::span<RigidMotion> bodies = {}, const Ties& ties = {});
+
+/// The parts of `resolve`: impulses of nodes from those of the contacts; contacts, active ones and the
+/// deepest overlap into the step; the step into the totals.
+void sum_impulses(ContactScene& scene);
+void count_contacts(ContactScene& scene);
+void add_to_totals(ContactScene& scene);
 
 /// Let held nodes and what holds them never meet. \param part_of_surface of each part of the ties: its number
 /// in the surface, or -1

@@ -87,11 +87,9 @@ class Output {
     const bool fields_due = field_schedule_.due(model_.times.time) || last;
     const bool keeps = model_.step >= next_kept_;
     if (!row_due && !fields_due && !keeps) return;
+    if (fields_due) audit_contacts(model_, team);
     const StageTimer timer(model_.stages, Stage::output);
-    if (fields_due) {
-      audit_contacts(model_, team);
-      watch(model_);
-    }
+    if (fields_due) watch(model_);
     observe_history(model_, row_);
     if (fields_due || keeps) {
       state_ = nullptr;  // the one before is written over

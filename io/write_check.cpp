@@ -58,6 +58,7 @@ Json overlaps(const CheckReport& report) {
                     {"face_part", overlap.face_part},
                     {"nodes", overlap.nodes},
                     {"depth", overlap.depth},
+                    {"gap", overlap.gap},
                     {"moved", overlap.moved}});
   return list;
 }

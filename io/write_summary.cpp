@@ -39,6 +39,10 @@ Json masses(const Summary::Masses& mass) {
           {"of_deleted_elements", mass.of_deleted_elements}};
 }
 
+Json deepest_contact(const Summary::DeepestContact& deepest) {
+  return {{"depth", deepest.depth}, {"time", deepest.time}, {"node", deepest.node}, {"parts", deepest.parts}};
+}
+
 Json contact_counts(const Summary::ContactCounts& contact) {
   Json counts{{"searches", contact.searches},
               {"comparisons", contact.comparisons},
@@ -50,14 +54,15 @@ Json contact_counts(const Summary::ContactCounts& contact) {
               {"active_max", contact.active_max},
               {"penetration_max", contact.penetration_max},
               {"missed", contact.missed}};
-  if (const auto& missed = contact.missed_by_kind)
-    counts["missed_by_kind"] = {{"inside_solids", missed->inside_solids},
-                                {"shells_too_close", missed->shells_too_close},
-                                {"shells_pierced", missed->shells_pierced},
-                                {"lines_crossed", missed->lines_crossed},
-                                {"deepest", missed->deepest},
-                                {"time_of_deepest", missed->time_of_deepest},
-                                {"node_of_deepest", missed->node_of_deepest}};
+  if (const auto& audits = contact.audits) {
+    counts["audited_dumps"] = audits->audited_dumps;
+    counts["crossed_dumps"] = audits->crossed_dumps;
+    counts["deep_crossings"] = audits->deep_crossings;
+    counts["too_close"] = audits->too_close;
+    counts["swallowed"] = audits->swallowed;
+    if (audits->deepest_crossing) counts["deepest_crossing"] = deepest_contact(*audits->deepest_crossing);
+    if (audits->deepest_too_close) counts["deepest_too_close"] = deepest_contact(*audits->deepest_too_close);
+  }
   return counts;
 }
 
@@ -95,6 +100,7 @@ std::string summary_json(const Summary& summary) {
             {"threads", summary.threads},
             {"active_features", summary.active_features},
             {"warnings", summary.warnings}};
+  if (summary.contact.audits) json["crossings"] = summary.contact.audits->crossings;
   if (summary.ties) json["ties"] = {{"nodes", summary.ties->nodes}, {"released", summary.ties->released}};
   if (summary.mass_scaling)
     json["mass_scaling"] = {{"added", summary.mass_scaling->added},

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "src/diagnosis.hpp"
 #include "src/leap.hpp"
 #include "src/motion.hpp"
@@ -334,13 +334,18 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
 }
 
 void audit_contacts(Model& model, ThreadTeam& team) {
-  if (!model.missed_contacts) return;
-  for (const ContactScene& scene : model.contacts) {
-    const Audit found = audit(scene, model.nodes, team);
-    if (found.deepest > model.missed_contacts->found.deepest)
-      model.missed_contacts->time_of_deepest = model.times.time;
-    model.missed_contacts->found += found;
-  }
+  if (!model.contact_audits) return;
+  const StageTimer timer(model.stages, Stage::audit);
+  ContactAudits& audits = *model.contact_audits;
+  Audit now;
+  for (const ContactScene& scene : model.contacts) now += audit(scene, model.nodes, team);
+  if (now.deepest_crossing.depth > audits.found.deepest_crossing.depth)
+    audits.time_of_deepest_crossing = model.times.time;
+  if (now.deepest_too_close.depth > audits.found.deepest_too_close.depth)
+    audits.time_of_deepest_too_close = model.times.time;
+  audits.found += now;
+  ++audits.dumps;
+  if (now.crossings > 0) ++audits.crossed_dumps;
 }
 
 void update_positions(Model& model, ThreadTeam& team) {

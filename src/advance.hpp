@@ -16,8 +16,8 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
 /// chunks. Part of `update_velocities`.
 void erode_elements(Model& model, ThreadTeam& team);
 
-/// Counts missed contacts at the present positions if a contact scene asks for its audit: what detection let
-/// through is found by other means. Costs like many steps; called where fields are written.
+/// Audits contact at the present positions if the deck asks for it (contact/audit/audit.hpp). Called where
+/// fields are written.
 void audit_contacts(Model& model, ThreadTeam& team);
 
 /// Second half: positions, and the time.

@@ -298,7 +298,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
   }
   try {
     model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));
-    if (deck.contact->options.audit) model.missed_contacts.emplace();
+    if (deck.contact->options.audit) model.contact_audits.emplace();
     const std::vector<PairRule> rules = pair_rules(*deck.contact, surfaces);
     if (!rules.empty()) model.contacts.back().surface.pairs = {rules, surfaces, model.nodes.size()};
     if (!model.ties.empty()) hold(model.contacts.back(), model.ties, part_of_surface);

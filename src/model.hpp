@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "contact/overlap.hpp"
 #include "contact/scene.hpp"
 #include "contact/ties.hpp"
@@ -31,10 +31,13 @@
 
 namespace brio {
 
-/// What audits have found so far.
-struct MissedContacts {
-  Audit found;
-  double time_of_deepest = 0;
+/// Contact audits so far, one a dump of fields.
+struct ContactAudits {
+  Audit found;  ///< summed
+  std::int64_t dumps = 0;
+  std::int64_t crossed_dumps = 0;  ///< with any crossing
+  double time_of_deepest_crossing = 0;
+  double time_of_deepest_too_close = 0;
 };
 
 struct Model {
@@ -57,7 +60,7 @@ struct Model {
   std::vector<WallInRun> walls;
   RigidBodies rigid;
   std::vector<ContactScene> contacts;             ///< one if the deck names contact, else none
-  std::optional<MissedContacts> missed_contacts;  ///< if the deck asks for the audit
+  std::optional<ContactAudits> contact_audits;  ///< if the deck asks for them
   std::vector<InitialOverlap> initial_overlaps;   ///< removed before the first step
 
   std::optional<Erosion> erosion;                 ///< if elements can be deleted

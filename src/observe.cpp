@@ -251,7 +251,7 @@ std::vector<std::string> history_columns(const Model& model) {
     for (const char* axis : {".velocity_x", ".velocity_y", ".velocity_z"})
       columns.push_back(model.parts[p].name + axis);
   if (model.added_mass) columns.emplace_back("added_mass");
-  if (model.missed_contacts) columns.emplace_back("missed_contacts");
+  if (model.contact_audits) columns.insert(columns.end(), {"missed_contacts", "crossings"});
   if (model.erosion)
     for (const auto cause : deletion_causes) columns.push_back("deleted_by_" + std::string(cause));
   add_columns(model.probes, columns);
@@ -278,7 +278,10 @@ void observe_history(Model& model, std::vector<double>& row) {
     row.insert(row.end(), velocity.begin(), velocity.end());
   }
   if (model.added_mass) row.push_back(model.added_mass->total());
-  if (model.missed_contacts) row.push_back(model.missed_contacts->found.missed());
+  if (model.contact_audits)
+    for (const std::int64_t count :
+         {model.contact_audits->found.missed(), model.contact_audits->found.crossings})
+      row.push_back(static_cast<double>(count));
   if (model.erosion)
     for (const auto count : model.erosion->deleted_by_cause) row.push_back(static_cast<double>(count));
   add_values(model.probes, model.nodes, row);
@@ -306,6 +309,36 @@ std::vector<std::string> active_features(const Model& model) {
   if (model.added_mass) features.insert("mass_scaling");
   return {features.begin(), features.end()};
 }
+
+namespace {
+
+Summary::DeepestContact described(const AuditPlace& place, double time, const Model& model) {
+  const std::vector<std::string>& name = model.contacts.front().surface.part_name;
+  const auto part = [&](int number) { return number < 0 ? "" : name[static_cast<std::size_t>(number)]; };
+  return {.depth = place.depth,
+          .time = time,
+          .node = points_of_nodes(model)[static_cast<std::size_t>(place.node)],
+          .parts = {part(place.part[0]), part(place.part[1])}};
+}
+
+Summary::ContactAudits summary_of(const ContactAudits& audits, const Model& model) {
+  const Audit& found = audits.found;
+  Summary::ContactAudits summary{.audited_dumps = audits.dumps,
+                                 .crossed_dumps = audits.crossed_dumps,
+                                 .crossings = found.crossings,
+                                 .deep_crossings = found.deep_crossings,
+                                 .too_close = found.too_close,
+                                 .swallowed = found.swallowed,
+                                 .deepest_crossing = {},
+                                 .deepest_too_close = {}};
+  if (found.deepest_crossing.node >= 0)
+    summary.deepest_crossing = described(found.deepest_crossing, audits.time_of_deepest_crossing, model);
+  if (found.deepest_too_close.node >= 0)
+    summary.deepest_too_close = described(found.deepest_too_close, audits.time_of_deepest_too_close, model);
+  return summary;
+}
+
+}  // namespace
 
 Summary observe_end(Model& model) {
   balance_momentum(model);
@@ -358,7 +391,7 @@ Summary observe_end(Model& model) {
                        .active_max = scene.totals.most_contacts,
                        .penetration_max = scene.totals.deepest_overlap,
                        .missed = 0,
-                       .missed_by_kind = {},
+                       .audits = {},
                        .bodies = scene.surface.body_count};
     if (!scene.lines) continue;
     const LineCandidates& lines = scene.lines->candidates;
@@ -366,19 +399,9 @@ Summary observe_end(Model& model) {
     summary.contact.line_comparisons = static_cast<std::int64_t>(lines.counts.comparisons);
     summary.contact.line_candidate_pairs = static_cast<std::int64_t>(lines.counts.candidate_pairs);
   }
-  if (model.missed_contacts) {
-    const Audit& found = model.missed_contacts->found;
-    summary.contact.missed = found.missed();
-    summary.contact.missed_by_kind = {.inside_solids = found.inside_solids,
-                                      .shells_too_close = found.shells_too_close,
-                                      .shells_pierced = found.shells_pierced,
-                                      .lines_crossed = found.lines_crossed,
-                                      .deepest = found.deepest,
-                                      .time_of_deepest = model.missed_contacts->time_of_deepest,
-                                      .node_of_deepest = -1};
-    if (found.deepest_node >= 0)
-      summary.contact.missed_by_kind->node_of_deepest =
-          points_of_nodes(model)[static_cast<std::size_t>(found.deepest_node)];
+  if (model.contact_audits) {
+    summary.contact.missed = model.contact_audits->found.missed();
+    summary.contact.audits = summary_of(*model.contact_audits, model);
   }
   if (model.added_mass) {
     const AddedMass& mass = *model.added_mass;

@@ -35,20 +35,26 @@ struct Summary {
   struct Momenta {
     std::array<double, 3> linear{}, angular{};  ///< angular: about the origin
   };
-  /// What was missed at all audits together.
-  struct MissedByKind {
-    std::int64_t inside_solids = 0, shells_too_close = 0, shells_pierced = 0, lines_crossed = 0;
-    double deepest = 0;  ///< a length
-    double time_of_deepest = 0;
-    std::int64_t node_of_deepest = -1;  ///< as in the results
+  /// Where the contact audit found the worst of a kind.
+  struct DeepestContact {
+    double depth = 0;  ///< a length
+    double time = 0;
+    std::int64_t node = -1;            ///< as in the results
+    std::array<std::string, 2> parts;  ///< that of the node, and the other
+  };
+  /// Contact audits, summed over the dumps of fields.
+  struct ContactAudits {
+    std::int64_t audited_dumps = 0, crossed_dumps = 0;
+    std::int64_t crossings = 0, deep_crossings = 0, too_close = 0, swallowed = 0;
+    std::optional<DeepestContact> deepest_crossing, deepest_too_close;  ///< where there is any
   };
   struct ContactCounts {
     std::int64_t searches = 0, comparisons = 0, candidate_pairs = 0, active_max = 0;
-    double penetration_max = 0;                  ///< a length
-    std::int64_t missed = 0;                     ///< found by the audit, not by the search
-    std::optional<MissedByKind> missed_by_kind;  ///< where the deck asks for the audit
-    std::int64_t bodies = 0;                     ///< that the surface consists of
-    std::int64_t lines = 0;                      ///< edges, beams and particles that may meet each other
+    double penetration_max = 0;           ///< a length
+    std::int64_t missed = 0;              ///< all that audits found
+    std::optional<ContactAudits> audits;  ///< where the deck asks for them
+    std::int64_t bodies = 0;              ///< that the surface consists of
+    std::int64_t lines = 0;               ///< edges, beams and particles that may meet each other
     std::int64_t line_comparisons = 0, line_candidate_pairs = 0;
   };
   struct HourglassRatio {

@@ -76,15 +76,15 @@ bool may_meet(const Surface& surface, const EdgeFeature& a, const EdgeFeature& b
 }
 
 // Edges of one piece: a node of one is not held apart from a face of the other.
-bool one_piece(const Lists& excluded, const EdgeFeature& a, const EdgeFeature& b) {
+bool one_piece(const Surface& surface, const Lists& excluded, const EdgeFeature& a, const EdgeFeature& b) {
   const auto excludes = [&](const EdgeFeature& edge, const EdgeFeature& other) {
     for (int node : edge.node)
       for (int f : other.face)
         if (f >= 0 && is_excluded(excluded, node, f)) return true;
     return false;
   };
-  if (a.body != b.body) return false;
-  if (!a.of_face() && !b.of_face()) return true;  // beams of one body that were drawn together
+  if (!surface.held.one_piece(a.body, b.body)) return false;
+  if (!a.of_face() && !b.of_face()) return a.body == b.body;  // beams that were drawn together
   return excludes(a, b) || excludes(b, a);
 }
 
@@ -276,7 +276,7 @@ void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
   const EdgeFeature& a = scene.features.edge[static_cast<std::size_t>(first)];
   const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
   if (share_node(a, b) || !kinds_meet(a, b) || on_one_face(a, b) || !may_meet(scene.surface, a, b)) return;
-  const bool spaced = !one_piece(scene.excluded, a, b);
+  const bool spaced = !one_piece(scene.surface, scene.excluded, a, b);
   if (!spaced && (a.kind == EdgeKind::cross_diagonal || b.kind == EdgeKind::cross_diagonal ||
                   !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b))))
     return;

@@ -42,7 +42,7 @@ void book_supports(const RowMap& map, const Vector& impulse, std::span<const Vec
 }  // namespace
 
 RowWork book(const ConstraintRows& rows, std::span<const Vector> before, std::span<const VelocityBlock> after,
-             std::span<const BlockPlace> places, std::span<WallReaction> walls) {
+             std::span<const BlockPlace> places, std::span<PushOnWall> walls) {
   RowWork work;
   for (const ConstraintRow& row : rows.row) {
     if (row.impulse == 0) continue;
@@ -56,7 +56,7 @@ RowWork book(const ConstraintRows& rows, std::span<const Vector> before, std::sp
     const Vector impulse = impulse_of(row);
     book_supports(map, impulse, before, after, places, work);
     if (row.wall < 0) continue;
-    WallReaction& wall = walls[index(row.wall)];
+    PushOnWall& wall = walls[index(row.wall)];
     wall.impulse = wall.impulse - impulse;
     wall.moment = wall.moment - cross(row.point, impulse);
     wall.work += dot(impulse, row.wall_velocity);

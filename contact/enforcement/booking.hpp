@@ -30,7 +30,7 @@ struct RowWork {
 };
 
 /// What rows gave a wall.
-struct WallReaction {
+struct PushOnWall {
   Vector3<double> impulse{0, 0, 0};
   Vector3<double> moment{0, 0, 0};  ///< about the origin
   double work = 0;                  ///< of the wall on what it pushes
@@ -41,6 +41,6 @@ struct WallReaction {
 /// \param walls by number; sums are added to what they hold.
 RowWork book(const ConstraintRows& rows, std::span<const Vector3<double>> before,
              std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
-             std::span<WallReaction> walls);
+             std::span<PushOnWall> walls);
 
 }  // namespace brio

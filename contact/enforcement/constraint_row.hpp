@@ -104,6 +104,8 @@ struct ConstraintRows {
   void add_face(const FaceFoot& foot, double height, Side side);
   /// A point of a rigid body, `arm` from its centre.
   void add_rigid_body(int translation_block, int rotation_block, const Vector3<double>& arm, Side side);
+  /// weight v + tilt (normal . v) with the sign of the side; the tilt is at right angles to the normal.
+  void add_translation(int block, double signed_weight, const Vector3<double>& signed_tilt);
   void add_rotation(int block, const Vector3<double>& signed_arm);
   void add_matrix(int block, const Tensor<double>& signed_matrix);
 
@@ -111,7 +113,6 @@ struct ConstraintRows {
   void append(const ConstraintRows& other);
 
  private:
-  void add_translation(int block, double weight, const Vector3<double>& tilt);
   void add_solid_face(const FaceFoot& foot, double height, double sign);
 };
 

@@ -1,7 +1,7 @@
 // Nodes left without elements that stay in contact with a radius.
 #include <gtest/gtest.h>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "contact/face_geometry.hpp"
 #include "tests/contact/spring_model.hpp"
 

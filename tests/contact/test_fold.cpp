@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "contact/solve.hpp"
 #include "tests/contact/spring_model.hpp"
 

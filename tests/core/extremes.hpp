@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "tests/core/floating_point_traps.hpp"
 #include "tests/core/scene.hpp"
 
@@ -208,7 +208,10 @@ struct Watched {
   Model model;
   std::vector<int> contacts, active;
   std::vector<std::size_t> deleted;
-  int missed = 0;
+  std::int64_t missed = 0;  ///< that audits found
+  /// Without crossings of less than a tenth of an edge, which detection by nodes and sharp edges lets
+  /// through.
+  std::int64_t deep = 0;
   double worst_linear = 0;  ///< imbalance of momentum
   /// \param audit_every steps; 0: never
   explicit Watched(const Deck& deck, Model built, int audit_every = 0) : model(std::move(built)) {
@@ -224,8 +227,11 @@ struct Watched {
       if (m.contacts.empty()) return;
       contacts.push_back(m.contacts[0].step.contacts);
       active.push_back(m.contacts[0].step.active);
-      if (audit_every > 0 && step++ % audit_every == 0)
-        missed += audit(m.contacts[0], m.nodes, team).missed();
+      if (audit_every > 0 && step++ % audit_every == 0) {
+        const Audit found = audit(m.contacts[0], m.nodes, team);
+        missed += found.missed();
+        deep += found.deep();
+      }
     });
   }
   explicit Watched(const Deck& deck, int audit_every = 0) : Watched(deck, build_model(deck), audit_every) {}

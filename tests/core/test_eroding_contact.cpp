@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -65,7 +65,7 @@ struct Outcome {
   double first_deletion = 0, first_contact = 0;
   int contacts_while_deleting = 0;
   double worst_energy = 0, worst_momentum = 0;
-  int missed = 0;
+  std::int64_t missed = 0, deep = 0;  ///< deep: without crossings of less than a tenth of an edge
   std::vector<double> positions;
 };
 
@@ -80,7 +80,11 @@ Outcome run_scene(const Deck& deck, int threads, int audit_every) {
     if (outcome.first_contact == 0 && active > 0) outcome.first_contact = m.times.time;
     if (!m.erosion->deleted.empty()) outcome.contacts_while_deleting += active;
     outcome.worst_energy = std::max(outcome.worst_energy, std::abs(m.energy.relative_error()));
-    if (m.step % audit_every == 0) outcome.missed += audit(m.contacts[0], m.nodes, team).missed();
+    if (m.step % audit_every == 0) {
+      const Audit found = audit(m.contacts[0], m.nodes, team);
+      outcome.missed += found.missed();
+      outcome.deep += found.deep();
+    }
   });
   outcome.positions.reserve(3 * model.nodes.size());
   for (const NodeRecord& record : model.nodes.record)

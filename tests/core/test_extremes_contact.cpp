@@ -37,7 +37,7 @@ void expect_sound_impact(Kind upper, const Factors& of_upper, Kind lower, const 
   deck.time.end = 15e-3;
   const Watched watched(deck, 20);
   const double depth = watched.overlap() / 0.1;
-  std::printf("| %s %.0e %.0e | %s %.0e %.0e | %.0e | %.0e | %.0e | %.0e | %d |\n", name_of_kind(upper),
+  std::printf("| %s %.0e %.0e | %s %.0e %.0e | %.0e | %.0e | %.0e | %.0e | %ld |\n", name_of_kind(upper),
               of_upper.mass, of_upper.stiffness, name_of_kind(lower), of_lower.mass, of_lower.stiffness,
               watched.worst_linear, watched.added(), depth, watched.model.energy.error_max, watched.missed);
   EXPECT_GT(watched.touched(), 0);
@@ -267,7 +267,7 @@ TEST(ExtremesSpeed, ProjectileThatCrossesManyFacesAStepIsStopped) {
     Model model = build_model(deck);
     ThreadTeam team(1);
     double longest = 0, lowest = 1;
-    int missed = 0;
+    std::int64_t missed = 0;
     run(model, deck, team, [&](Model& m) {
       longest = std::max(longest, std::hypot(1400, 1200) * m.times.next / 0.02);
       for (const int node : m.parts[1].node) {

@@ -92,7 +92,8 @@ TEST(ExtremesDeletion, TwoNeighboursInOneStepLayBareWhatWasBetweenThem) {
     Model model = build_model(deck);
     ThreadTeam team(1);
     std::vector<std::vector<DeletedElement>> deaths;
-    int touched = 0, missed = 0;
+    int touched = 0;
+    std::int64_t missed = 0;
     double most_overlap = 0;
     run(model, deck, team, [&](Model& m) {
       if (!m.erosion->deleted.empty())

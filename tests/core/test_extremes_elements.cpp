@@ -46,7 +46,7 @@ TEST(ExtremesShape, AspectRatioOfAThousandBouncesOffAndIsBounced) {
     deck.parts[1].placement.translate[2] -= 0.03;  // of 0.04 above the middle of the block, which is tilted
     deck.time.end = 3e-3;
     const Watched watched(deck, 500);
-    std::printf("%s: %lld steps, error %.0e, added %.0e, overlap %.0e, missed %d\n", name_of_kind(kind),
+    std::printf("%s: %lld steps, error %.0e, added %.0e, overlap %.0e, missed %ld\n", name_of_kind(kind),
                 static_cast<long long>(watched.model.step), watched.model.energy.error_max, watched.added(),
                 watched.overlap(), watched.missed);
     EXPECT_GT(watched.touched(), 0);

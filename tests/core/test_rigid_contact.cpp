@@ -352,8 +352,8 @@ TEST(RigidShell, HoldsABlockAtHalfItsThickness) {
   audit_contacts(model, team);
   EXPECT_NEAR(lowest, 0.02, 1e-5);
   EXPECT_GT(mean_velocity(model, 0, 2), 0.2);
-  ASSERT_TRUE(model.missed_contacts);
-  EXPECT_EQ(model.missed_contacts->found.missed(), 0);
+  ASSERT_TRUE(model.contact_audits);
+  EXPECT_EQ(model.contact_audits->found.missed(), 0);
 }
 
 // The faces of a rigid body never meet its own nodes, however they lie.
@@ -372,8 +372,8 @@ TEST(RigidContact, ABodyDoesNotTouchItself) {
   ThreadTeam team(1);
   run(model, deck, team, [](Model& m) { EXPECT_EQ(m.contacts[0].step.contacts, 0); });
   audit_contacts(model, team);
-  ASSERT_TRUE(model.missed_contacts);
-  EXPECT_EQ(model.missed_contacts->found.missed(), 0);
+  ASSERT_TRUE(model.contact_audits);
+  EXPECT_EQ(model.contact_audits->found.missed(), 0);
 }
 
 }  // namespace

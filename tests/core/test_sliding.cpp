@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "contact/audit.hpp"
+#include "contact/audit/audit.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {

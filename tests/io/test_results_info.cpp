@@ -93,12 +93,24 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
             (Names{"searches", "comparisons", "candidate_pairs", "bodies", "lines", "line_comparisons",
                    "line_candidate_pairs", "active_max", "penetration_max", "missed"}));
   Summary audited = summary();
-  audited.contact.missed_by_kind = {.inside_solids = 3, .deepest = 0.5, .node_of_deepest = 7};
-  const auto missed = nlohmann::ordered_json::parse(summary_json(audited))["contact"]["missed_by_kind"];
-  EXPECT_EQ(keys(missed), (Names{"inside_solids", "shells_too_close", "shells_pierced", "lines_crossed",
-                                 "deepest", "time_of_deepest", "node_of_deepest"}));
-  EXPECT_EQ(missed["inside_solids"], 3);
-  EXPECT_EQ(missed["node_of_deepest"], 7);
+  audited.contact.audits.emplace();
+  audited.contact.audits->crossings = 3;
+  const auto clean = nlohmann::ordered_json::parse(summary_json(audited));
+  EXPECT_FALSE(json.contains("crossings")) << "nobody looked";
+  EXPECT_EQ(clean["crossings"], 3);
+  Names of_audits{
+      "searches",         "comparisons",          "candidate_pairs", "bodies",          "lines",
+      "line_comparisons", "line_candidate_pairs", "active_max",      "penetration_max", "missed",
+      "audited_dumps",    "crossed_dumps",        "deep_crossings",  "too_close",       "swallowed"};
+  EXPECT_EQ(keys(clean["contact"]), of_audits);
+  audited.contact.audits->deepest_crossing = {.depth = 0.5, .time = 2, .node = 7, .parts = {"a", "b"}};
+  audited.contact.audits->deepest_too_close = {.depth = 0.25, .time = 1, .node = 8, .parts = {"b", "a"}};
+  const auto contact = nlohmann::ordered_json::parse(summary_json(audited))["contact"];
+  of_audits.insert(of_audits.end(), {"deepest_crossing", "deepest_too_close"});
+  EXPECT_EQ(keys(contact), of_audits);
+  EXPECT_EQ(keys(contact["deepest_crossing"]), (Names{"depth", "time", "node", "parts"}));
+  EXPECT_EQ(contact["deepest_crossing"]["node"], 7);
+  EXPECT_EQ(contact["deepest_too_close"]["parts"], (Names{"b", "a"}));
   EXPECT_EQ(keys(json["wall_s"]), (Names{"total", "by_stage"}));
   EXPECT_EQ(json["momentum"]["angular"], (std::vector<double>{4, 5, 6}));
   EXPECT_EQ(json["wall_s"]["by_stage"]["forces"], 1.5);

@@ -1,0 +1,119 @@
+#include "contact/audit/audit_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Of the largest coordinate: positions are sums of many steps, each rounded.
+constexpr double rounding_ratio = 64 * std::numeric_limits<double>::epsilon();
+/// Cosine of 20 degrees.
+constexpr double cosine_of_continuing = 0.93969262078590843;
+
+int root_of(std::vector<int>& parent, int number) {
+  const auto up = [&](int i) -> int& { return parent[static_cast<std::size_t>(i)]; };
+  while (up(number) != number) number = up(number) = up(up(number));
+  return number;
+}
+
+void join(std::vector<int>& parent, int a, int b) {
+  a = root_of(parent, a);
+  b = root_of(parent, b);
+  parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+}
+
+Vector3d unit_normal(const AuditedFace& face) {
+  return (face.x[2] - face.x[0]).cross(face.x[3] - face.x[1]).normalized();
+}
+
+}  // namespace
+
+AuditedSurface::AuditedSurface(const Surface& the_surface, const Nodes& the_nodes)
+    : surface(the_surface), nodes(the_nodes) {
+  find_pieces();
+  collect_faces();
+  find_continuation();
+  double largest = 0;
+  for (int node : surface.node)
+    if (node >= 0) largest = std::max(largest, position(node).cwiseAbs().maxCoeff());
+  tolerance = rounding_ratio * largest;
+}
+
+void AuditedSurface::find_pieces() {
+  std::vector<int> parent(surface.slaves());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const Face& f : surface.face)
+    if (f.alive())
+      for (std::size_t k = 1; k < 4; ++k) join(parent, surface.slave(f.node[0]), surface.slave(f.node[k]));
+  for (const RoundElement& round : surface.round)
+    if (round.alive() && !round.is_point())
+      join(parent, surface.slave(round.node[0]), surface.slave(round.node[1]));
+  piece.resize(parent.size());
+  for (std::size_t s = 0; s < parent.size(); ++s) {
+    const int root = root_of(parent, static_cast<int>(s));
+    piece[s] = root == static_cast<int>(s) ? pieces++ : piece[static_cast<std::size_t>(root)];
+  }
+}
+
+void AuditedSurface::collect_faces() {
+  std::vector<int> alive;
+  std::vector<BoundingBox> box;
+  for (std::size_t f = 0; f < surface.face.size(); ++f) {
+    if (!surface.face[f].alive()) continue;
+    alive.push_back(static_cast<int>(f));
+    BoundingBox& bounds = box.emplace_back();
+    for (int node : surface.face[f].node) bounds.add(position(node));
+  }
+  std::vector<BoundingBox> sorted(box.size());
+  face.reserve(box.size());
+  for (int i : morton_order(box)) {
+    sorted[face.size()] = box[static_cast<std::size_t>(i)];
+    add_face(alive[static_cast<std::size_t>(i)]);
+  }
+  tree = BoxTree(std::move(sorted));
+}
+
+void AuditedSurface::add_face(int number) {
+  const Face& known = surface.face[static_cast<std::size_t>(number)];
+  AuditedFace& own = face.emplace_back();
+  own.node = known.node;
+  own.shell = known.shell;
+  own.corners = known.corners();
+  own.face = number;
+  own.piece = piece_of_node(known.node[0]);
+  own.rigid = surface.rigid_body(known.node[0]);
+  for (std::size_t k = 0; k < 4; ++k) own.x[k] = position(known.node[k]);
+  const auto corners = static_cast<std::size_t>(own.corners);
+  double shortest = HUGE_VAL;
+  for (std::size_t k = 0; k < corners; ++k)
+    shortest = std::min(shortest, (own.x[(k + 1) % corners] - own.x[k]).squaredNorm());
+  own.shortest_edge = std::sqrt(shortest);
+  (known.shell ? has_shells : has_solids) = true;
+}
+
+void AuditedSurface::find_continuation() {
+  std::vector<Vector3d> normal(surface.face.size(), Vector3d::Zero());
+  std::vector<std::uint8_t> ends_at(
+      surface.slaves());  // of each slave node: 1 where a sharp or free edge ends
+  for (const AuditedFace& f : face) normal[static_cast<std::size_t>(f.face)] = unit_normal(f);
+  const auto slave = [&](int node) { return static_cast<std::size_t>(surface.slave(node)); };
+  for (AuditedFace& f : face)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(f.corners); ++k) {
+      const auto own = static_cast<std::size_t>(f.face);
+      const int across = surface.neighbor[own][k];
+      f.edge_continues[k] =
+          across >= 0 && normal[own].dot(normal[static_cast<std::size_t>(across)]) > cosine_of_continuing;
+      if (!f.edge_continues[k])
+        ends_at[slave(f.node[k])] = ends_at[slave(f.node[(k + 1) % static_cast<std::size_t>(f.corners)])] = 1;
+    }
+  for (AuditedFace& f : face)
+    for (std::size_t k = 0; k < 4; ++k) f.corner_continues[k] = ends_at[slave(f.node[k])] == 0;
+}
+
+}  // namespace brio

@@ -1,0 +1,423 @@
+#include "contact/resolution.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+#include "contact/enforcement/impact_zone.hpp"
+#include "contact/enforcement/target_velocity.hpp"
+#include "contact/face_geometry.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+Vector3d to_eigen(const Vector3<double>& a) { return {a.x, a.y, a.z}; }
+void set(double* components, const Vector3<double>& a) {
+  components[0] = a.x;
+  components[1] = a.y;
+  components[2] = a.z;
+}
+
+// DEBUG_STATS_BEGIN
+struct Stats {
+  double t[6] = {};
+  std::uint64_t n[12] = {};
+  ~Stats() {
+    if (n[0] == 0) return;
+    std::fprintf(stderr,
+                 "STATS searches %lu steps %lu pairs vf %lu ee %lu awake vf %lu ee %lu rows %lu+%lu closest %lu cert %lu "
+                 "renewed %lu checked %lu hits %lu hitsteps %lu rounds %lu zones %lu unres %lu passes %lu| t "
+                 "begin %.2f find %.2f solve %.2f follow %.2f guard %.2f search %.2f\n",
+                 n[8], n[0], n[1] / n[0], n[2] / n[0], n[3] / n[0], n[4] / n[0], n[5] / n[0], n[6] / n[0],
+                 g[0] / n[0], g[1] / n[0], g[2], g[3], g[4], g[5], g[6], g[7], g[8], n[7] / n[0], t[0], t[1],
+                 t[2], t[3], t[4], t[5]);
+  }
+  std::uint64_t g[9] = {};
+} stats;
+struct Lap {
+  double& t;
+  Clock::time_point s = Clock::now();
+  ~Lap() { t += seconds_since(s); }
+};
+
+void count(const ContactScene& scene) {
+  const DistanceContact& distance = *scene.distance;
+  ++stats.n[0];
+  stats.n[1] += distance.pairs.node_face.size();
+  stats.n[2] += distance.pairs.edge_edge.size();
+  stats.n[3] += distance.proximity.node_face.size();
+  stats.n[4] += distance.proximity.edge_edge.size();
+  for (const Contact& c : scene.contacts) ++stats.n[c.of_lines() ? 6 : 5];
+}
+void count_end(const ContactScene& scene) {
+  const DistanceContact& distance = *scene.distance;
+  stats.n[7] += static_cast<std::uint64_t>(scene.step.passes);
+  stats.g[0] = distance.proximity.closest_points;
+  stats.g[1] = distance.guard.certified;
+  stats.g[2] = distance.guard.renewed;
+  stats.g[3] = distance.guard.checked;
+  stats.g[4] = distance.guard.found;
+  stats.g[5] = distance.steps_with_hits;
+  stats.g[6] = distance.rounds;
+  stats.g[7] = distance.zones;
+  stats.g[8] = distance.unresolved;
+}
+void tell(const DistanceContact& distance_, int round) {
+  if (const char* told_of = std::getenv("BRIO_TELL"); told_of && std::atoi(told_of) > 0) {
+    static int told = 0;
+    for (const Hit& hit : distance_.guard.hits) {
+      if (++told > std::atoi(told_of)) break;
+      const bool nf = hit.kind == PairKind::node_face;
+      const PairList& list = nf ? distance_.pairs.node_face : distance_.pairs.edge_edge;
+      const auto& c = hit.at_start;
+      double vn = 0;
+      for (std::size_t k = 0; k < 5; ++k)
+        vn += c.weight[k] * c.normal.dot(distance_.motion.displacement(c.node[k]));
+      std::fprintf(stderr, "TELL step %lu round %d %s spaced %d gap/h %.3g vn dt/h %.3g time %.3f",
+                   stats.n[0], round, nf ? "vf" : "ee", list.spaced[hit.pair],
+                   c.gap / distance_.features.smallest_edge, vn / distance_.features.smallest_edge, hit.time);
+      if (!nf) {
+        const auto &a = distance_.features.edge[static_cast<std::size_t>(list.first[hit.pair])],
+                   &b = distance_.features.edge[static_cast<std::size_t>(list.second[hit.pair])];
+        std::fprintf(stderr, " kinds %d %d parts %d %d w %.3f %.3f", (int)a.kind, (int)b.kind, a.part, b.part,
+                     c.weight[1], -c.weight[3]);
+        for (const auto* e : {&a, &b}) {
+          std::fprintf(stderr, " wings");
+          for (int w : e->wing)
+            if (w >= 0) {
+              const Vector3d foot = e == &a ? Vector3d(c.weight[0] * distance_.motion.start(a.node[0]) +
+                                                       c.weight[1] * distance_.motion.start(a.node[1]))
+                                            : Vector3d(-c.weight[2] * distance_.motion.start(b.node[0]) -
+                                                       c.weight[3] * distance_.motion.start(b.node[1]));
+              std::fprintf(
+                  stderr, " %.4f",
+                  (e == &a ? 1 : -1) * c.normal.dot((distance_.motion.start(w) - foot).normalized()));
+            }
+        }
+      } else {
+        for (double w : c.weight) std::fprintf(stderr, " %.3f", w);
+      }
+      std::fprintf(stderr, "\n");
+    }
+  }
+}
+// DEBUG_STATS_END
+
+/// One step.
+class Resolution {
+ public:
+  Resolution(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies,
+             const Ties& ties)
+      : scene_(scene),
+        distance_(*scene.distance),
+        rows_(scene.distance->rows),
+        nodes_(nodes),
+        dt_(dt),
+        team_(team),
+        bodies_(bodies),
+        ties_(ties) {}
+
+  void run() {
+    find_constraints();
+    count(scene_);
+    const std::size_t ordinary = scene_.contacts.size();
+    {
+      Lap lap{stats.t[2]};
+      begin_solution();
+      solve(true);
+    }
+    for (int round = 0;; ++round) {
+      {
+        Lap lap{stats.t[3]};
+        follow();
+      }
+      look_again();
+      Lap lap{stats.t[4]};
+      find_hits(distance_.guard, distance_.proximity, distance_.features, scene_.surface, scene_.options,
+                distance_.pairs, distance_.motion, team_);
+      if (distance_.guard.hits.empty()) break;
+      tell(distance_, round);
+      if (round == 0) ++distance_.steps_with_hits;
+      ++distance_.rounds;
+      if (round >= most_rounds + most_zone_rounds) {
+        ++distance_.unresolved;
+        break;
+      }
+      if (round >= most_rounds) {
+        move_zones_as_one(scene_, nodes_, dt_, bodies_);
+        continue;
+      }
+      add_constraints(ordinary);
+      solve(false);
+    }
+    finish(ordinary);
+    count_end(scene_);
+  }
+
+ private:
+  static constexpr int most_rounds = 8;
+  static constexpr int most_zone_rounds = 60;
+  static constexpr double same_weight = 0.01;
+  static constexpr double same_direction = 0.9999;
+  /// Iterations of the solver for one pass of the options.
+  static constexpr int iterations_a_pass = 10;
+
+  void find_constraints() {
+    if (distance_.changed) {
+      collect(distance_.features, scene_.surface, scene_.options);
+      distance_.pairs.expire();
+      distance_.motion.forget();
+      distance_.changed = false;
+      scene_.candidates.smallest_edge = distance_.features.smallest_edge;
+      scene_.candidates.mean_edge = distance_.features.mean_edge;
+    }
+    {
+      Lap lap{stats.t[0]};
+      distance_.motion.begin(distance_.features, scene_.surface, nodes_, team_);
+      distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
+    }
+    if (distance_.pairs.is_due(scene_.surface, distance_.motion)) search();
+    select();
+    distance_.motion.set_limits(2, allowed_surplus(distance_.features));
+    scene_.last.swap(scene_.contacts);
+    Lap lap{stats.t[1]};
+    find_proximities(distance_.proximity, distance_.features, scene_.surface, scene_.options, distance_.pairs,
+                     distance_.motion, team_, scene_.contacts);
+    inherit_impulses(scene_.last, scene_.last_dt > 0 ? dt_ / scene_.last_dt : 1.0, scene_.contacts,
+                     rows_.taken);
+  }
+
+  void search() {
+    Lap lap{stats.t[5]};
+    ++stats.n[8];
+    const Clock::time_point start = Clock::now();
+    distance_.pairs.find(distance_.features, scene_.surface, scene_.excluded, scene_.options,
+                         distance_.motion, team_);
+    scene_.step.searched = true;
+    scene_.step.search_seconds += seconds_since(start);
+  }
+  void select() {
+    Lap lap{stats.t[0]};
+    select_awake(distance_.proximity, distance_.features, distance_.pairs, distance_.motion, team_);
+  }
+  // Of pairs that were surely apart in the predicted motion.
+  void look_again() {
+    if (distance_.pairs.is_due(scene_.surface, distance_.motion)) {
+      search();
+      select();
+    } else if (distance_.motion.exceeds_limits()) {
+      select();
+    }
+  }
+
+  void begin_solution() {
+    scene_.in_contact.clear();
+    distance_.zone_impulse.clear();
+    rows_.clear();
+    add_rows_from(0);
+  }
+
+  void add_rows_from(std::size_t first) {
+    add_rows(rows_, {scene_.surface, distance_.features, nodes_, ties_, bodies_},
+             std::span<const Contact>(scene_.contacts).subspan(first));
+    for (std::size_t i = first; i < scene_.contacts.size(); ++i) set_target(rows_.rows.row[i]);
+  }
+
+  void set_target(ConstraintRow& row) const {
+    const Recovery recovery = recovery_of(scene_.options, distance_.features.smallest_edge);
+    double mass = 0;
+    if (row.gap < 0 && row.impulse > 0) {
+      const double inverse = RowMap(rows_.rows, row).inverse_mass(row.normal, rows_.block);
+      mass = inverse > 0 ? 1 / inverse : 0;
+    }
+    row.target_velocity = target_velocity(recovery, row.gap, row.impulse, mass, dt_);
+  }
+
+  void solve(bool anew) {
+    const SolveOptions options{.max_iterations = iterations_a_pass * scene_.options.passes};
+    const SolveReport report = anew ? distance_.solver.solve(options, rows_.rows, rows_.block, team_)
+                                    : distance_.solver.solve_further(options, rows_.rows, rows_.block, team_);
+    scene_.step.passes += report.iterations;
+    scene_.step.residual = report.residual;
+    store();
+  }
+
+  // Velocities of the blocks, to nodes and bodies.
+  void store() {
+    for (std::size_t b = 0; b < rows_.block.size(); ++b) {
+      const Vector3<double>& velocity = rows_.block[b].velocity;
+      const BlockOwner& owner = rows_.owner[b];
+      switch (owner.kind) {
+        case BlockOwner::Kind::node:
+          set(nodes_.record[index(owner.index)].velocity, velocity);
+          if (const int slave = scene_.surface.slave(owner.index); slave >= 0) {
+            scene_.in_contact.insert(slave);
+            set(scene_.motion[index(slave)].velocity, velocity);
+          }
+          break;
+        case BlockOwner::Kind::rotation_of_node:
+          set(nodes_.angular_velocity[index(owner.index)].component, velocity);
+          break;
+        case BlockOwner::Kind::body:
+          bodies_[index(owner.index)].velocity = to_eigen(velocity);
+          break;
+        case BlockOwner::Kind::rotation_of_body:
+          bodies_[index(owner.index)].angular_velocity = to_eigen(velocity);
+          break;
+      }
+    }
+    if (!ties_.empty()) carry_velocities(ties_, nodes_, dt_);
+  }
+
+  // Where the solution takes the nodes.
+  void follow() {
+    if (!distance_.zone_impulse.empty()) store_zones();
+    if (ties_.empty())
+      distance_.motion.end_by_solution(distance_.features, scene_.surface, scene_.in_contact, scene_.motion,
+                                       dt_, bodies_, team_);
+    else
+      distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
+  }
+  void store_zones() {
+    for (std::size_t s = 0; s < distance_.zone_impulse.size(); ++s) {
+      if (distance_.zone_impulse[s].isZero(0)) continue;
+      double* velocity = nodes_.record[index(scene_.surface.node[s])].velocity;
+      std::copy(scene_.motion[s].velocity, scene_.motion[s].velocity + 3, velocity);
+    }
+    if (!ties_.empty()) carry_velocities(ties_, nodes_, dt_);
+  }
+
+  // Along the closest points at the start, which keeps angular momentum; where that did not do, along the
+  // direction in which they meet as well.
+  void add_constraints(std::size_t ordinary) {
+    const std::size_t known = scene_.contacts.size();
+    for (const Hit& hit : distance_.guard.hits) {
+      const bool again = add(hit.at_start, ordinary);
+      if (hit.at_hit && (again || hit.at_start.normal.isZero(0))) add(*hit.at_hit, ordinary);
+    }
+    for (std::size_t i = ordinary; i < known; ++i) {
+      ConstraintRow& row = rows_.rows.row[i];
+      if (row.gap == scene_.contacts[i].gap) continue;
+      row.gap = scene_.contacts[i].gap;
+      set_target(row);
+    }
+    add_rows_from(known);
+  }
+  static bool is_same(const Contact& a, const Contact& b) {
+    double apart = 0;
+    for (std::size_t k = 0; k < 5; ++k) apart = std::max(apart, std::abs(a.weight[k] - b.weight[k]));
+    return a.node == b.node && apart < same_weight && a.normal.dot(b.normal) > same_direction;
+  }
+  // \returns whether such a constraint is there already
+  bool add(const Contact& wanted, std::size_t ordinary) {
+    if (wanted.normal.isZero(0)) return true;
+    for (std::size_t i = ordinary; i < scene_.contacts.size(); ++i) {
+      Contact& known = scene_.contacts[i];
+      if (!is_same(known, wanted)) continue;
+      known.gap = std::min(known.gap, wanted.gap);
+      if (known.gap > 0) known.gap *= 0.5;
+      return true;
+    }
+    scene_.contacts.push_back(wanted);
+    return false;
+  }
+
+  void finish(std::size_t ordinary) {
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+      scene_.contacts[i].impulse = rows_.rows.row[i].impulse;
+      scene_.contacts[i].friction = to_eigen(rows_.rows.row[i].friction);
+    }
+    sum_impulses(scene_);
+    count_contacts(scene_);
+    if (!distance_.zone_impulse.empty()) book_zones();
+    if (scene_.step.active > 0) book_rows();
+    add_to_totals(scene_);
+    scene_.contacts.resize(ordinary);
+    if (bodies_.size() > 1) scene_.rigid.find(scene_.surface, nodes_, scene_.contacts, bodies_);
+  }
+
+  // Before the impulses of rows are given to the bodies, which hold those of zones.
+  void book_zones() {
+    ContactStep& step = scene_.step;
+    for (std::size_t s = 0; s < distance_.zone_impulse.size(); ++s) {
+      const Vector3d& impulse = distance_.zone_impulse[s];
+      if (impulse.isZero(0)) continue;
+      scene_.pushed.insert(static_cast<int>(s));
+      scene_.normal_impulse[s] += impulse;
+      const auto node = index(scene_.surface.node[s]);
+      step.normal_work_before += impulse.dot(Vector3d(nodes_.velocity_before[node].component));
+      step.normal_work_after += impulse.dot(Vector3d(nodes_.record[node].velocity));
+    }
+    for (const RigidMotion& body : bodies_) {
+      step.normal_work_before +=
+          body.impulse.dot(body.velocity_before) + body.moment.dot(body.angular_velocity_before);
+      step.normal_work_after += body.impulse.dot(body.velocity) + body.moment.dot(body.angular_velocity);
+    }
+    for (std::size_t b = 0; b < rows_.block.size(); ++b) rows_.block[b].velocity = final_velocity(b);
+  }
+
+  Vector3<double> final_velocity(std::size_t block) const {
+    const auto of = index(rows_.owner[block].index);
+    const auto vector = [](const auto& a) { return Vector3<double>{a[0], a[1], a[2]}; };
+    switch (rows_.owner[block].kind) {
+      case BlockOwner::Kind::node:
+        return vector(nodes_.record[of].velocity);
+      case BlockOwner::Kind::rotation_of_node:
+        return vector(nodes_.angular_velocity[of].component);
+      case BlockOwner::Kind::body:
+        return vector(bodies_[of].velocity);
+      default:
+        return vector(bodies_[of].angular_velocity);
+    }
+  }
+
+  void book_rows() {
+    const RowWork work = book(rows_.rows, rows_.before, rows_.block, rows_.place, {});
+    ContactStep& step = scene_.step;
+    step.normal_work_before += work.normal_before;
+    step.normal_work_after += work.normal_after;
+    step.friction_work_before += work.friction_before;
+    step.friction_work_after += work.friction_after;
+    step.support_work_before += work.support_before;
+    step.support_work_after += work.support_after;
+    step.support_impulse += to_eigen(work.support_impulse);
+    step.support_moment += to_eigen(work.support_moment);
+    if (bodies_.empty()) return;
+    for (const ConstraintRow& row : rows_.rows.row) {
+      if (row.impulse == 0) continue;
+      RowMap(rows_.rows, row).spread(impulse_of(row), [&](int b, const Vector3<double>& given) {
+        const BlockOwner& owner = rows_.owner[index(b)];
+        if (owner.kind == BlockOwner::Kind::body) bodies_[index(owner.index)].impulse += to_eigen(given);
+        if (owner.kind == BlockOwner::Kind::rotation_of_body)
+          bodies_[index(owner.index)].moment += to_eigen(given);
+      });
+    }
+  }
+
+  ContactScene& scene_;
+  DistanceContact& distance_;
+  ContactRows& rows_;
+  Nodes& nodes_;
+  double dt_;
+  ThreadTeam& team_;
+  std::span<RigidMotion> bodies_;
+  const Ties& ties_;
+};
+
+}  // namespace
+
+void resolve_by_distances(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
+                          std::span<RigidMotion> bodies, const Ties& ties) {
+  Resolution(scene, nodes, dt, team, bodies, ties).run();
+}
+
+}  // namespace brio

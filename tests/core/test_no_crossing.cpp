@@ -1,0 +1,149 @@
+// Contact by distances: what starts apart never crosses, whatever the speed, and keeps its books.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "contact/audit/audit.hpp"
+#include "tests/core/scene.hpp"
+
+namespace brio {
+namespace {
+
+using namespace test;
+
+constexpr double wave_speed = 1000;  // of the material of the scenes
+
+ContactSection by_distances(double friction) {
+  ContactSection contact;
+  contact.options.rule = DetectionRule::distance;
+  contact.options.friction = friction;
+  return contact;
+}
+
+struct Outcome {
+  std::int64_t crossings = 0;  ///< at all looks together
+  std::uint64_t unresolved = 0;
+  double energy_error = 0;
+  double momentum_error = 0;  ///< linear, over the sum of sizes
+  int looks = 0;
+};
+
+Outcome run_looking(Deck& deck, int steps_between_looks = 10, int threads = 1) {
+  Model model = build_model(deck);
+  ThreadTeam team(threads);
+  const Momentum before = momentum(model.nodes);
+  Outcome outcome;
+  int step = 0;
+  run(model, deck, team, [&](Model& m) {
+    if (step++ % steps_between_looks != 0) return;
+    outcome.crossings += audit(m.contacts[0], m.nodes, team).crossings;
+    ++outcome.looks;
+  });
+  const Momentum after = momentum(model.nodes);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    outcome.momentum_error =
+        std::max(outcome.momentum_error, std::abs(after.total.linear[axis] - before.total.linear[axis]) /
+                                             std::max(before.linear_size, 1e-300));
+  outcome.energy_error = std::abs(model.energy.relative_error());
+  outcome.unresolved = model.contacts[0].distance->unresolved;
+  return outcome;
+}
+
+/// Cubes in a heap that is thrown together, each turned at random.
+Deck thrown_cubes(int elements, double speed) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(-1, 1);
+  for (int i = 0; i < 27; ++i) {
+    const Triple place{1.9 * (i % 3 - 1), 1.9 * (i / 3 % 3 - 1), 1.9 * (i / 9 - 1)};
+    Part cube = box("cube" + std::to_string(i), {1, 1, 1}, {elements, elements, elements}, {0, 0, 0}, hex8());
+    cube.placement.translate = place;
+    cube.placement.rotate = Rotation{{share(random), share(random), share(random) + 2}, 40 * share(random)};
+    Triple velocity{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      velocity[axis] = speed * (-place[axis] / 1.9 + 0.5 * share(random));
+    deck.parts.push_back(cube);
+    deck.initial_conditions.push_back(moving(cube.name, velocity));
+  }
+  deck.contact = by_distances(0.1);
+  deck.time.end = 3.0 / speed;
+  deck.time.step_scale = 0.6;
+  return deck;
+}
+
+class ThrownCubes : public ::testing::TestWithParam<std::pair<int, double>> {};
+
+TEST_P(ThrownCubes, NeverCross) {
+  const auto [elements, share] = GetParam();
+  Deck deck = thrown_cubes(elements, share * wave_speed);
+  const Outcome outcome = run_looking(deck);
+  EXPECT_GT(outcome.looks, 5);
+  EXPECT_EQ(outcome.crossings, 0);
+  EXPECT_EQ(outcome.unresolved, 0u);
+  EXPECT_LT(outcome.momentum_error, 1e-12);
+  EXPECT_LT(outcome.energy_error, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, ThrownCubes,
+                         ::testing::Values(std::pair(1, 0.03), std::pair(1, 0.1), std::pair(1, 0.2),
+                                           std::pair(2, 0.1), std::pair(2, 0.2)));
+
+Deck block_on_sheet(double thickness, double speed) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  Part block = box("block", {1, 1, 1}, {3, 3, 3}, {0.03, 0.07, 0.6}, hex8());
+  block.placement.rotate = Rotation{{1, 0.3, 0}, 20};
+  block.placement.translate = {0.03, 0.07, 0.95};
+  PlateMesh mesh;
+  mesh.size = {4, 4};
+  mesh.elements = {20, 20};
+  Shell4 element;
+  element.thickness = thickness;
+  deck.parts = {block, {"sheet", mesh, {}, element, "material"}};
+  deck.boundary_conditions = {fix("sheet.boundary", {0, 1, 2})};
+  deck.initial_conditions = {moving("block", {0, 0, -speed})};
+  deck.contact = by_distances(0);
+  deck.time.end = 1.5 / speed;
+  return deck;
+}
+
+class BlockOnSheet : public ::testing::TestWithParam<std::pair<double, double>> {};
+
+TEST_P(BlockOnSheet, DoesNotGoThrough) {
+  const auto [thickness, share] = GetParam();
+  Deck deck = block_on_sheet(thickness, share * wave_speed);
+  const Outcome outcome = run_looking(deck);
+  EXPECT_GT(outcome.looks, 3);
+  EXPECT_EQ(outcome.crossings, 0);
+  EXPECT_EQ(outcome.unresolved, 0u);
+  EXPECT_LT(outcome.energy_error, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, BlockOnSheet,
+                         ::testing::Values(std::pair(0.02, 0.05), std::pair(0.02, 0.3), std::pair(0.005, 0.3),
+                                           std::pair(0.02, 1.0)));
+
+// A block that slides without friction over a floor of facets of random shapes meets nothing at their edges.
+TEST(FacetsOfAFloor, DoNotStopABlock) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.0)}};
+  Part block = box("block", {1, 1, 1}, {2, 2, 2}, {0.0, 0.0, 0.53}, hex8());
+  Part floor = box("floor", {12, 4, 0.06}, {41, 13, 1}, {3, 0, 0}, hex8());
+  floor.placement.rotate = Rotation{{0, 0, 1}, 7};
+  deck.parts = {block, floor};
+  deck.boundary_conditions = {fix("floor.all", {0, 1, 2})};
+  deck.initial_conditions = {moving("block", {10, 1, 0})};
+  deck.contact = by_distances(0);
+  deck.time.end = 0.3;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  run(model, deck, team, [](Model&) {});
+  EXPECT_NEAR(mean_velocity(model, 0, 0), 10, 1e-5);
+  EXPECT_NEAR(mean_velocity(model, 0, 1), 1, 1e-5);
+}
+
+}  // namespace
+}  // namespace brio

@@ -57,12 +57,15 @@ class Look {
   // Edges that are points keep a distance; those of one piece are not kept apart at all.
   Pack floor_of(const PackOfPairs<1, 4>&, unsigned&) const { return Pack(0.0); }
   Pack floor_of(const PackOfPairs<2, 2>& pack, unsigned& lanes) const {
+    unsigned points = 0;
+    for (int lane = 0; lane < pack_size; ++lane)
+      if (pack.node[0][lane] == pack.node[1][lane] || pack.node[2][lane] == pack.node[3][lane])
+        points |= 1U << lane;
     Pack floor(0.0);
-    for (int lane = 0; lane < pack_size; ++lane) {
-      if (pack.node[0][lane] != pack.node[1][lane] && pack.node[2][lane] != pack.node[3][lane]) continue;
-      floor.set(lane, floor_of_points * kind_.radii(pack.a[lane], pack.b[lane]));
-      if (kind_.list.spaced[static_cast<std::size_t>(pack.pair[lane])] == 0) lanes &= ~(1U << lane);
-    }
+    if (points == 0) return floor;
+    const Pack of_points = Pack(floor_of_points) * radii_of(kind_, pack);
+    for_lanes(points, [&](int lane) { floor.set(lane, of_points[lane]); });
+    lanes &= ~points | lane_bits(are_spaced(kind_.list, pack));
     return floor;
   }
 

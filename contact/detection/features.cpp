@@ -166,7 +166,11 @@ void collect_nodes(SurfaceFeatures& features, const Surface& surface) {
     for (std::size_t k = 0; k < 4 && surface.face[f].alive(); ++k)
       features.face_node[f][k] = surface.slave(surface.face[f].node[k]);
   features.edge_node.clear();
-  for (const EdgeFeature& edge : features.edge) features.edge_node.push_back(edge.node);
+  features.edge_radius.clear();
+  for (const EdgeFeature& edge : features.edge) {
+    features.edge_node.push_back(edge.node);
+    features.edge_radius.push_back(edge.radius);
+  }
 }
 
 }  // namespace

@@ -104,10 +104,8 @@ struct NodesAndFaces {
 
   const FeatureWays& first_ways() const { return motion.of_node; }
   const FeatureWays& second_ways() const { return motion.of_face; }
-  double radii(int node, int face) const {
-    return features.node_radius[static_cast<std::size_t>(node)] +
-           features.face_radius[static_cast<std::size_t>(face)];
-  }
+  const std::vector<double>& first_radii() const { return features.node_radius; }
+  const std::vector<double>& second_radii() const { return features.face_radius; }
   void set_nodes(Pairs& pack, std::size_t lane, int node, int face) const {
     const std::array<int, 4>& corners = features.face_node[static_cast<std::size_t>(face)];
     pack.node[0][lane] = node;
@@ -143,10 +141,8 @@ struct EdgesAndEdges {
 
   const FeatureWays& first_ways() const { return motion.of_edge; }
   const FeatureWays& second_ways() const { return motion.of_edge; }
-  double radii(int a, int b) const {
-    return features.edge[static_cast<std::size_t>(a)].radius +
-           features.edge[static_cast<std::size_t>(b)].radius;
-  }
+  const std::vector<double>& first_radii() const { return features.edge_radius; }
+  const std::vector<double>& second_radii() const { return features.edge_radius; }
   void set_nodes(Pairs& pack, std::size_t lane, int a, int b) const {
     for (std::size_t k = 0; k < 2; ++k) {
       pack.node[k][lane] = features.edge_node[static_cast<std::size_t>(a)][k];
@@ -174,6 +170,26 @@ BRIO_INLINE typename Kind::Pairs pack_of(const Kind& kind, const int* pairs, std
   return pack;
 }
 
+/// Registers are put together from eight loads: what is stored by lanes and loaded whole waits for the
+/// stores.
+template <class Pairs>
+BRIO_INLINE Vector3<Pack> directions_of(const PairList& list, const Pairs& pack) {
+  typedef float Narrow __attribute__((vector_size(32)));
+  const auto component = [&](const std::vector<float>& all) {
+    const float* of = all.data();
+    const int* p = pack.pair;
+    const Narrow narrow{of[p[0]], of[p[1]], of[p[2]], of[p[3]], of[p[4]], of[p[5]], of[p[6]], of[p[7]]};
+    return Pack(__builtin_convertvector(narrow, Pack::Vector));
+  };
+  return {component(list.direction[0]), component(list.direction[1]), component(list.direction[2])};
+}
+template <class Pairs>
+BRIO_INLINE MaskOf<Pack> are_spaced(const PairList& list, const Pairs& pack) {
+  const auto lane = [&](std::size_t l) {
+    return -static_cast<std::int64_t>(list.spaced[static_cast<std::size_t>(pack.pair[l])]);
+  };
+  return {MaskOf<Pack>::Vector{lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7)}};
+}
 /// What is known of the pairs besides their points.
 struct PackOfWays {
   Pack reach;        ///< distance at which they touch
@@ -181,29 +197,20 @@ struct PackOfWays {
 };
 
 template <class Kind>
+BRIO_INLINE Pack radii_of(const Kind& kind, const typename Kind::Pairs& pack) {
+  return gather_numbers(kind.first_radii().data(), pack.a) +
+         gather_numbers(kind.second_radii().data(), pack.b);
+}
+template <class Kind>
 BRIO_INLINE PackOfWays ways_of(const Kind& kind, const typename Kind::Pairs& pack) {
   PackOfWays ways;
-  const double skins = 2 * kind.features.skin;
-  for (int lane = 0; lane < pack_size; ++lane)
-    ways.reach.set(lane, kind.list.spaced[static_cast<std::size_t>(pack.pair[lane])] != 0
-                             ? kind.radii(pack.a[lane], pack.b[lane])
-                             : skins);
+  ways.reach = where(are_spaced(kind.list, pack), radii_of(kind, pack), Pack(2 * kind.features.skin));
   const FeatureWays &first = kind.first_ways(), &second = kind.second_ways();
   ways.path = gather_numbers(first.path.data(), pack.a) + gather_numbers(second.path.data(), pack.b);
   ways.ahead = gather_numbers(first.ahead.data(), pack.a) + gather_numbers(second.ahead.data(), pack.b);
   return ways;
 }
 
-template <class Pairs>
-BRIO_INLINE Vector3<Pack> directions_of(const PairList& list, const Pairs& pack) {
-  const auto component = [&](const std::vector<float>& of) {
-    Pack result;
-    for (int lane = 0; lane < pack_size; ++lane)
-      result.set(lane, static_cast<double>(of[static_cast<std::size_t>(pack.pair[lane])]));
-    return result;
-  };
-  return {component(list.direction[0]), component(list.direction[1]), component(list.direction[2])};
-}
 template <class Pairs>
 BRIO_INLINE void store_directions(PairList& list, const Pairs& pack, unsigned lanes, const Vector3<Pack>& d) {
   for_lanes(lanes, [&](int lane) {
@@ -215,7 +222,12 @@ BRIO_INLINE void store_directions(PairList& list, const Pairs& pack, unsigned la
 }
 template <class Pairs>
 BRIO_INLINE void store_wakes(PairList& list, const Pairs& pack, unsigned lanes, Pack wake) {
-  for_lanes(lanes, [&](int lane) { list.wake[static_cast<std::size_t>(pack.pair[lane])] = wake[lane]; });
+  double* to = list.wake.data();
+  if (lanes == first_lanes(pack_size)) {
+    for (int lane = 0; lane < pack_size; ++lane) to[pack.pair[lane]] = wake[lane];
+  } else {
+    for_lanes(lanes, [&](int lane) { to[pack.pair[lane]] = wake[lane]; });
+  }
 }
 
 /// Pairs that a pass takes at once: one task of a team of threads.

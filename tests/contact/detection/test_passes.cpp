@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/contact/allocation_count.hpp"
 #include "tests/contact/detection/reference_passes.hpp"
 
 namespace brio {
@@ -151,6 +152,32 @@ TEST(Passes, SameBitsForAnyNumberOfThreads) {
       compare(d.pairs.node_face, state.node_face);
       compare(d.pairs.edge_edge, state.edge_edge);
     });
+}
+
+TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
+  Random random(4);
+  ThreadTeam team(2);
+  RandomScene scene({.sheets = 6, .cells = 9, .cubes = 60, .beams = 40, .particles = 40, .room = 4}, random);
+  scene.push(1, random);
+  Detector detector{scene, team};
+  const auto step = [&] {
+    detector.motion.begin(scene.features, scene.surface, scene.nodes, team);
+    detector.motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
+    select_awake(detector.proximity, scene.features, detector.pairs, detector.motion, team);
+    find_proximities(detector.proximity, scene.features, scene.surface, scene.options, detector.pairs,
+                     detector.motion, team, detector.contacts);
+    detector.find();
+  };
+  detector.begin();
+  step();
+  const std::size_t contacts = detector.contacts.size(), hits = detector.guard.hits.size();
+  EXPECT_GT(contacts, 100U);
+  EXPECT_GT(hits, 100U);
+  const AllocationCount count;
+  step();
+  EXPECT_EQ(count.count(), 0U);
+  EXPECT_EQ(detector.contacts.size(), contacts);
+  EXPECT_EQ(detector.guard.hits.size(), hits);
 }
 
 // Nodes walk at random, now and then one of them far.

@@ -69,7 +69,6 @@ class GapMaker {
         surface_(scene.surface),
         nodes_(nodes),
         team_(team),
-        pairs_(scene.options.search),
         displacements_(nodes),
         block_(scene.surface.slaves(), -1) {}
 

@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstdio>
 #include <random>
 
+#include "contact/face_geometry.hpp"
 #include "contact/resolution.hpp"
+#include "src/base/floating_point.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -40,7 +43,8 @@ class FreePieces {
       connectivity_.back().push_back(static_cast<int>(nodes_.size()) - 1);
     };
     connectivity_.emplace_back();
-    SurfacePart part{.name = "part " + std::to_string(parts.size())};
+    SurfacePart part;
+    part.name = "part " + std::to_string(parts.size());
     switch (kind) {
       case Kind::rigid:
         part.rigid = static_cast<int>(bodies.size());
@@ -194,12 +198,12 @@ TEST_P(Kinds, KeepMomentumAndAngularMomentumWithFriction) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     std::srand(seed);
     FreePieces pieces(seed);
-    const double r = 0.1 * pieces.number();
-    pieces.add(first, {3 + r, 2, 1.2}, {0.5, 0.2, -1});
+    const double r = 0.05 * pieces.number();
+    pieces.add(first, {2.6 + r, 1.84, 1.2}, {0.5, 0.2, -1});
     pieces.add(second, {3, 2, -0.4}, {0, 0, 1});
     pieces.start(by_distance());
     const double dt = 2e-3;
-    for (int step = 0; step < 900 && met < 40; ++step) {
+    for (int step = 0; step < 900 && met < 20 * static_cast<int>(seed); ++step) {
       const Vector3d linear = pieces.momentum(), angular = pieces.angular_momentum();
       pieces.resolve(dt);
       const double size = 100;
@@ -219,7 +223,8 @@ TEST_P(Kinds, KeepMomentumAndAngularMomentumWithFriction) {
     EXPECT_GT(rubbed, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Kinds, testing::Combine(testing::ValuesIn(all_kinds), testing::ValuesIn(all_kinds)));
+INSTANTIATE_TEST_SUITE_P(All, Kinds,
+                         testing::Combine(testing::ValuesIn(all_kinds), testing::ValuesIn(all_kinds)));
 
 TEST(Resolution, BooksWhatMotionLoses) {
   for (const Kind kind : all_kinds) {
@@ -246,9 +251,9 @@ void expect_mirrored(const SpringModel& model, double tolerance) {
   for (int a = 0; a < model.count(); ++a) {
     double best = infinity;
     for (int b = 0; b < model.count(); ++b)
-      best = std::min(best, (Vector3d(-model.x(b).x(), model.x(b).y(), model.x(b).z()) - model.x(a)).norm() +
-                                0.01 * (Vector3d(-model.v(b).x(), model.v(b).y(), model.v(b).z()) -
-                                        model.v(a)).norm());
+      best = std::min(
+          best, (Vector3d(-model.x(b).x(), model.x(b).y(), model.x(b).z()) - model.x(a)).norm() +
+                    0.01 * (Vector3d(-model.v(b).x(), model.v(b).y(), model.v(b).z()) - model.v(a)).norm());
     ASSERT_LE(best, tolerance) << "node " << a;
   }
 }
@@ -264,9 +269,11 @@ TEST(Resolution, KeepsTheSymmetryOfMirrorImages) {
   for (int step = 0; step < 400; ++step) {
     model.step(1e-3);
     rubbed -= model.scene.step.friction_work();
+    SCOPED_TRACE(step);
+    expect_mirrored(model, 1e-9);
+    if (HasFatalFailure()) return;
   }
   EXPECT_GT(rubbed, 0);
-  expect_mirrored(model, 1e-9);
 }
 
 TEST(Resolution, OfABrickAtRestIsOneCheck) {
@@ -278,7 +285,12 @@ TEST(Resolution, OfABrickAtRestIsOneCheck) {
   model.stiffness = 300;
   model.start(by_distance());
   model.hold(first, first + 25);
-  for (int step = 0; step < 6000; ++step) model.step(2e-3);
+  for (int step = 0; step < 600; ++step) {
+    model.step(2e-3);
+    if (std::getenv("SHOW") && step % 20 == 0)
+      std::printf("%d rows %zu active %d passes %d res %g kin %g\n", step, model.scene.contacts.size(),
+                  model.scene.step.active, model.scene.step.passes, model.scene.step.residual, model.kinetic_energy());
+  }
   EXPECT_GE(model.scene.step.active, 4);
   EXPECT_LE(model.scene.step.passes, 1);
   EXPECT_LE(model.kinetic_energy(), 1e-12);

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "contact/closest_segments.hpp"
 #include "contact/face_geometry.hpp"
 #include "contact/overlap.hpp"
@@ -182,6 +184,52 @@ TEST(InitialGap, IsMadeWhereBlocksOverlapByATenthOfAnEdge) {
   ASSERT_FALSE(scene.report.empty());
   EXPECT_TRUE(scene.report.front().is_overlap());
   EXPECT_NEAR(scene.report.front().depth, 0.1, 1e-12);
+}
+
+/// Of two cubes of two units, one turned and shifted: the least overlap along the normals of faces and of
+/// pairs of edges, and the direction from the first to the second along which it is.
+std::pair<double, Vector3d> least_overlap(const Eigen::Matrix3d& turn, const Vector3d& shift) {
+  double least = 1e9;
+  Vector3d along = Vector3d::Zero();
+  const auto consider = [&](const Vector3d& axis) {
+    if (axis.norm() < 1e-6) return;
+    const Vector3d unit = axis.normalized();
+    const double reach = unit.lpNorm<1>() + (turn.transpose() * unit).lpNorm<1>();
+    const double overlap = reach - std::abs(unit.dot(shift));
+    if (overlap >= least) return;
+    least = overlap;
+    along = unit.dot(shift) < 0 ? Vector3d(-unit) : unit;
+  };
+  for (int i = 0; i < 3; ++i) {
+    consider(Vector3d::Unit(i));
+    consider(turn.col(i));
+    for (int j = 0; j < 3; ++j) consider(Vector3d::Unit(i).cross(turn.col(j)));
+  }
+  return {least, along};
+}
+
+// Corners in faces and edges across edges, at any angle and from 0 to 0.08 of an edge deep.
+TEST(InitialGap, IsMadeBetweenCubesAtAnyAngle) {
+  std::mt19937 engine(5);
+  const auto random = [&] { return std::uniform_real_distribution<double>(-1, 1)(engine); };
+  for (int trial = 0; trial < 60; ++trial) {
+    SCOPED_TRACE(trial);
+    const Eigen::Matrix3d turn =
+        Eigen::Quaterniond(random(), random(), random(), random()).normalized().toRotationMatrix();
+    Vector3d shift(2 * random(), 2 * random(), 2.5);
+    const double depth = trial % 4 == 0 ? 0 : 0.04 * (1 + random());
+    for (int round = 0; round < 50; ++round) {
+      const auto [overlap, along] = least_overlap(turn, shift);
+      shift += (overlap - depth) * along;
+    }
+    RestingScene scene;
+    scene.box({-1, -1, -1}, {2, 2, 2}, {2, 2, 2});
+    scene.model.add_box({2, 2, 2}, {2, 2, 2}, 1, [&](const Vector3d& x) -> Vector3d {
+      return turn * (x - Vector3d(1, 1, 1)) + shift;
+    });
+    scene.begin();
+    expect_made(scene, depth);
+  }
 }
 
 // Bars across each other, where no node of either lies in the other.

@@ -143,7 +143,7 @@ class Resolution {
       look_again();
       Lap lap{stats.t[4]};
       find_hits(distance_.guard, distance_.proximity, distance_.features, scene_.surface, scene_.options,
-                distance_.pairs, distance_.motion);
+                distance_.pairs, distance_.motion, team_);
       if (distance_.guard.hits.empty()) break;
       tell(distance_, round);
       if (round == 0) ++distance_.steps_with_hits;
@@ -180,15 +180,18 @@ class Resolution {
       scene_.candidates.smallest_edge = distance_.features.smallest_edge;
       scene_.candidates.mean_edge = distance_.features.mean_edge;
     }
-    distance_.motion.begin(distance_.features, scene_.surface, nodes_, team_);
-    distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
+    {
+      Lap lap{stats.t[0]};
+      distance_.motion.begin(distance_.features, scene_.surface, nodes_, team_);
+      distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
+    }
     if (distance_.pairs.is_due(scene_.surface, distance_.motion)) search();
     select();
     distance_.motion.set_limits(2, allowed_surplus(distance_.features));
     scene_.last.swap(scene_.contacts);
     Lap lap{stats.t[1]};
     find_proximities(distance_.proximity, distance_.features, scene_.surface, scene_.options, distance_.pairs,
-                     distance_.motion, scene_.contacts);
+                     distance_.motion, team_, scene_.contacts);
     inherit_impulses(scene_.last, scene_.last_dt > 0 ? dt_ / scene_.last_dt : 1.0, scene_.contacts,
                      rows_.taken);
   }
@@ -202,7 +205,10 @@ class Resolution {
     scene_.step.searched = true;
     scene_.step.search_seconds += seconds_since(start);
   }
-  void select() { select_awake(distance_.proximity, distance_.features, distance_.pairs, distance_.motion); }
+  void select() {
+    Lap lap{stats.t[0]};
+    select_awake(distance_.proximity, distance_.features, distance_.pairs, distance_.motion, team_);
+  }
   // Of pairs that were surely apart in the predicted motion.
   void look_again() {
     if (distance_.pairs.is_due(scene_.surface, distance_.motion)) {

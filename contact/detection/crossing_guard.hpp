@@ -34,6 +34,11 @@ struct Hit {
 
 struct CrossingGuard {
   std::vector<Hit> hits;  ///< of the last look, in the order of pairs
+  struct Range {
+    std::vector<Hit> hits;
+    std::uint64_t certified = 0, renewed = 0, checked = 0;
+  };
+  std::vector<Range> range;  ///< working space of the ranges that threads take
   std::uint64_t certified = 0, renewed = 0, checked = 0, found = 0;  ///< sums over steps
 };
 
@@ -41,8 +46,9 @@ struct CrossingGuard {
 inline constexpr double separation_share = 1e-3;
 
 /// Replace guard.hits by those among the pairs that are not surely apart. Directions of pairs are renewed.
+/// The same bits for any number of threads.
 void find_hits(CrossingGuard& guard, const Proximity& proximity, const SurfaceFeatures& features,
                const Surface& surface, const ContactOptions& options, FeaturePairs& pairs,
-               const FeatureMotion& motion);
+               const FeatureMotion& motion, ThreadTeam& team);
 
 }  // namespace brio

@@ -9,85 +9,114 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr std::size_t nodes_a_range = 4096;
+constexpr std::size_t features_a_range = 4096;
 /// Paths are rounded up by more than their sums are rounded down.
 constexpr double rounded_up = 1 + 1e-9;
 
-double length_in_frame(const double* from, const double* to, const double* frame) {
+double square_in_frame(const double* from, const double* to, const double* frame) {
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double d = to[axis] - from[axis] - frame[axis];
     square += d * d;
   }
-  return std::sqrt(square) * rounded_up;
+  return square;
+}
+double length_in_frame(const double* from, const double* to, const double* frame) {
+  return std::sqrt(square_in_frame(from, to, frame)) * rounded_up;
 }
 
-// The longest of the corners of each face and edge.
-void spread_to_features(const SurfaceFeatures& features, const Surface& surface,
-                        const std::vector<double>& of_node, std::vector<double>& of_face,
-                        std::vector<double>& of_edge, bool add, ThreadTeam& team) {
-  const auto at = [&](int slave) { return of_node[static_cast<std::size_t>(slave)]; };
-  team.for_ranges(surface.face.size(), nodes_a_range, [&](std::size_t begin, std::size_t end) {
+/// What was moved and the step of a node side by side, to be compared at once.
+typedef double Both __attribute__((vector_size(16)));
+
+Both longer(Both a, Both b) { return a > b ? a : b; }
+
+// The longest of the corners of each feature.
+template <class Way, std::size_t Corners>
+void spread_to(FeatureWays& ways, const std::vector<std::array<int, Corners>>& corners,
+               const std::vector<Way>& of_node, bool with_paths, ThreadTeam& team) {
+  const auto at = [&](int slave) {
+    const Way& way = of_node[static_cast<std::size_t>(slave)];
+    return Both{way.moved, way.step};
+  };
+  team.for_ranges(corners.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      const Face& face = surface.face[f];
-      if (!face.alive()) continue;
-      double longest = 0;
-      for (int corner : face.node) longest = std::max(longest, at(surface.slave(corner)));
-      of_face[f] = add ? of_face[f] + longest : longest;
+      Both longest = at(corners[f][0]);
+      for (std::size_t k = 1; k < Corners; ++k) longest = longer(longest, at(corners[f][k]));
+      const double path = ways.path[f] + (with_paths ? longest[0] : 0);
+      ways.path[f] = path;
+      ways.ahead[f] = path + approach_factor * longest[1];
     }
   });
-  team.for_ranges(features.edge.size(), nodes_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) {
-      const double longest = std::max(at(features.edge[e].node[0]), at(features.edge[e].node[1]));
-      of_edge[e] = add ? of_edge[e] + longest : longest;
-    }
-  });
+}
+
+void restart_ways(FeatureWays& ways, std::size_t count) {
+  ways.path.resize(count, 0);
+  ways.ahead.resize(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    ways.ahead[i] = std::max(0.0, ways.ahead[i] - ways.path[i]) * rounded_up;
+    ways.path[i] = 0;
+  }
 }
 
 }  // namespace
 
 void FeatureMotion::restart(const SurfaceFeatures& features, const Surface& surface) {
-  node_path_.assign(surface.slaves(), 0);
-  face_path_.assign(surface.face.size(), 0);
-  edge_path_.assign(features.edge.size(), 0);
+  restart_ways(of_node, surface.slaves());
+  restart_ways(of_face, surface.face.size());
+  restart_ways(of_edge, features.edge.size());
   for (double& sum : frame_sum_) sum = 0;
+  longest_path_ = 0;
+  longest_step_ *= rounded_up;
+  ++restarts_;
+}
+
+void FeatureMotion::start_sums(std::size_t count) {
+  sum_.assign((count + features_a_range - 1) / features_a_range, {});
 }
 
 void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes,
                           ThreadTeam& team) {
-  const bool follows = known_ && node.size() == surface.slaves() && edge_path_.size() == features.edge.size();
+  const bool follows =
+      known_ && node.size() == surface.slaves() && of_edge.path.size() == features.edge.size();
   node.resize(surface.slaves());
-  node_step_.assign(surface.slaves(), 0);
-  team.for_ranges(node.size(), nodes_a_range, [&](std::size_t begin, std::size_t end) {
+  way_.resize(surface.slaves());
+  if (!follows) {
+    restart(features, surface);
+    driven_.clear();
+    for (std::size_t s = 0; s < node.size(); ++s)
+      if (surface.rigid_body(surface.node[s]) >= 0) driven_.push_back(static_cast<int>(s));
+  }
+  start_sums(node.size());
+  team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
+    Sum& sum = sum_[begin / features_a_range];
     for (std::size_t s = begin; s < end; ++s) {
       if (surface.node[s] < 0) {
         node[s] = {};
+        way_[s] = {};
         continue;
       }
       const double* x = nodes.record[static_cast<std::size_t>(surface.node[s])].position;
-      if (follows) {
-        node_step_[s] = length_in_frame(node[s].start, x, frame_);
-        node_path_[s] += node_step_[s];
-      }
+      way_[s].moved = follows ? length_in_frame(node[s].start, x, frame_) : 0;
+      of_node.path[s] += way_[s].moved;
+      sum.longest_moved = std::max(sum.longest_moved, way_[s].moved);
       std::copy(x, x + 3, node[s].start);
     }
   });
-  if (follows) {
-    spread_to_features(features, surface, node_step_, face_path_, edge_path_, true, team);
+  double longest = 0;
+  for (const Sum& sum : sum_) longest = std::max(longest, sum.longest_moved);
+  longest_path_ += longest;
+  if (follows)
     for (int axis = 0; axis < 3; ++axis) frame_sum_[axis] += frame_[axis];
-  } else {
-    restart(features, surface);
-  }
   known_ = true;
-  magnitude_ = -1;
+  predicted_ = false;
 }
 
 void FeatureMotion::end_by_velocity(const SurfaceFeatures& features, const Surface& surface,
                                     const Nodes& nodes, double dt, std::span<const RigidMotion> bodies,
                                     ThreadTeam& team) {
-  sum_.assign((node.size() + nodes_a_range - 1) / nodes_a_range, {});
-  team.for_ranges(node.size(), nodes_a_range, [&](std::size_t begin, std::size_t end) {
-    Sum& sum = sum_[begin / nodes_a_range];
+  start_sums(node.size());
+  team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
+    Sum& sum = sum_[begin / features_a_range];
     for (std::size_t s = begin; s < end; ++s) {
       const int global = surface.node[s];
       if (global < 0) continue;
@@ -104,20 +133,52 @@ void FeatureMotion::end_by_velocity(const SurfaceFeatures& features, const Surfa
         sum.magnitude = std::max({sum.magnitude, std::abs(moved.start[axis]), std::abs(moved.end[axis])});
       }
       sum.count += 1;
+      if (predicted_) sum.exceeds = raise(s) || sum.exceeds;
     }
   });
-  const bool first = magnitude_ < 0;
-  Sum total;
-  for (const Sum& part : sum_) {
-    for (int axis = 0; axis < 3; ++axis) total.displacement[axis] += part.displacement[axis];
-    total.magnitude = std::max(total.magnitude, part.magnitude);
-    total.count += part.count;
+  magnitude_ = 0;
+  for (const Sum& sum : sum_) magnitude_ = std::max(magnitude_, sum.magnitude);
+  if (predicted_) {
+    finish_raising(features, team);
+    return;
   }
-  magnitude_ = total.magnitude;
-  // The frame of a step stays as it was predicted, whatever contact does to single nodes.
-  if (first && total.count > 0)
-    for (int axis = 0; axis < 3; ++axis) frame_[axis] = total.displacement[axis] / total.count;
-  measure_steps(features, surface, team);
+  set_frame();
+  measure_steps(surface, team);
+  spread(features, true, team);
+  predicted_ = true;
+  exceeds_ = false;
+}
+
+// The frame of a step stays as it was predicted, whatever contact does to single nodes.
+void FeatureMotion::set_frame() {
+  Sum total;
+  for (const Sum& sum : sum_) {
+    for (int axis = 0; axis < 3; ++axis) total.displacement[axis] += sum.displacement[axis];
+    total.count += sum.count;
+  }
+  if (total.count == 0) return;
+  for (int axis = 0; axis < 3; ++axis) frame_[axis] = total.displacement[axis] / total.count;
+}
+
+void FeatureMotion::measure_steps(const Surface& surface, ThreadTeam& team) {
+  start_sums(node.size());
+  team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
+    double longest = 0;
+    for (std::size_t s = begin; s < end; ++s) {
+      const double step = surface.node[s] < 0 ? 0 : length_in_frame(node[s].start, node[s].end, frame_);
+      way_[s].step = step;
+      of_node.ahead[s] = of_node.path[s] + approach_factor * step;
+      longest = std::max(longest, step);
+    }
+    sum_[begin / features_a_range].longest_step = longest;
+  });
+  longest_step_ = 0;
+  for (const Sum& sum : sum_) longest_step_ = std::max(longest_step_, sum.longest_step);
+}
+
+void FeatureMotion::spread(const SurfaceFeatures& features, bool with_paths, ThreadTeam& team) {
+  spread_to(of_face, features.face_node, way_, with_paths, team);
+  spread_to(of_edge, features.edge_node, way_, with_paths, team);
 }
 
 void FeatureMotion::end_of_body_node(std::size_t slave, const RigidMotion& body, double dt) {
@@ -125,41 +186,52 @@ void FeatureMotion::end_of_body_node(std::size_t slave, const RigidMotion& body,
   for (int axis = 0; axis < 3; ++axis) node[slave].end[axis] = node[slave].start[axis] + dt * v[axis];
 }
 
+void FeatureMotion::set_limits(double factor, double surplus) {
+  limit_factor_ = factor;
+  limit_surplus_ = surplus;
+}
+
+// Take the step of a node that exceeds its limit for its step. \returns whether it does
+bool FeatureMotion::raise(std::size_t slave) {
+  const NodeMotion64& moved = node[slave];
+  const double limit = limit_factor_ * way_[slave].step + limit_surplus_;
+  if (square_in_frame(moved.start, moved.end, frame_) * (rounded_up * rounded_up) <= limit * limit)
+    return false;
+  way_[slave].step = length_in_frame(moved.start, moved.end, frame_);
+  of_node.ahead[slave] = of_node.path[slave] + approach_factor * way_[slave].step;
+  return true;
+}
+
+void FeatureMotion::finish_raising(const SurfaceFeatures& features, ThreadTeam& team) {
+  exceeds_ = std::any_of(sum_.begin(), sum_.end(), [](const Sum& sum) { return sum.exceeds; });
+  if (!exceeds_) return;
+  for (const Way& way : way_) longest_step_ = std::max(longest_step_, way.step);
+  spread(features, false, team);
+}
+
 void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surface& surface,
                                     const SlaveSet& in_contact, std::span<const ContactMotion> corrected,
                                     double dt, std::span<const RigidMotion> bodies, ThreadTeam& team) {
+  const std::size_t driven = bodies.empty() ? 0 : driven_.size();
+  start_sums(driven + 1);
+  bool exceeds = false;
   in_contact.for_each([&](std::size_t s) {
     for (int axis = 0; axis < 3; ++axis)
       node[s].end[axis] = node[s].start[axis] + dt * corrected[s].velocity[axis];
+    if (bodies.empty() || surface.rigid_body(surface.node[s]) < 0) exceeds = raise(s) || exceeds;
   });
-  if (!bodies.empty())
-    for (std::size_t s = 0; s < node.size(); ++s) {
+  team.for_ranges(driven, features_a_range, [&](std::size_t begin, std::size_t end) {
+    Sum& sum = sum_[begin / features_a_range];
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t s = index(driven_[i]);
       const int body = surface.rigid_body(surface.node[s]);
-      if (body >= 0) end_of_body_node(s, bodies[static_cast<std::size_t>(body)], dt);
+      if (body < 0) continue;
+      end_of_body_node(s, bodies[static_cast<std::size_t>(body)], dt);
+      sum.exceeds = raise(s) || sum.exceeds;
     }
-  measure_steps(features, surface, team);
-}
-
-void FeatureMotion::set_limits(double factor, double surplus) {
-  limit_.resize(node_step_.size());
-  for (std::size_t s = 0; s < limit_.size(); ++s) limit_[s] = factor * node_step_[s] + surplus;
-}
-
-bool FeatureMotion::exceeds_limits() const {
-  bool exceeds = false;
-  for (std::size_t s = 0; s < limit_.size(); ++s) exceeds = exceeds || node_step_[s] > limit_[s];
-  return exceeds;
-}
-
-void FeatureMotion::measure_steps(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team) {
-  node_step_.resize(surface.slaves());
-  face_step_.resize(surface.face.size());
-  edge_step_.resize(features.edge.size());
-  team.for_ranges(node.size(), nodes_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s)
-      node_step_[s] = surface.node[s] < 0 ? 0 : length_in_frame(node[s].start, node[s].end, frame_);
   });
-  spread_to_features(features, surface, node_step_, face_step_, edge_step_, false, team);
+  sum_[0].exceeds = sum_[0].exceeds || exceeds;
+  finish_raising(features, team);
 }
 
 }  // namespace brio

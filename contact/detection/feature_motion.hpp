@@ -8,6 +8,7 @@
 /// (bodies that turn: along the chord), so a height above a direction that is positive at both ends is
 /// positive in between.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,38 +27,54 @@ struct alignas(64) NodeMotion64 {
   double end[4];
 };
 
+/// Constraints are formed ahead of touching, over this multiple of the approach of the step: other impulses
+/// of the step may speed it up.
+inline constexpr double approach_factor = 2;
+
+/// Of all features of one kind.
+struct FeatureWays {
+  std::vector<double> path;   ///< since the restart, until the start of this step
+  std::vector<double> ahead;  ///< the path with approach_factor times the displacement of this step
+};
+
 class FeatureMotion {
  public:
   std::vector<NodeMotion64> node;  ///< of each slave node; dead ones stay at the origin
+  FeatureWays of_node, of_face, of_edge;
 
-  /// Positions at the start of a step; the displacements to them enter the paths.
+  /// Positions at the start of a step; the displacements to them enter the paths with those at its end.
   void begin(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, ThreadTeam& team);
-  /// Positions at the end of the step by the velocities of the nodes, and the displacements of this step.
+  /// Positions at the end of the step by the velocities of the nodes. The first time in a step paths and
+  /// looks ahead of all features are formed; later as in `end_by_solution`.
   void end_by_velocity(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, double dt,
                        std::span<const RigidMotion> bodies, ThreadTeam& team);
 
   /// Positions at the end of the step of what contact has moved: nodes by their corrected velocities, those
-  /// of rigid bodies by their bodies'.
+  /// of rigid bodies by their bodies'. Looks ahead are as predicted, but for nodes that exceed their limits
+  /// and the features at them, which look farther ahead from then on.
   void end_by_solution(const SurfaceFeatures& features, const Surface& surface, const SlaveSet& in_contact,
                        std::span<const ContactMotion> corrected, double dt,
                        std::span<const RigidMotion> bodies, ThreadTeam& team);
-  /// Keep by how much nodes may move in this step: a factor times the present displacement and a surplus.
+  /// By how much nodes may move in this step: a factor times the displacement that is known of them, and a
+  /// surplus.
   void set_limits(double factor, double surplus);
-  /// Whether any node moves by more.
-  bool exceeds_limits() const;
+  /// Whether the last positions at the end of the step were beyond the limits of any node.
+  bool exceeds_limits() const { return exceeds_; }
 
   /// The surface has changed: nothing is known of the last step.
   void forget() { known_ = false; }
   /// Paths start at zero: pairs are found anew.
   void restart(const SurfaceFeatures& features, const Surface& surface);
+  std::uint64_t restarts() const { return restarts_; }
 
-  double node_path(int slave) const { return node_path_[index(slave)]; }
-  double face_path(int face) const { return face_path_[index(face)]; }
-  double edge_path(int edge) const { return edge_path_[index(edge)]; }
-  /// Displacement in this step, in the frame: of a node, the longest of the corners of a face or an edge.
-  double node_step(int slave) const { return node_step_[index(slave)]; }
-  double face_step(int face) const { return face_step_[index(face)]; }
-  double edge_step(int edge) const { return edge_step_[index(edge)]; }
+  double node_path(int slave) const { return of_node.path[index(slave)]; }
+  double face_path(int face) const { return of_face.path[index(face)]; }
+  double edge_path(int edge) const { return of_edge.path[index(edge)]; }
+  /// Displacement of a node in this step, in the frame.
+  double node_step(int slave) const { return way_[index(slave)].step; }
+  /// No feature's look ahead is more than that. It grows by no less than theirs until the next restart.
+  double longest_ahead() const { return longest_path_ + approach_factor * longest_step_; }
+  double longest_path() const { return longest_path_; }
   /// Displacement of the frame in this step, and since the restart until its start.
   const double* frame() const { return frame_; }
   const double* frame_since_restart() const { return frame_sum_; }
@@ -69,21 +86,40 @@ class FeatureMotion {
   Eigen::Vector3d displacement(int slave) const { return end(slave) - start(slave); }
 
  private:
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  void end_of_body_node(std::size_t slave, const RigidMotion& body, double dt);
-  void measure_steps(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team);
-
+  /// Of a node, in the frame.
+  struct alignas(16) Way {
+    double moved;  ///< from the start of the last step to that of this one; 0: nothing is known of the last
+    double step;   ///< in this step
+  };
   struct Sum {
     double displacement[3] = {0, 0, 0};
     double magnitude = 0;
     double count = 0;
+    double longest_moved = 0, longest_step = 0;
+    bool exceeds = false;
   };
-  std::vector<double> node_path_, face_path_, edge_path_, node_step_, face_step_, edge_step_, limit_;
-  std::vector<Sum> sum_;  ///< one a range of nodes
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  void end_of_body_node(std::size_t slave, const RigidMotion& body, double dt);
+  void set_frame();
+  void measure_steps(const Surface& surface, ThreadTeam& team);
+  bool raise(std::size_t slave);
+  void finish_raising(const SurfaceFeatures& features, ThreadTeam& team);
+  void spread(const SurfaceFeatures& features, bool with_paths, ThreadTeam& team);
+  void start_sums(std::size_t count);
+
+  std::vector<Way> way_;     ///< of each slave node
+  std::vector<Sum> sum_;     ///< one a range
+  std::vector<int> driven_;  ///< slave nodes of rigid bodies
+  double longest_path_ = 0, longest_step_ = 0;
+  double limit_factor_ = 1, limit_surplus_ = 0;
   double frame_[3] = {0, 0, 0};
   double frame_sum_[3] = {0, 0, 0};
   double magnitude_ = 0;
-  bool known_ = false;  ///< whether the nodes' last positions are those of the step before
+  std::uint64_t restarts_ = 0;
+  bool known_ = false;      ///< whether the nodes' last positions are those of the step before
+  bool predicted_ = false;  ///< whether the steps are known
+  bool exceeds_ = false;
 };
 
 }  // namespace brio

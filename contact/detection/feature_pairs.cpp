@@ -91,6 +91,7 @@ bool one_piece(const Surface& surface, const Lists& excluded, const EdgeFeature&
 }  // namespace
 
 void PairList::clear() {
+  ++changes;
   first.clear();
   second.clear();
   for (auto& axis : direction) axis.clear();
@@ -99,6 +100,7 @@ void PairList::clear() {
 }
 
 void PairList::add(int a, int b, bool keep_distance) {
+  ++changes;
   first.push_back(a);
   second.push_back(b);
   for (auto& axis : direction) axis.push_back(0);

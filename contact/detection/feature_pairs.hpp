@@ -25,6 +25,8 @@ struct PairList {
   std::vector<double> wake;          ///< sum of both paths at which the pair has to be looked at
   std::vector<std::uint8_t> spaced;  ///< 1: their radii are kept apart; 0: two skins, as they are one piece
 
+  std::uint64_t changes = 0;  ///< how often pairs were put in or taken out
+
   std::size_t size() const { return first.size(); }
   void clear();
   void add(int a, int b, bool keep_distance);
@@ -41,6 +43,7 @@ struct PairList {
 
 template <class Leaves>
 void PairList::remove_if(const Leaves& leaves) {
+  ++changes;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < size(); ++i) {
     if (leaves(first[i], second[i])) continue;

@@ -160,6 +160,15 @@ void set_radii(SurfaceFeatures& features, const Surface& surface, const ContactO
         std::max(reach_of_node(surface, options, s), features.skin);
 }
 
+void collect_nodes(SurfaceFeatures& features, const Surface& surface) {
+  features.face_node.assign(surface.face.size(), {});
+  for (std::size_t f = 0; f < surface.face.size(); ++f)
+    for (std::size_t k = 0; k < 4 && surface.face[f].alive(); ++k)
+      features.face_node[f][k] = surface.slave(surface.face[f].node[k]);
+  features.edge_node.clear();
+  for (const EdgeFeature& edge : features.edge) features.edge_node.push_back(edge.node);
+}
+
 }  // namespace
 
 void measure(SurfaceFeatures& features, const Surface& surface, const Nodes& nodes) {
@@ -191,6 +200,7 @@ void collect(SurfaceFeatures& features, const Surface& surface, const ContactOpt
   add_diagonals(features, surface);
   add_round_elements(features, surface);
   collect_rings(features, surface);
+  collect_nodes(features, surface);
 }
 
 }  // namespace brio

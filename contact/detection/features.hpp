@@ -47,6 +47,8 @@ struct SurfaceFeatures {
   double skin = 0;           ///< radius of what has no thickness
   std::vector<EdgeFeature> edge;
   std::vector<std::array<int, 4>> edge_of_face;  ///< sides by corner; the fourth of a triangle is -1
+  std::vector<std::array<int, 4>> face_node;     ///< slave indices of the corners; of dead faces node 0
+  std::vector<std::array<int, 2>> edge_node;     ///< EdgeFeature::node side by side
   std::vector<double> node_radius;               ///< of each slave node
   std::vector<double> face_radius;               ///< of each face
   Lists ring;                                    ///< of each slave node: those at the other ends of its edges

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/detection/awake_pairs.hpp"
 #include "contact/detection/feature_motion.hpp"
 #include "contact/detection/feature_pairs.hpp"
 #include "contact/detection/features.hpp"
@@ -19,28 +20,36 @@
 
 namespace brio {
 
+/// A constraint on its way.
+struct FoundContact {
+  Contact contact;
+  std::array<int, 2> support{};  ///< what the closest points lie on, so that none is counted twice
+};
+
 /// What is looked at in a step.
 struct Proximity {
   std::vector<int> node_face, edge_edge;  ///< pairs that are not surely apart in this step, ascending
   std::uint64_t looked_at = 0;            ///< sum over steps of pairs
   std::uint64_t closest_points = 0;       ///< sum over steps of closest points computed
 
-  struct Found {
-    Contact contact;
-    std::array<int, 2> support{};  ///< what the closest points lie on, so that none is counted twice
+  PairBlocks node_face_blocks, edge_edge_blocks;
+  struct Range {
+    std::vector<FoundContact> found;
+    std::size_t closest_points = 0;
   };
-  std::vector<Found> found;  ///< working space
+  std::vector<Range> range;                ///< working space of the ranges that threads take
+  std::vector<const FoundContact*> found;  ///< of all ranges
 };
 
 /// Pairs that may come within their radii in this step, by their paths.
 void select_awake(Proximity& proximity, const SurfaceFeatures& features, const FeaturePairs& pairs,
-                  const FeatureMotion& motion);
+                  const FeatureMotion& motion, ThreadTeam& team);
 
 /// Replace `contacts` by the constraints of this step, those of nodes and faces by node, then those of edges.
-/// Directions and wakes of the pairs are renewed.
+/// Directions and wakes of the pairs are renewed. The same bits for any number of threads.
 void find_proximities(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
                       const ContactOptions& options, FeaturePairs& pairs, const FeatureMotion& motion,
-                      std::vector<Contact>& contacts);
+                      ThreadTeam& team, std::vector<Contact>& contacts);
 
 /// Of all pairs: how far the solution may move a node beyond twice its predicted step before pairs that were
 /// surely apart have to be looked at again.

@@ -1,0 +1,42 @@
+#pragma once
+/// Pairs that no direction separates over a step, by the velocity checks, which miss nothing
+/// (velocity_check.hpp, edge_check.hpp): whether they touch, and the constraints that keep them apart.
+
+#include <optional>
+
+#include "contact/detection/crossing_guard.hpp"
+
+namespace brio {
+
+/// Edges that are points keep this share of their radii from each other ...
+inline constexpr double floor_of_points = 0.5;
+/// ... or of the distance at the start, where that is less.
+inline constexpr double floor_at_start = 0.9;
+
+class CrossingCheck {
+ public:
+  CrossingCheck(const SurfaceFeatures& features, const Surface& surface, const ContactOptions& options,
+                const FeaturePairs& pairs, const FeatureMotion& motion)
+      : features_(features),
+        surface_(surface),
+        options_(options),
+        pairs_(pairs),
+        motion_(motion),
+        separation_(separation_share * features.smallest_edge) {}
+
+  std::optional<Hit> node_and_face(std::size_t pair) const;
+  std::optional<Hit> edge_and_edge(std::size_t pair) const;
+
+ private:
+  void set_start(Hit& hit, Contact& contact, const Eigen::Vector3d& offset, double floor) const;
+  void set_hit(Hit& hit, Contact contact, Eigen::Vector3d normal, bool without_side) const;
+
+  const SurfaceFeatures& features_;
+  const Surface& surface_;
+  const ContactOptions& options_;
+  const FeaturePairs& pairs_;
+  const FeatureMotion& motion_;
+  double separation_;
+};
+
+}  // namespace brio

@@ -1,0 +1,236 @@
+#pragma once
+/// Eight pairs of features side by side, of nodes and faces or of edges and edges: their points, the sums of
+/// their radii, paths and looks ahead, the direction between them, and their closest points.
+///
+/// A pass over pairs goes through lists of them by eights: the last eight may be fewer, and repeats the last
+/// pair in the lanes that are left over, which nothing is stored for.
+
+#include "contact/detection/closest_on_hull.hpp"
+#include "contact/detection/closest_on_segments.hpp"
+#include "contact/detection/feature_motion.hpp"
+#include "contact/detection/feature_pairs.hpp"
+#include "contact/detection/features.hpp"
+#include "contact/detection/gather.hpp"
+#include "contact/detection/separation.hpp"
+
+namespace brio {
+
+using Pack = Lanes<double>;
+inline constexpr int pack_size = NumberTraits<Pack>::lanes;
+
+/// Bit i: the truth in lane i.
+BRIO_INLINE unsigned lane_bits(MaskOf<Pack> mask) {
+#if defined(BRIO_AVX512)
+  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask.v));
+#else
+  unsigned bits = 0;
+  for (int lane = 0; lane < pack_size; ++lane) bits |= (mask.v[lane] != 0 ? 1U : 0U) << lane;
+  return bits;
+#endif
+}
+/// Visit the lanes of set bits, ascending.
+template <class Visit>
+BRIO_INLINE void for_lanes(unsigned bits, const Visit& visit) {
+  for (; bits != 0; bits &= bits - 1) visit(__builtin_ctz(bits));
+}
+constexpr unsigned first_lanes(int count) { return (1U << count) - 1; }
+
+/// Numbers of eight features.
+BRIO_INLINE Pack gather_numbers(const double* of, const int* index) {
+  return Pack(Pack::Vector{of[index[0]], of[index[1]], of[index[2]], of[index[3]], of[index[4]], of[index[5]],
+                           of[index[6]], of[index[7]]});
+}
+BRIO_INLINE Pack load_numbers(const double* from) {
+  Pack pack;
+  std::memcpy(&pack.v, from, sizeof pack.v);
+  return pack;
+}
+
+/// In single precision, in which directions are kept.
+BRIO_INLINE Pack rounded_to_float(Pack a) {
+  typedef float Narrow __attribute__((vector_size(32)));
+  return Pack(__builtin_convertvector(__builtin_convertvector(a.v, Narrow), Pack::Vector));
+}
+BRIO_INLINE Vector3<Pack> rounded_to_float(const Vector3<Pack>& a) {
+  return {rounded_to_float(a.x), rounded_to_float(a.y), rounded_to_float(a.z)};
+}
+/// Zero where the length is zero.
+BRIO_INLINE Vector3<Pack> normalized(const Vector3<Pack>& a) { return sqrt(inverse_or_zero(dot(a, a))) * a; }
+
+/// Which pairs, and the slave indices of their points.
+template <std::size_t First, std::size_t Second>
+struct PackOfPairs {
+  static constexpr std::size_t first_points = First, second_points = Second;
+  int pair[pack_size];
+  int a[pack_size], b[pack_size];  ///< the features
+  alignas(32) int node[First + Second][pack_size];
+  int count;
+
+  unsigned lanes() const { return first_lanes(count); }
+};
+
+/// Points of both features at one time.
+template <std::size_t First, std::size_t Second>
+struct PackOfPoints {
+  std::array<Vector3<Pack>, First> first;
+  std::array<Vector3<Pack>, Second> second;
+};
+
+template <std::size_t First, std::size_t Second>
+BRIO_INLINE PackOfPoints<First, Second> points_of(const PackOfPairs<First, Second>& pack,
+                                                  const double* rows) {
+  constexpr std::size_t stride = sizeof(NodeMotion64) / sizeof(double);
+  PackOfPoints<First, Second> points;
+  for (std::size_t k = 0; k < First; ++k) points.first[k] = gather_points<Pack>(rows, stride, pack.node[k]);
+  for (std::size_t k = 0; k < Second; ++k)
+    points.second[k] = gather_points<Pack>(rows, stride, pack.node[First + k]);
+  return points;
+}
+
+struct ClosestNodeFace {
+  Vector3<Pack> offset;         ///< node minus closest point
+  std::array<Pack, 4> weights;  ///< of the corners
+  Pack squared_distance;
+};
+
+/// Nodes and faces: what the passes ask of a kind of pairs.
+struct NodesAndFaces {
+  using Pairs = PackOfPairs<1, 4>;
+  using Points = PackOfPoints<1, 4>;
+  using Closest = ClosestNodeFace;
+  const SurfaceFeatures& features;
+  const FeatureMotion& motion;
+  PairList& list;
+
+  const FeatureWays& first_ways() const { return motion.of_node; }
+  const FeatureWays& second_ways() const { return motion.of_face; }
+  double radii(int node, int face) const {
+    return features.node_radius[static_cast<std::size_t>(node)] +
+           features.face_radius[static_cast<std::size_t>(face)];
+  }
+  void set_nodes(Pairs& pack, std::size_t lane, int node, int face) const {
+    const std::array<int, 4>& corners = features.face_node[static_cast<std::size_t>(face)];
+    pack.node[0][lane] = node;
+    for (std::size_t k = 0; k < 4; ++k) pack.node[k + 1][lane] = corners[k];
+  }
+  /// Of the hull of the face, or among neighbours of one piece of its two triangles (hull_point.hpp).
+  static BRIO_INLINE Closest closest(const Points& at, bool as_hull) {
+    const std::array<Vector3<Pack>, 4>& v = at.second;
+    if (as_hull) {
+      const ClosestOnHull<Pack> found = closest_on_hull<Pack>(at.first[0], v);
+      return {found.offset, found.weights, found.squared_distance};
+    }
+    const ClosestOnTriangle<Pack> p = closest_on_triangle(at.first[0], v[0], v[1], v[2]);
+    const ClosestOnTriangle<Pack> q = closest_on_triangle(at.first[0], v[0], v[2], v[3]);
+    const MaskOf<Pack> is_triangle = (v[2].x == v[3].x) & (v[2].y == v[3].y) & (v[2].z == v[3].z);
+    const MaskOf<Pack> is_q = (!is_triangle) & (q.squared_distance < p.squared_distance);
+    const Pack zero(0.0);
+    return {where<Pack>(is_q, q.offset, p.offset),
+            {where(is_q, q.weights[0], p.weights[0]), where(is_q, zero, p.weights[1]),
+             where(is_q, q.weights[1], p.weights[2]), where(is_q, q.weights[2], zero)},
+            where(is_q, q.squared_distance, p.squared_distance)};
+  }
+};
+
+/// Edges and edges.
+struct EdgesAndEdges {
+  using Pairs = PackOfPairs<2, 2>;
+  using Points = PackOfPoints<2, 2>;
+  using Closest = ClosestOnSegments<Pack>;
+  const SurfaceFeatures& features;
+  const FeatureMotion& motion;
+  PairList& list;
+
+  const FeatureWays& first_ways() const { return motion.of_edge; }
+  const FeatureWays& second_ways() const { return motion.of_edge; }
+  double radii(int a, int b) const {
+    return features.edge[static_cast<std::size_t>(a)].radius +
+           features.edge[static_cast<std::size_t>(b)].radius;
+  }
+  void set_nodes(Pairs& pack, std::size_t lane, int a, int b) const {
+    for (std::size_t k = 0; k < 2; ++k) {
+      pack.node[k][lane] = features.edge_node[static_cast<std::size_t>(a)][k];
+      pack.node[k + 2][lane] = features.edge_node[static_cast<std::size_t>(b)][k];
+    }
+  }
+  static BRIO_INLINE Closest closest(const Points& at, bool /*as_hull*/) {
+    return closest_on_segments(at.first[0], at.first[1], at.second[0], at.second[1]);
+  }
+};
+
+/// The pairs at places begin to end of a list, at most eight.
+template <class Kind>
+BRIO_INLINE typename Kind::Pairs pack_of(const Kind& kind, const int* pairs, std::size_t begin,
+                                         std::size_t end) {
+  typename Kind::Pairs pack;
+  for (std::size_t lane = 0; lane < pack_size; ++lane) {
+    const int pair = pairs[begin + lane < end ? begin + lane : end - 1];
+    pack.pair[lane] = pair;
+    pack.a[lane] = kind.list.first[static_cast<std::size_t>(pair)];
+    pack.b[lane] = kind.list.second[static_cast<std::size_t>(pair)];
+    kind.set_nodes(pack, lane, pack.a[lane], pack.b[lane]);
+  }
+  pack.count = static_cast<int>(std::min<std::size_t>(pack_size, end - begin));
+  return pack;
+}
+
+/// What is known of the pairs besides their points.
+struct PackOfWays {
+  Pack reach;        ///< distance at which they touch
+  Pack path, ahead;  ///< sums of both features
+};
+
+template <class Kind>
+BRIO_INLINE PackOfWays ways_of(const Kind& kind, const typename Kind::Pairs& pack) {
+  PackOfWays ways;
+  const double skins = 2 * kind.features.skin;
+  for (int lane = 0; lane < pack_size; ++lane)
+    ways.reach.set(lane, kind.list.spaced[static_cast<std::size_t>(pack.pair[lane])] != 0
+                             ? kind.radii(pack.a[lane], pack.b[lane])
+                             : skins);
+  const FeatureWays &first = kind.first_ways(), &second = kind.second_ways();
+  ways.path = gather_numbers(first.path.data(), pack.a) + gather_numbers(second.path.data(), pack.b);
+  ways.ahead = gather_numbers(first.ahead.data(), pack.a) + gather_numbers(second.ahead.data(), pack.b);
+  return ways;
+}
+
+template <class Pairs>
+BRIO_INLINE Vector3<Pack> directions_of(const PairList& list, const Pairs& pack) {
+  const auto component = [&](const std::vector<float>& of) {
+    Pack result;
+    for (int lane = 0; lane < pack_size; ++lane)
+      result.set(lane, static_cast<double>(of[static_cast<std::size_t>(pack.pair[lane])]));
+    return result;
+  };
+  return {component(list.direction[0]), component(list.direction[1]), component(list.direction[2])};
+}
+template <class Pairs>
+BRIO_INLINE void store_directions(PairList& list, const Pairs& pack, unsigned lanes, const Vector3<Pack>& d) {
+  for_lanes(lanes, [&](int lane) {
+    const auto pair = static_cast<std::size_t>(pack.pair[lane]);
+    list.direction[0][pair] = static_cast<float>(d.x[lane]);
+    list.direction[1][pair] = static_cast<float>(d.y[lane]);
+    list.direction[2][pair] = static_cast<float>(d.z[lane]);
+  });
+}
+template <class Pairs>
+BRIO_INLINE void store_wakes(PairList& list, const Pairs& pack, unsigned lanes, Pack wake) {
+  for_lanes(lanes, [&](int lane) { list.wake[static_cast<std::size_t>(pack.pair[lane])] = wake[lane]; });
+}
+
+/// Pairs that a pass takes at once: one task of a team of threads.
+inline constexpr std::size_t pairs_a_range = 512;
+
+/// Pairs of a range that go on to the next stage of a pass: those whose radii are kept apart and those of one
+/// piece apart, as their closest points are not of the same kind.
+struct PairsOfRange {
+  std::array<std::array<int, pairs_a_range>, 2> pair;
+  std::array<std::size_t, 2> count{};
+
+  void add(const PairList& list, int p) {
+    const std::size_t kind = list.spaced[static_cast<std::size_t>(p)] != 0 ? 1 : 0;
+    pair[kind][count[kind]++] = p;
+  }
+};
+
+}  // namespace brio

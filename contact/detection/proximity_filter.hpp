@@ -1,0 +1,53 @@
+#pragma once
+/// From closest points that are near to constraints: what is a local minimum of distance on the union of the
+/// surfaces, and approaches enough to matter in this step (proximity.hpp).
+
+#include "contact/detection/proximity.hpp"
+
+namespace brio {
+
+/// The closest points of a pair at the start of the step.
+template <std::size_t Numbers>
+struct NearPair {
+  int pair = 0;
+  std::array<double, Numbers> at{};  ///< weights of the corners of the face; parameters on both edges
+  Eigen::Vector3d normal;            ///< unit vector from the second feature to the first
+  double distance = 0;
+  double reach = 0;  ///< distance at which they touch
+};
+
+class ProximityFilter {
+ public:
+  ProximityFilter(const SurfaceFeatures& features, const Surface& surface, const ContactOptions& options,
+                  const FeaturePairs& pairs, const FeatureMotion& motion)
+      : features_(features),
+        surface_(surface),
+        options_(options),
+        pairs_(pairs),
+        motion_(motion),
+        band_(proximity_band * features.smallest_edge) {}
+
+  /// Append the constraint of the pair, if it is one.
+  void node_and_face(const NearPair<4>& near, std::vector<FoundContact>& found) const;
+  void edge_and_edge(const NearPair<2>& near, std::vector<FoundContact>& found) const;
+
+ private:
+  const EdgeFeature& edge(int e) const { return features_.edge[static_cast<std::size_t>(e)]; }
+  template <class List>
+  bool look_away(const List& neighbours, const Eigen::Vector3d& foot, const Eigen::Vector3d& away) const;
+  bool is_near(const Contact& contact) const;
+  bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const Eigen::Vector3d& foot,
+                          const Eigen::Vector3d& normal, std::array<int, 2>& support) const;
+  bool is_minimum_on_edge(int edge, double parameter, const Eigen::Vector3d& foot,
+                          const Eigen::Vector3d& away, int& on) const;
+  bool lies_flat(const EdgeFeature& own, const Eigen::Vector3d& foot, const Eigen::Vector3d& direction) const;
+
+  const SurfaceFeatures& features_;
+  const Surface& surface_;
+  const ContactOptions& options_;
+  const FeaturePairs& pairs_;
+  const FeatureMotion& motion_;
+  double band_;
+};
+
+}  // namespace brio

@@ -1,0 +1,140 @@
+#pragma once
+/// What the passes over pairs find, by a look at every pair, one after the other: no direction is kept,
+/// nothing sleeps, no lanes.
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "contact/detection/closest_on_segments.hpp"
+#include "contact/detection/crossing_check.hpp"
+#include "contact/detection/hull_point.hpp"
+#include "contact/detection/proximity_filter.hpp"
+#include "tests/contact/detection/packs.hpp"
+#include "tests/contact/detection/random_scene.hpp"
+
+namespace brio {
+
+class Reference {
+ public:
+  Reference(const RandomScene& scene, const FeaturePairs& all, const FeatureMotion& motion)
+      : scene_(scene), all_(all), motion_(motion) {}
+
+  double node_face_distance(std::size_t pair) const { return closest_node_face(pair).distance; }
+  double edge_edge_distance(std::size_t pair) const { return closest_edges(pair).distance; }
+
+  std::vector<Contact> contacts() const {
+    std::vector<Contact> contacts;
+    std::vector<FoundContact> found;
+    const ProximityFilter filter(scene_.features, scene_.surface, scene_.options, all_, motion_);
+    for (std::size_t i = 0; i < all_.node_face.size(); ++i) {
+      const NearPair<4> near = closest_node_face(i);
+      const double ahead = ahead_of(motion_.of_node, all_.node_face.first[i]) +
+                           ahead_of(motion_.of_face, all_.node_face.second[i]);
+      if (is_near(near.distance, near.reach, ahead)) filter.node_and_face(near, found);
+    }
+    take_over(found, contacts);
+    for (std::size_t i = 0; i < all_.edge_edge.size(); ++i) {
+      const NearPair<2> near = closest_edges(i);
+      const double ahead = ahead_of(motion_.of_edge, all_.edge_edge.first[i]) +
+                           ahead_of(motion_.of_edge, all_.edge_edge.second[i]);
+      if (is_near(near.distance, near.reach, ahead)) filter.edge_and_edge(near, found);
+    }
+    take_over(found, contacts);
+    return contacts;
+  }
+
+  /// Kind, first and second feature of all pairs that the exact checks find to touch.
+  using Touch = std::tuple<PairKind, int, int>;
+  std::vector<Touch> touches() const {
+    std::vector<Touch> touches;
+    const CrossingCheck check(scene_.features, scene_.surface, scene_.options, all_, motion_);
+    for (std::size_t i = 0; i < all_.node_face.size(); ++i)
+      if (check.node_and_face(i))
+        touches.emplace_back(PairKind::node_face, all_.node_face.first[i], all_.node_face.second[i]);
+    for (std::size_t i = 0; i < all_.edge_edge.size(); ++i) {
+      const int a = all_.edge_edge.first[i], b = all_.edge_edge.second[i];
+      if (all_.edge_edge.spaced[i] == 0 && (edge(a).is_point() || edge(b).is_point())) continue;
+      if (check.edge_and_edge(i)) touches.emplace_back(PairKind::edge_edge, a, b);
+    }
+    std::sort(touches.begin(), touches.end());
+    return touches;
+  }
+
+  static bool same(const Contact& a, const Contact& b) {
+    bool same = a.slave == b.slave && a.face == b.face && a.body == b.body && a.node == b.node;
+    for (std::size_t k = 0; k < 5; ++k) same = same && same_bits(a.weight[k], b.weight[k]);
+    for (int axis = 0; axis < 3; ++axis) same = same && same_bits(a.normal[axis], b.normal[axis]);
+    return same && same_bits(a.gap, b.gap) && a.friction_coefficient == b.friction_coefficient;
+  }
+
+ private:
+  const EdgeFeature& edge(int e) const { return scene_.features.edge[static_cast<std::size_t>(e)]; }
+  // Of a step alone.
+  static double ahead_of(const FeatureWays& ways, int feature) {
+    const auto f = static_cast<std::size_t>(feature);
+    return ways.ahead[f] - ways.path[f];
+  }
+  bool is_near(double distance, double reach, double ahead) const {
+    const double h = scene_.features.smallest_edge;
+    return distance > 1e-12 * h && distance <= reach + proximity_band * h + ahead;
+  }
+
+  NearPair<4> closest_node_face(std::size_t i) const {
+    const PairList& list = all_.node_face;
+    const int s = list.first[i], f = list.second[i];
+    FaceVertices at;
+    for (std::size_t k = 0; k < 4; ++k)
+      at[k] = motion_.start(scene_.features.face_node[static_cast<std::size_t>(f)][k]);
+    const bool spaced = list.spaced[i] != 0;
+    const Vector3<double> x = plain(motion_.start(s));
+    std::array<double, 4> weights{};
+    Vector3<double> offset{};
+    if (spaced) {
+      const auto found = closest_on_hull<double>(x, {plain(at[0]), plain(at[1]), plain(at[2]), plain(at[3])});
+      weights = found.weights;
+      offset = found.inside ? Vector3<double>{0, 0, 0} : found.offset;
+    } else {
+      const auto p = closest_on_triangle<double>(x, plain(at[0]), plain(at[1]), plain(at[2]));
+      const auto q = closest_on_triangle<double>(x, plain(at[0]), plain(at[2]), plain(at[3]));
+      const bool first = at[2] == at[3] || p.squared_distance <= q.squared_distance;
+      weights = first ? std::array<double, 4>{p.weights[0], p.weights[1], p.weights[2], 0}
+                      : std::array<double, 4>{q.weights[0], 0, q.weights[1], q.weights[2]};
+      offset = first ? p.offset : q.offset;
+    }
+    const double distance = std::sqrt(dot(offset, offset));
+    const double reach = spaced ? scene_.features.node_radius[static_cast<std::size_t>(s)] +
+                                      scene_.features.face_radius[static_cast<std::size_t>(f)]
+                                : 2 * scene_.features.skin;
+    return {static_cast<int>(i), weights, eigen((1 / distance) * offset), distance, reach};
+  }
+
+  NearPair<2> closest_edges(std::size_t i) const {
+    const PairList& list = all_.edge_edge;
+    const EdgeFeature &a = edge(list.first[i]), &b = edge(list.second[i]);
+    const auto found = closest_on_segments(plain(motion_.start(a.node[0])), plain(motion_.start(a.node[1])),
+                                           plain(motion_.start(b.node[0])), plain(motion_.start(b.node[1])));
+    const double distance = std::sqrt(found.squared_distance);
+    const double reach = list.spaced[i] != 0 ? a.radius + b.radius : 2 * scene_.features.skin;
+    return {
+        static_cast<int>(i), {found.on_a, found.on_b}, eigen((1 / distance) * found.offset), distance, reach};
+  }
+
+  static void take_over(std::vector<FoundContact>& found, std::vector<Contact>& contacts) {
+    std::sort(found.begin(), found.end(), [](const FoundContact& a, const FoundContact& b) {
+      return std::tuple(a.contact.slave, a.support, a.contact.face, a.contact.node) <
+             std::tuple(b.contact.slave, b.support, b.contact.face, b.contact.node);
+    });
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (i == 0 || found[i].contact.slave != found[i - 1].contact.slave ||
+          found[i].support != found[i - 1].support)
+        contacts.push_back(found[i].contact);
+    found.clear();
+  }
+
+  const RandomScene& scene_;
+  const FeaturePairs& all_;
+  const FeatureMotion& motion_;
+};
+
+}  // namespace brio

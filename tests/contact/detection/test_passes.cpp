@@ -1,0 +1,209 @@
+/// The passes over pairs of features in lanes and threads: what they find is what a look at every listed pair
+/// finds, what would touch is what the exact checks of every pair of the scene find, and pairs that sleep are
+/// not near.
+
+#include <gtest/gtest.h>
+
+#include "tests/contact/detection/reference_passes.hpp"
+
+namespace brio {
+namespace {
+
+/// What goes through the passes from step to step.
+struct Detector {
+  RandomScene& scene;
+  ThreadTeam& team;
+  FeatureMotion motion{};
+  FeaturePairs pairs{};
+  Proximity proximity{};
+  CrossingGuard guard{};
+  std::vector<Contact> contacts{};
+  std::vector<ContactMotion> corrected{};
+
+  void begin() {
+    motion.begin(scene.features, scene.surface, scene.nodes, team);
+    motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
+    if (pairs.is_due(scene.surface, motion)) search();
+    select_awake(proximity, scene.features, pairs, motion, team);
+    motion.set_limits(2, allowed_surplus(scene.features));
+    find_proximities(proximity, scene.features, scene.surface, scene.options, pairs, motion, team, contacts);
+  }
+  void search() { pairs.find(scene.features, scene.surface, scene.excluded, scene.options, motion, team); }
+
+  // Nodes are pushed, as if by contact, one in ten of them beyond its limit.
+  void solve(double speed, Random& random) {
+    SlaveSet pushed(scene.surface.slaves());
+    corrected.resize(scene.surface.slaves());
+    for (std::size_t s = 0; s < scene.surface.slaves(); ++s) {
+      if (random.coin()) continue;
+      NodeRecord& node = scene.nodes.record[static_cast<std::size_t>(scene.surface.node[s])];
+      const Eigen::Vector3d change = random.vector(random.integer(0, 9) == 0 ? 8 * speed : 0.5 * speed);
+      for (int axis = 0; axis < 3; ++axis)
+        corrected[s].velocity[axis] = node.velocity[axis] = node.velocity[axis] + change[axis];
+      pushed.insert(static_cast<int>(s));
+    }
+    motion.end_by_solution(scene.features, scene.surface, pushed, corrected, scene.dt, {}, team);
+    if (pairs.is_due(scene.surface, motion))
+      search();
+    else if (!motion.exceeds_limits())
+      return;
+    select_awake(proximity, scene.features, pairs, motion, team);
+  }
+  void find() {
+    find_hits(guard, proximity, scene.features, scene.surface, scene.options, pairs, motion, team);
+  }
+
+  std::vector<Reference::Touch> touches() const {
+    std::vector<Reference::Touch> touches;
+    for (const Hit& hit : guard.hits) {
+      const PairList& list = hit.kind == PairKind::node_face ? pairs.node_face : pairs.edge_edge;
+      touches.emplace_back(hit.kind, list.first[hit.pair], list.second[hit.pair]);
+    }
+    std::sort(touches.begin(), touches.end());
+    return touches;
+  }
+};
+
+TEST(Passes, FindWhatALookAtEveryPairFinds) {
+  Random random(1);
+  ThreadTeam team(2);
+  std::size_t contacts = 0, of_lines = 0, touches = 0, asleep = 0, pairs = 0;
+  for (int s = 0; s < 500; ++s) {
+    RandomScene scene({}, random);
+    const double speed = random.power_of_ten(-2, 1);
+    scene.push(speed, random);
+    FeaturePairs all = all_pairs(scene, team);
+    Detector detector{scene, team};
+    for (int step = 0; step < 20; ++step) {
+      detector.begin();
+      const Reference reference(scene, all, detector.motion);
+      // Constraints are of what is listed: pairs whose boxes meet.
+      const std::vector<Contact> expected = Reference(scene, detector.pairs, detector.motion).contacts();
+      ASSERT_EQ(detector.contacts.size(), expected.size()) << s << ' ' << step;
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        ASSERT_TRUE(Reference::same(detector.contacts[i], expected[i])) << s << ' ' << step << ' ' << i;
+        of_lines += expected[i].of_lines() ? 1 : 0;
+      }
+      contacts += expected.size();
+      detector.solve(speed, random);
+      detector.find();
+      const auto wanted = reference.touches();
+      ASSERT_EQ(detector.touches(), wanted) << s << ' ' << step;
+      touches += wanted.size();
+      pairs += detector.pairs.edge_edge.size();
+      asleep += detector.pairs.edge_edge.size() - detector.proximity.edge_edge.size();
+      scene.move(random);
+      scene.push(speed, random);
+    }
+  }
+  // All that is judged occurs.
+  EXPECT_GT(contacts - of_lines, 10000U);
+  EXPECT_GT(of_lines, 1000U);
+  EXPECT_GT(touches, 5000U);
+  EXPECT_GT(asleep, pairs / 20);
+}
+
+TEST(Passes, SameBitsForAnyNumberOfThreads) {
+  const auto run = [](int threads, auto&& visit) {
+    Random random(2);
+    ThreadTeam team(threads);
+    RandomScene scene({.sheets = 6, .cells = 9, .cubes = 60, .beams = 40, .particles = 40, .room = 4},
+                      random);
+    scene.push(1, random);
+    Detector detector{scene, team};
+    for (int step = 0; step < 10; ++step) {
+      detector.begin();
+      detector.solve(1, random);
+      detector.find();
+      visit(step, detector);
+      scene.move(random);
+      scene.push(1, random);
+    }
+  };
+  struct State {
+    std::vector<Contact> contacts;
+    std::vector<Hit> hits;
+    PairList node_face, edge_edge;
+  };
+  std::vector<State> expected;
+  run(1, [&](int, const Detector& d) {
+    expected.push_back({d.contacts, d.guard.hits, d.pairs.node_face, d.pairs.edge_edge});
+    EXPECT_GT(d.proximity.edge_edge.size(), 5000U) << "many ranges";
+  });
+  const auto compare = [](const PairList& a, const PairList& b) {
+    EXPECT_EQ(a.first, b.first);
+    EXPECT_EQ(a.second, b.second);
+    EXPECT_EQ(a.wake, b.wake);
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(a.direction[axis], b.direction[axis]);
+  };
+  for (int threads : {2, 3, 8})
+    run(threads, [&](int step, const Detector& d) {
+      const State& state = expected[static_cast<std::size_t>(step)];
+      ASSERT_EQ(d.contacts.size(), state.contacts.size());
+      for (std::size_t i = 0; i < d.contacts.size(); ++i)
+        EXPECT_TRUE(Reference::same(d.contacts[i], state.contacts[i]));
+      ASSERT_EQ(d.guard.hits.size(), state.hits.size());
+      for (std::size_t i = 0; i < d.guard.hits.size(); ++i) {
+        EXPECT_EQ(d.guard.hits[i].pair, state.hits[i].pair);
+        EXPECT_TRUE(same_bits(d.guard.hits[i].time, state.hits[i].time));
+        EXPECT_TRUE(Reference::same(d.guard.hits[i].at_start, state.hits[i].at_start));
+      }
+      compare(d.pairs.node_face, state.node_face);
+      compare(d.pairs.edge_edge, state.edge_edge);
+    });
+}
+
+// Nodes walk at random, now and then one of them far.
+TEST(Passes, WhatSleepsIsNotNear) {
+  Random random(3);
+  ThreadTeam team(1);
+  std::size_t asleep = 0, looked_at = 0;
+  for (int walk = 0; walk < 4; ++walk) {
+    RandomScene scene({.room = 2.5}, random);
+    Detector detector{scene, team};
+    for (int step = 0; step < 1000; ++step) {
+      scene.push(random.integer(0, 99) == 0 ? 3 : 0.1, random);
+      detector.begin();
+      const Reference reference(scene, detector.pairs, detector.motion);
+      const auto judge = [&](const PairList& list, const std::vector<int>& awake, const auto& distance,
+                             const auto& reach) {
+        auto next = awake.begin();
+        for (std::size_t i = 0; i < list.size(); ++i) {
+          if (next != awake.end() && *next == static_cast<int>(i)) {
+            ++next;
+            ++looked_at;
+          } else {
+            ++asleep;
+            ASSERT_GT(distance(i), reach(i) + proximity_band * scene.features.smallest_edge)
+                << walk << ' ' << step << ' ' << i;
+          }
+        }
+        ASSERT_EQ(next, awake.end());
+      };
+      const double skins = 2 * scene.features.skin;
+      const auto& nf = detector.pairs.node_face;
+      const auto& ee = detector.pairs.edge_edge;
+      judge(
+          nf, detector.proximity.node_face, [&](std::size_t i) { return reference.node_face_distance(i); },
+          [&](std::size_t i) {
+            return nf.spaced[i] == 0 ? skins
+                                     : scene.features.node_radius[static_cast<std::size_t>(nf.first[i])] +
+                                           scene.features.face_radius[static_cast<std::size_t>(nf.second[i])];
+          });
+      judge(
+          ee, detector.proximity.edge_edge, [&](std::size_t i) { return reference.edge_edge_distance(i); },
+          [&](std::size_t i) {
+            return ee.spaced[i] == 0 ? skins
+                                     : scene.features.edge[static_cast<std::size_t>(ee.first[i])].radius +
+                                           scene.features.edge[static_cast<std::size_t>(ee.second[i])].radius;
+          });
+      if (HasFatalFailure()) return;
+      scene.move(random);
+    }
+  }
+  EXPECT_GT(asleep, looked_at);
+  EXPECT_GT(looked_at, 10000U);
+}
+
+}  // namespace
+}  // namespace brio

@@ -46,7 +46,7 @@ struct Model {
   StepTimes times;
   StepControl control;
   Nodes nodes;
-  Extent extent;  ///< of the nodes at the start
+  SceneExtent extent;  ///< of the nodes at the start
   std::vector<Block> blocks;
   std::vector<PartInModel> parts;
   std::unordered_map<std::string, std::size_t> part_number;  ///< by name

@@ -10,7 +10,7 @@
 
 #include "elements/block.hpp"
 #include "elements/deletion.hpp"
-#include "elements/gather.hpp"
+#include "src/base/gather.hpp"
 #include "elements/mean_gradient.hpp"
 #include "elements/motion.hpp"
 #include "materials/failing.hpp"

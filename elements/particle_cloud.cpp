@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "elements/bad_element.hpp"
-#include "elements/gather.hpp"
+#include "src/base/gather.hpp"
 #include "elements/particle_weights.hpp"
 
 namespace brio {

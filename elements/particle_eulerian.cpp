@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "elements/gather.hpp"
+#include "src/base/gather.hpp"
 #include "elements/particle_pairs.hpp"
 #include "elements/particle_support.hpp"
 #include "elements/particle_weights.hpp"

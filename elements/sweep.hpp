@@ -31,7 +31,7 @@
 
 #include "elements/bad_element.hpp"
 #include "elements/block.hpp"
-#include "elements/gather.hpp"
+#include "src/base/gather.hpp"
 #include "elements/lose.hpp"
 #include "elements/scale_mass.hpp"
 #include "src/base/fetch_ahead.hpp"

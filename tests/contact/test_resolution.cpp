@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstdio>
 #include <random>
 
 #include "contact/face_geometry.hpp"
@@ -275,28 +274,6 @@ TEST(Resolution, KeepsTheSymmetryOfMirrorImages) {
   for (int step = 0; step < 400; ++step) {
     model.step(1e-3);
     rubbed -= model.scene.step.friction_work();
-    if (std::getenv("SHOW")) {
-      const auto& cs = model.scene.contacts;
-      const auto point = [&](const Contact& c) {
-        Vector3d sum = Vector3d::Zero();
-        for (std::size_t k = 0; k < std::size_t(c.own); ++k)
-          sum += c.weight[k] * model.x(model.scene.surface.node[std::size_t(c.node[k])]);
-        return sum;
-      };
-      for (const Contact& c : cs) {
-        double best = 1e9;
-        const Vector3d a = point(c), n = c.normal;
-        for (const Contact& d : cs) {
-          if (c.own != d.own) continue;
-          const Vector3d b = point(d), m = d.normal;
-          best = std::min(best, (Vector3d(-b.x(), b.y(), b.z()) - a).norm() +
-                                    (Vector3d(-m.x(), m.y(), m.z()) - n).norm() + std::abs(c.gap - d.gap) + std::abs(c.impulse - d.impulse));
-        }
-        if (best > 1e-12)
-          std::printf("step %d own %d at %.4f %.4f %.4f n %.4f %.4f %.4f gap %g J %g best %g w %.3f %.3f %.3f %.3f\n", step, c.own, a.x(),
-                      a.y(), a.z(), n.x(), n.y(), n.z(), c.gap, c.impulse, best, c.weight[1], c.weight[2], c.weight[3], c.weight[4]);
-      }
-    }
     SCOPED_TRACE(step);
     expect_mirrored(model, 1e-9);
     if (HasFatalFailure()) return;
@@ -313,15 +290,12 @@ TEST(Resolution, OfABrickAtRestIsOneCheck) {
   model.stiffness = 30;
   model.start(by_distance());
   model.hold(first, first + 25);
-  for (int step = 0; step < 6000; ++step) {
+  for (int step = 0; step < 1500; ++step) model.step(1e-3);
+  for (int step = 0; step < 300; ++step) {
     model.step(1e-3);
-    if (std::getenv("SHOW") && step % 300 == 0)
-      std::printf("%d rows %zu active %d passes %d res %g kin %g\n", step, model.scene.contacts.size(),
-                  model.scene.step.active, model.scene.step.passes, model.scene.step.residual, model.kinetic_energy());
+    EXPECT_GE(model.scene.step.active, 25);
+    EXPECT_EQ(model.scene.step.passes, 1) << step;
   }
-  EXPECT_GE(model.scene.step.active, 4);
-  EXPECT_LE(model.scene.step.passes, 1);
-  EXPECT_LE(model.kinetic_energy(), 1e-12);
 }
 
 // A sheet whose nodes are held above the faces of a box, and a block that slides onto it.

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "contact/enforcement/impact_zone.hpp"
+#include "contact/enforcement/inherited_impulses.hpp"
 #include "contact/enforcement/target_velocity.hpp"
 #include "contact/face_geometry.hpp"
 

@@ -281,19 +281,19 @@ TEST(Resolution, KeepsTheSymmetryOfMirrorImages) {
   EXPECT_GT(rubbed, 0);
 }
 
-TEST(Resolution, OfABrickAtRestIsOneCheck) {
+TEST(Resolution, OfABrickAtRestOnAFlatFaceIsOneCheck) {
   SpringModel model;
-  const int first = model.add_box({4, 4, 2}, {1, 1, 0.5}, 1, shifted({0, 0, -0.5}));
+  const int first = model.add_box({1, 1, 2}, {1, 1, 0.5}, 1, shifted({0, 0, -0.5}));
   model.add_box({3, 3, 2}, {0.8, 0.8, 0.5}, 1, shifted({0.1, 0.1, 0.0012}));
   model.gravity = {0, 0, -1};
   model.damping = 20;
   model.stiffness = 30;
   model.start(by_distance());
-  model.hold(first, first + 25);
+  model.hold(first, first + 12);
   for (int step = 0; step < 1500; ++step) model.step(1e-3);
-  for (int step = 0; step < 300; ++step) {
+  for (int step = 0; step < 3000; ++step) {
     model.step(1e-3);
-    EXPECT_GE(model.scene.step.active, 25);
+    EXPECT_GE(model.scene.step.active, 16);
     EXPECT_EQ(model.scene.step.passes, 1) << step;
   }
 }

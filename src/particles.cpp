@@ -74,7 +74,8 @@ void find_neighbours(Block& block, std::span<const double> volume, const Nodes& 
   if (!particle.is_eulerian()) return;
   ParticleCloud& cloud = *block.cloud;
   start_eulerian(cloud, particle.smoothing(), nodes);
-  cloud.skin = search_skin_share * *std::min_element(cloud.smoothing_length.begin(), cloud.smoothing_length.end());
+  cloud.skin =
+      search_skin_share * *std::min_element(cloud.smoothing_length.begin(), cloud.smoothing_length.end());
 }
 
 void follow_neighbours(ParticleSearch& search, Block& block, const Nodes& nodes, ThreadTeam& team) {

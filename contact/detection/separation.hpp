@@ -67,10 +67,10 @@ BRIO_INLINE void include(Vector3<T>& extent, const std::array<Vector3<T>, N>& fi
 /// extent as known: a pair that a search has found is no larger than two of its boxes.
 template <class T, std::size_t N, std::size_t M>
 BRIO_INLINE StepSeparation<T> separation_within(const Vector3<T>& extent, const Vector3<T>& d,
-                                            const std::array<Vector3<T>, N>& first_start,
-                                            const std::array<Vector3<T>, N>& first_end,
-                                            const std::array<Vector3<T>, M>& second_start,
-                                            const std::array<Vector3<T>, M>& second_end) {
+                                                const std::array<Vector3<T>, N>& first_start,
+                                                const std::array<Vector3<T>, N>& first_end,
+                                                const std::array<Vector3<T>, M>& second_start,
+                                                const std::array<Vector3<T>, M>& second_end) {
   return {height_between(d, first_start, second_start), height_between(d, first_end, second_end),
           separation_bound(d, extent)};
 }
@@ -78,9 +78,9 @@ BRIO_INLINE StepSeparation<T> separation_within(const Vector3<T>& extent, const 
 /// The same with the extent found from the points.
 template <class T, std::size_t N, std::size_t M>
 BRIO_INLINE StepSeparation<T> separation(const Vector3<T>& d, const std::array<Vector3<T>, N>& first_start,
-                                     const std::array<Vector3<T>, N>& first_end,
-                                     const std::array<Vector3<T>, M>& second_start,
-                                     const std::array<Vector3<T>, M>& second_end) {
+                                         const std::array<Vector3<T>, N>& first_end,
+                                         const std::array<Vector3<T>, M>& second_start,
+                                         const std::array<Vector3<T>, M>& second_end) {
   Vector3<T> extent{T(0.0), T(0.0), T(0.0)};
   include(extent, first_start, second_start);
   include(extent, first_end, second_end);
@@ -90,8 +90,9 @@ BRIO_INLINE StepSeparation<T> separation(const Vector3<T>& d, const std::array<V
 /// A node over the hull of a face: d points from face to node.
 template <class T>
 BRIO_INLINE StepSeparation<T> separation(const Vector3<T>& d, const Vector3<T>& node_start,
-                                     const Vector3<T>& node_end, const std::array<Vector3<T>, 4>& face_start,
-                                     const std::array<Vector3<T>, 4>& face_end) {
+                                         const Vector3<T>& node_end,
+                                         const std::array<Vector3<T>, 4>& face_start,
+                                         const std::array<Vector3<T>, 4>& face_end) {
   return separation<T, 1, 4>(d, {node_start}, {node_end}, face_start, face_end);
 }
 

@@ -8,9 +8,9 @@ namespace brio {
 
 namespace {
 
-class Separation {
+class SeparationOfPieces {
  public:
-  Separation(Surface& surface, SurfaceTopology& topology, std::span<const int> elements)
+  SeparationOfPieces(Surface& surface, SurfaceTopology& topology, std::span<const int> elements)
       : surface_(surface), topology_(topology), fronts_(elements.size()), joined_(elements.size()) {
     base_ = topology_.last_mark + 1;
     topology_.last_mark += static_cast<int>(elements.size());
@@ -95,7 +95,7 @@ class Separation {
 }  // namespace
 
 bool separate_pieces(Surface& surface, SurfaceTopology& topology, std::span<const int> elements) {
-  return Separation(surface, topology, elements).run();
+  return SeparationOfPieces(surface, topology, elements).run();
 }
 
 }  // namespace brio

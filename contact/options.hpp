@@ -71,7 +71,8 @@ struct ContactOptions {
                  "contact thickness over thickness of shells, -"),
         optional("initial_overlap_limit", &ContactOptions::initial_overlap_limit, fraction,
                  "deepest initial overlap removed by moving nodes, in edges or thicknesses, -"),
-        optional("audit", &ContactOptions::audit, any_number, "count crossings of surfaces, and distances below thickness, at every dump"));
+        optional("audit", &ContactOptions::audit, any_number,
+                 "count crossings of surfaces, and distances below thickness, at every dump"));
   }
 };
 

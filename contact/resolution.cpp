@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
-#include <cstdlib>
 
 #include "contact/enforcement/impact_zone.hpp"
+#include "contact/enforcement/inherited_impulses.hpp"
 #include "contact/enforcement/target_velocity.hpp"
 #include "contact/face_geometry.hpp"
 
@@ -27,91 +26,6 @@ void set(double* components, const Vector3<double>& a) {
   components[2] = a.z;
 }
 
-// DEBUG_STATS_BEGIN
-struct Stats {
-  double t[6] = {};
-  std::uint64_t n[12] = {};
-  ~Stats() {
-    if (n[0] == 0) return;
-    std::fprintf(stderr,
-                 "STATS searches %lu steps %lu pairs vf %lu ee %lu awake vf %lu ee %lu rows %lu+%lu closest %lu cert %lu "
-                 "renewed %lu checked %lu hits %lu hitsteps %lu rounds %lu zones %lu unres %lu passes %lu| t "
-                 "begin %.2f find %.2f solve %.2f follow %.2f guard %.2f search %.2f\n",
-                 n[8], n[0], n[1] / n[0], n[2] / n[0], n[3] / n[0], n[4] / n[0], n[5] / n[0], n[6] / n[0],
-                 g[0] / n[0], g[1] / n[0], g[2], g[3], g[4], g[5], g[6], g[7], g[8], n[7] / n[0], t[0], t[1],
-                 t[2], t[3], t[4], t[5]);
-  }
-  std::uint64_t g[9] = {};
-} stats;
-struct Lap {
-  double& t;
-  Clock::time_point s = Clock::now();
-  ~Lap() { t += seconds_since(s); }
-};
-
-void count(const ContactScene& scene) {
-  const DistanceContact& distance = *scene.distance;
-  ++stats.n[0];
-  stats.n[1] += distance.pairs.node_face.size();
-  stats.n[2] += distance.pairs.edge_edge.size();
-  stats.n[3] += distance.proximity.node_face.size();
-  stats.n[4] += distance.proximity.edge_edge.size();
-  for (const Contact& c : scene.contacts) ++stats.n[c.of_lines() ? 6 : 5];
-}
-void count_end(const ContactScene& scene) {
-  const DistanceContact& distance = *scene.distance;
-  stats.n[7] += static_cast<std::uint64_t>(scene.step.passes);
-  stats.g[0] = distance.proximity.closest_points;
-  stats.g[1] = distance.guard.certified;
-  stats.g[2] = distance.guard.renewed;
-  stats.g[3] = distance.guard.checked;
-  stats.g[4] = distance.guard.found;
-  stats.g[5] = distance.steps_with_hits;
-  stats.g[6] = distance.rounds;
-  stats.g[7] = distance.zones;
-  stats.g[8] = distance.unresolved;
-}
-void tell(const DistanceContact& distance_, int round) {
-  if (const char* told_of = std::getenv("BRIO_TELL"); told_of && std::atoi(told_of) > 0) {
-    static int told = 0;
-    for (const Hit& hit : distance_.guard.hits) {
-      if (++told > std::atoi(told_of)) break;
-      const bool nf = hit.kind == PairKind::node_face;
-      const PairList& list = nf ? distance_.pairs.node_face : distance_.pairs.edge_edge;
-      const auto& c = hit.at_start;
-      double vn = 0;
-      for (std::size_t k = 0; k < 5; ++k)
-        vn += c.weight[k] * c.normal.dot(distance_.motion.displacement(c.node[k]));
-      std::fprintf(stderr, "TELL step %lu round %d %s spaced %d gap/h %.3g vn dt/h %.3g time %.3f",
-                   stats.n[0], round, nf ? "vf" : "ee", list.spaced[hit.pair],
-                   c.gap / distance_.features.smallest_edge, vn / distance_.features.smallest_edge, hit.time);
-      if (!nf) {
-        const auto &a = distance_.features.edge[static_cast<std::size_t>(list.first[hit.pair])],
-                   &b = distance_.features.edge[static_cast<std::size_t>(list.second[hit.pair])];
-        std::fprintf(stderr, " kinds %d %d parts %d %d w %.3f %.3f", (int)a.kind, (int)b.kind, a.part, b.part,
-                     c.weight[1], -c.weight[3]);
-        for (const auto* e : {&a, &b}) {
-          std::fprintf(stderr, " wings");
-          for (int w : e->wing)
-            if (w >= 0) {
-              const Vector3d foot = e == &a ? Vector3d(c.weight[0] * distance_.motion.start(a.node[0]) +
-                                                       c.weight[1] * distance_.motion.start(a.node[1]))
-                                            : Vector3d(-c.weight[2] * distance_.motion.start(b.node[0]) -
-                                                       c.weight[3] * distance_.motion.start(b.node[1]));
-              std::fprintf(
-                  stderr, " %.4f",
-                  (e == &a ? 1 : -1) * c.normal.dot((distance_.motion.start(w) - foot).normalized()));
-            }
-        }
-      } else {
-        for (double w : c.weight) std::fprintf(stderr, " %.3f", w);
-      }
-      std::fprintf(stderr, "\n");
-    }
-  }
-}
-// DEBUG_STATS_END
-
 /// One step.
 class Resolution {
  public:
@@ -128,24 +42,15 @@ class Resolution {
 
   void run() {
     find_constraints();
-    count(scene_);
     const std::size_t ordinary = scene_.contacts.size();
-    {
-      Lap lap{stats.t[2]};
-      begin_solution();
-      solve(true);
-    }
+    begin_solution();
+    solve(true);
     for (int round = 0;; ++round) {
-      {
-        Lap lap{stats.t[3]};
-        follow();
-      }
+      follow();
       look_again();
-      Lap lap{stats.t[4]};
       find_hits(distance_.guard, distance_.proximity, distance_.features, scene_.surface, scene_.options,
                 distance_.pairs, distance_.motion, team_);
       if (distance_.guard.hits.empty()) break;
-      tell(distance_, round);
       if (round == 0) ++distance_.steps_with_hits;
       ++distance_.rounds;
       if (round >= most_rounds + most_zone_rounds) {
@@ -160,7 +65,6 @@ class Resolution {
       solve(false);
     }
     finish(ordinary);
-    count_end(scene_);
   }
 
  private:
@@ -180,16 +84,12 @@ class Resolution {
       scene_.candidates.smallest_edge = distance_.features.smallest_edge;
       scene_.candidates.mean_edge = distance_.features.mean_edge;
     }
-    {
-      Lap lap{stats.t[0]};
-      distance_.motion.begin(distance_.features, scene_.surface, nodes_, team_);
-      distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
-    }
+    distance_.motion.begin(distance_.features, scene_.surface, nodes_, team_);
+    distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
     if (distance_.pairs.is_due(scene_.surface, distance_.motion)) search();
     select();
     distance_.motion.set_limits(2, allowed_surplus(distance_.features));
     scene_.last.swap(scene_.contacts);
-    Lap lap{stats.t[1]};
     find_proximities(distance_.proximity, distance_.features, scene_.surface, scene_.options, distance_.pairs,
                      distance_.motion, team_, scene_.contacts);
     inherit_impulses(scene_.last, scene_.last_dt > 0 ? dt_ / scene_.last_dt : 1.0, scene_.contacts,
@@ -197,8 +97,6 @@ class Resolution {
   }
 
   void search() {
-    Lap lap{stats.t[5]};
-    ++stats.n[8];
     const Clock::time_point start = Clock::now();
     distance_.pairs.find(distance_.features, scene_.surface, scene_.excluded, scene_.options,
                          distance_.motion, team_);
@@ -206,7 +104,6 @@ class Resolution {
     scene_.step.search_seconds += seconds_since(start);
   }
   void select() {
-    Lap lap{stats.t[0]};
     select_awake(distance_.proximity, distance_.features, distance_.pairs, distance_.motion, team_);
   }
   // Of pairs that were surely apart in the predicted motion.

@@ -10,10 +10,10 @@
 
 #include "elements/block.hpp"
 #include "elements/deletion.hpp"
-#include "elements/gather.hpp"
 #include "elements/mean_gradient.hpp"
 #include "elements/motion.hpp"
 #include "materials/failing.hpp"
+#include "src/base/gather.hpp"
 
 namespace brio {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "elements/bad_element.hpp"
-#include "elements/gather.hpp"
 #include "elements/particle_weights.hpp"
+#include "src/base/gather.hpp"
 
 namespace brio {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstring>
 
-#include "elements/gather.hpp"
 #include "elements/particle_pairs.hpp"
 #include "elements/particle_support.hpp"
 #include "elements/particle_weights.hpp"
+#include "src/base/gather.hpp"
 
 namespace brio {
 

@@ -31,10 +31,10 @@
 
 #include "elements/bad_element.hpp"
 #include "elements/block.hpp"
-#include "elements/gather.hpp"
 #include "elements/lose.hpp"
 #include "elements/scale_mass.hpp"
 #include "src/base/fetch_ahead.hpp"
+#include "src/base/gather.hpp"
 
 namespace brio {
 

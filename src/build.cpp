@@ -381,7 +381,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   refuse_contradictory_motions(model);
   refuse_motions_through_walls(model);
   load(deck, meshes, model);
-  model.extent = extent_of(model.nodes);
+  model.extent = scene_extent(model.nodes);
   open_books(model);
   model.probes = place_probes(deck, model.parts, model.nodes);
   return model;

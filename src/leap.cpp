@@ -35,8 +35,8 @@ Leap largest_change(const Nodes& nodes, double mean_step) {
 
 }  // namespace
 
-Extent extent_of(const Nodes& nodes) {
-  Extent extent;
+SceneExtent scene_extent(const Nodes& nodes) {
+  SceneExtent extent;
   for (const double mass : nodes.mass) extent.mass += mass;
   for (int axis = 0; axis < 3; ++axis) {
     const auto [least, most] = std::minmax_element(

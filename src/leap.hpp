@@ -8,12 +8,12 @@ namespace brio {
 struct Model;
 
 /// What a step's change of velocities is measured against: the scene as it starts.
-struct Extent {
+struct SceneExtent {
   double width = 0;  ///< longest side of the box around all nodes; 0: nothing can be said
   double mass = 0;   ///< of all nodes
 };
 
-Extent extent_of(const Nodes& nodes);
+SceneExtent scene_extent(const Nodes& nodes);
 
 /// After forces have changed velocities, before contact looks for what meets: nodes that a single step's
 /// forces would carry past everything there is meet nothing rightly, and are near everything. What moves that

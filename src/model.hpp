@@ -46,7 +46,7 @@ struct Model {
   StepTimes times;
   StepControl control;
   Nodes nodes;
-  Extent extent;  ///< of the nodes at the start
+  SceneExtent extent;  ///< of the nodes at the start
   std::vector<Block> blocks;
   std::vector<PartInModel> parts;
   std::unordered_map<std::string, std::size_t> part_number;  ///< by name
@@ -59,9 +59,9 @@ struct Model {
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
   RigidBodies rigid;
-  std::vector<ContactScene> contacts;             ///< one if the deck names contact, else none
-  std::optional<ContactAudits> contact_audits;  ///< if the deck asks for them
-  std::vector<InitialOverlap> initial_overlaps;   ///< removed before the first step
+  std::vector<ContactScene> contacts;            ///< one if the deck names contact, else none
+  std::optional<ContactAudits> contact_audits;   ///< if the deck asks for them
+  std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step
 
   std::optional<Erosion> erosion;                 ///< if elements can be deleted
   std::optional<SurfaceNumbers> surface_numbers;  ///< if elements can be deleted and the deck names contact

@@ -1,6 +1,6 @@
 #include "src/motion.hpp"
 
-#include "elements/gather.hpp"
+#include "src/base/gather.hpp"
 
 namespace brio {
 

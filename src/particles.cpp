@@ -11,7 +11,7 @@ namespace brio {
 namespace {
 
 /// Lists are made longer by this share of the smallest smoothing length of the start.
-constexpr double skin_share = 0.3;
+constexpr double search_skin_share = 0.3;
 
 const double* position(const ParticleCloud& cloud, const Nodes& nodes, std::size_t i) {
   return nodes.record[static_cast<std::size_t>(cloud.first_node) + i].position;
@@ -74,7 +74,8 @@ void find_neighbours(Block& block, std::span<const double> volume, const Nodes& 
   if (!particle.is_eulerian()) return;
   ParticleCloud& cloud = *block.cloud;
   start_eulerian(cloud, particle.smoothing(), nodes);
-  cloud.skin = skin_share * *std::min_element(cloud.smoothing_length.begin(), cloud.smoothing_length.end());
+  cloud.skin =
+      search_skin_share * *std::min_element(cloud.smoothing_length.begin(), cloud.smoothing_length.end());
 }
 
 void follow_neighbours(ParticleSearch& search, Block& block, const Nodes& nodes, ThreadTeam& team) {

@@ -27,7 +27,7 @@ std::uint64_t spread_bits(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249ULL;
 }
 
-struct Extent {
+struct CoordinateRange {
   std::array<double, 3> lower, upper;
   int longest() const {
     int axis = 0;
@@ -39,8 +39,8 @@ struct Extent {
   }
 };
 
-Extent extent_of(const std::vector<std::array<double, 3>>& points) {
-  Extent extent{points.front(), points.front()};
+CoordinateRange range_of(const std::vector<std::array<double, 3>>& points) {
+  CoordinateRange extent{points.front(), points.front()};
   for (const auto& p : points)
     for (std::size_t i = 0; i < 3; ++i) {
       extent.lower[i] = std::min(extent.lower[i], p[i]);
@@ -49,7 +49,7 @@ Extent extent_of(const std::vector<std::array<double, 3>>& points) {
   return extent;
 }
 
-std::uint64_t morton_code(const std::array<double, 3>& point, const Extent& extent) {
+std::uint64_t morton_code(const std::array<double, 3>& point, const CoordinateRange& extent) {
   double size = 0;
   for (std::size_t i = 0; i < 3; ++i) size = std::max(size, extent.upper[i] - extent.lower[i]);
   std::uint64_t code = 0;
@@ -76,7 +76,7 @@ std::vector<int> locality_order(std::span<const std::array<double, 3>> position,
       for (std::size_t i = 0; i < 3; ++i)
         centre[e][i] +=
             position[static_cast<std::size_t>(connectivity[e * corners + corner])][i] / nodes_per_element;
-  const Extent extent = extent_of(centre);
+  const CoordinateRange extent = range_of(centre);
   const auto axis = static_cast<std::size_t>(extent.longest());
   // Round-off in the centres must not scatter a layer of equal coordinates: compare on a grid.
   const double grid = (extent.upper[axis] - extent.lower[axis]) * 1e-9;

@@ -77,6 +77,10 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   std::array<int, 2> support{};
   const Vector3d foot = motion_.start(s) - near.distance * near.normal;
   if (!is_minimum_on_face(f, near.at, foot, near.normal, support)) return;
+  // Beside a side or a corner the direction is no normal of the face: a node that its own neighbours come
+  // nearer than, as one of a flat surface ahead of a rim, is no minimum.
+  const bool inside = support[0] < -1;
+  if (!inside && !look_away(features_.ring.of(s), motion_.start(s), near.normal)) return;
   contact.friction_coefficient =
       surface_.pairs.friction(surface_.node[static_cast<std::size_t>(s)], face.part, options_.friction);
   found.push_back({contact, support});

@@ -12,7 +12,7 @@ namespace brio {
 /// Least height of the first feature minus the greatest of the second, times |d|, at the step's start and
 /// end. The true values are greater than `start` - `bound` and `end` - `bound`.
 template <class T>
-struct Separation {
+struct StepSeparation {
   T start, end;
   T bound;
 
@@ -66,21 +66,21 @@ BRIO_INLINE void include(Vector3<T>& extent, const std::array<Vector3<T>, N>& fi
 /// have unit length; a direction kept in single precision is widened, nothing is lost. This one takes the
 /// extent as known: a pair that a search has found is no larger than two of its boxes.
 template <class T, std::size_t N, std::size_t M>
-BRIO_INLINE Separation<T> separation_within(const Vector3<T>& extent, const Vector3<T>& d,
-                                            const std::array<Vector3<T>, N>& first_start,
-                                            const std::array<Vector3<T>, N>& first_end,
-                                            const std::array<Vector3<T>, M>& second_start,
-                                            const std::array<Vector3<T>, M>& second_end) {
+BRIO_INLINE StepSeparation<T> separation_within(const Vector3<T>& extent, const Vector3<T>& d,
+                                                const std::array<Vector3<T>, N>& first_start,
+                                                const std::array<Vector3<T>, N>& first_end,
+                                                const std::array<Vector3<T>, M>& second_start,
+                                                const std::array<Vector3<T>, M>& second_end) {
   return {height_between(d, first_start, second_start), height_between(d, first_end, second_end),
           separation_bound(d, extent)};
 }
 
 /// The same with the extent found from the points.
 template <class T, std::size_t N, std::size_t M>
-BRIO_INLINE Separation<T> separation(const Vector3<T>& d, const std::array<Vector3<T>, N>& first_start,
-                                     const std::array<Vector3<T>, N>& first_end,
-                                     const std::array<Vector3<T>, M>& second_start,
-                                     const std::array<Vector3<T>, M>& second_end) {
+BRIO_INLINE StepSeparation<T> separation(const Vector3<T>& d, const std::array<Vector3<T>, N>& first_start,
+                                         const std::array<Vector3<T>, N>& first_end,
+                                         const std::array<Vector3<T>, M>& second_start,
+                                         const std::array<Vector3<T>, M>& second_end) {
   Vector3<T> extent{T(0.0), T(0.0), T(0.0)};
   include(extent, first_start, second_start);
   include(extent, first_end, second_end);
@@ -89,9 +89,10 @@ BRIO_INLINE Separation<T> separation(const Vector3<T>& d, const std::array<Vecto
 
 /// A node over the hull of a face: d points from face to node.
 template <class T>
-BRIO_INLINE Separation<T> separation(const Vector3<T>& d, const Vector3<T>& node_start,
-                                     const Vector3<T>& node_end, const std::array<Vector3<T>, 4>& face_start,
-                                     const std::array<Vector3<T>, 4>& face_end) {
+BRIO_INLINE StepSeparation<T> separation(const Vector3<T>& d, const Vector3<T>& node_start,
+                                         const Vector3<T>& node_end,
+                                         const std::array<Vector3<T>, 4>& face_start,
+                                         const std::array<Vector3<T>, 4>& face_end) {
   return separation<T, 1, 4>(d, {node_start}, {node_end}, face_start, face_end);
 }
 

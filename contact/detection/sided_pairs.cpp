@@ -207,7 +207,7 @@ void keep_one_of_each(std::vector<SidedPair>& found, std::size_t begin) {
 void leave_out_edges_beside_nodes(const Surface& surface, double coincident, std::vector<SidedPair>& found) {
   const auto bodies = [&](const SidedPair& pair) -> std::pair<int, int> {
     return std::minmax<int>(surface.body[static_cast<std::size_t>(pair.contact.node[0])],
-                       static_cast<int>(pair.contact.body));
+                            static_cast<int>(pair.contact.body));
   };
   std::set<std::pair<int, int>> waiting;
   for (const SidedPair& pair : found)

@@ -75,10 +75,4 @@ struct RowSources {
 /// Append one row a contact, with the impulses that the contact carries.
 void add_rows(ContactRows& rows, const RowSources& sources, std::span<const Contact> contacts);
 
-/// Start from the impulses of the last step, scaled by the ratio of the steps: those of the same pair; what
-/// is new inherits from a contact that has ended, of the same node or edge with the same body, that pushed
-/// about the same way. Both lists are ordered by Contact::slave.
-void inherit_impulses(std::span<const Contact> last, double step_ratio, std::span<Contact> contacts,
-                      std::vector<std::uint8_t>& taken);
-
 }  // namespace brio

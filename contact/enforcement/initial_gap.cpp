@@ -69,7 +69,6 @@ class GapMaker {
         surface_(scene.surface),
         nodes_(nodes),
         team_(team),
-        pairs_(scene.options.search),
         displacements_(nodes),
         block_(scene.surface.slaves(), -1) {}
 
@@ -117,6 +116,7 @@ class GapMaker {
     motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
     ContactOptions grown = scene_.options;
     grown.reach_buffer = 2.01 * depth_ / features_.mean_edge;
+    pairs_.expire();
     pairs_.find(features_, surface_, scene_.excluded, grown, motion_, team_);
   }
   void find(double band) { find_sided_pairs(features_, surface_, nodes_, pairs_, depth_, band, found_); }

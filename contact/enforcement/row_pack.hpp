@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "contact/enforcement/constraint_row.hpp"
-#include "elements/gather.hpp"
+#include "src/base/gather.hpp"
 #include "src/base/lanes.hpp"
 
 namespace brio {

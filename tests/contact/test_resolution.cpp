@@ -3,7 +3,9 @@
 #include <bit>
 #include <random>
 
+#include "contact/face_geometry.hpp"
 #include "contact/resolution.hpp"
+#include "src/base/floating_point.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -40,7 +42,8 @@ class FreePieces {
       connectivity_.back().push_back(static_cast<int>(nodes_.size()) - 1);
     };
     connectivity_.emplace_back();
-    SurfacePart part{.name = "part " + std::to_string(parts.size())};
+    SurfacePart part;
+    part.name = "part " + std::to_string(parts.size());
     switch (kind) {
       case Kind::rigid:
         part.rigid = static_cast<int>(bodies.size());
@@ -133,6 +136,12 @@ class FreePieces {
       sum += body.centre.cross(body.mass * body.velocity) + body.inertia * body.angular_velocity;
     return sum;
   }
+  double size_of_motion() const {
+    double sum = 0;
+    for (std::size_t n = 0; n < nodes.size(); ++n) sum += nodes.mass[n] * v(n).norm() * (1 + x(n).norm());
+    for (const RigidMotion& body : bodies) sum += body.mass * body.velocity.norm() * (1 + body.centre.norm());
+    return sum;
+  }
   double kinetic_energy() const {
     double sum = 0;
     for (std::size_t n = 0; n < nodes.size(); ++n)
@@ -194,17 +203,17 @@ TEST_P(Kinds, KeepMomentumAndAngularMomentumWithFriction) {
   for (unsigned seed = 1; seed <= 12; ++seed) {
     std::srand(seed);
     FreePieces pieces(seed);
-    const double r = 0.1 * pieces.number();
-    pieces.add(first, {3 + r, 2, 1.2}, {0.5, 0.2, -1});
+    const double r = 0.05 * pieces.number();
+    pieces.add(first, {2.6 + r, 1.84, 1.2}, {0.5, 0.2, -1});
     pieces.add(second, {3, 2, -0.4}, {0, 0, 1});
     pieces.start(by_distance());
     const double dt = 2e-3;
-    for (int step = 0; step < 900 && met < 40; ++step) {
+    for (int step = 0; step < 900 && met < 20 * static_cast<int>(seed); ++step) {
       const Vector3d linear = pieces.momentum(), angular = pieces.angular_momentum();
       pieces.resolve(dt);
-      const double size = 100;
-      EXPECT_LE((pieces.momentum() - linear).norm(), 1e-14 * size) << "seed " << seed << " step " << step;
-      EXPECT_LE((pieces.angular_momentum() - angular).norm(), 1e-14 * size)
+      const double size = pieces.size_of_motion();
+      EXPECT_LE((pieces.momentum() - linear).norm(), 1e-12 * size) << "seed " << seed << " step " << step;
+      EXPECT_LE((pieces.angular_momentum() - angular).norm(), 1e-12 * size)
           << "seed " << seed << " step " << step;
       met += pieces.scene.step.active > 0;
       rubbed -= pieces.scene.step.friction_work();
@@ -219,7 +228,8 @@ TEST_P(Kinds, KeepMomentumAndAngularMomentumWithFriction) {
     EXPECT_GT(rubbed, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Kinds, testing::Combine(testing::ValuesIn(all_kinds), testing::ValuesIn(all_kinds)));
+INSTANTIATE_TEST_SUITE_P(All, Kinds,
+                         testing::Combine(testing::ValuesIn(all_kinds), testing::ValuesIn(all_kinds)));
 
 TEST(Resolution, BooksWhatMotionLoses) {
   for (const Kind kind : all_kinds) {
@@ -246,9 +256,9 @@ void expect_mirrored(const SpringModel& model, double tolerance) {
   for (int a = 0; a < model.count(); ++a) {
     double best = infinity;
     for (int b = 0; b < model.count(); ++b)
-      best = std::min(best, (Vector3d(-model.x(b).x(), model.x(b).y(), model.x(b).z()) - model.x(a)).norm() +
-                                0.01 * (Vector3d(-model.v(b).x(), model.v(b).y(), model.v(b).z()) -
-                                        model.v(a)).norm());
+      best = std::min(
+          best, (Vector3d(-model.x(b).x(), model.x(b).y(), model.x(b).z()) - model.x(a)).norm() +
+                    0.01 * (Vector3d(-model.v(b).x(), model.v(b).y(), model.v(b).z()) - model.v(a)).norm());
     ASSERT_LE(best, tolerance) << "node " << a;
   }
 }
@@ -264,24 +274,28 @@ TEST(Resolution, KeepsTheSymmetryOfMirrorImages) {
   for (int step = 0; step < 400; ++step) {
     model.step(1e-3);
     rubbed -= model.scene.step.friction_work();
+    SCOPED_TRACE(step);
+    expect_mirrored(model, 1e-9);
+    if (HasFatalFailure()) return;
   }
   EXPECT_GT(rubbed, 0);
-  expect_mirrored(model, 1e-9);
 }
 
-TEST(Resolution, OfABrickAtRestIsOneCheck) {
+TEST(Resolution, OfABrickAtRestOnAFlatFaceIsOneCheck) {
   SpringModel model;
-  const int first = model.add_box({4, 4, 2}, {1, 1, 0.5}, 1, shifted({0, 0, -0.5}));
+  const int first = model.add_box({1, 1, 2}, {1, 1, 0.5}, 1, shifted({0, 0, -0.5}));
   model.add_box({3, 3, 2}, {0.8, 0.8, 0.5}, 1, shifted({0.1, 0.1, 0.0012}));
   model.gravity = {0, 0, -1};
-  model.damping = 3;
-  model.stiffness = 300;
+  model.damping = 20;
+  model.stiffness = 30;
   model.start(by_distance());
-  model.hold(first, first + 25);
-  for (int step = 0; step < 6000; ++step) model.step(2e-3);
-  EXPECT_GE(model.scene.step.active, 4);
-  EXPECT_LE(model.scene.step.passes, 1);
-  EXPECT_LE(model.kinetic_energy(), 1e-12);
+  model.hold(first, first + 12);
+  for (int step = 0; step < 1500; ++step) model.step(1e-3);
+  for (int step = 0; step < 3000; ++step) {
+    model.step(1e-3);
+    EXPECT_GE(model.scene.step.active, 16);
+    EXPECT_EQ(model.scene.step.passes, 1) << step;
+  }
 }
 
 // A sheet whose nodes are held above the faces of a box, and a block that slides onto it.

@@ -115,7 +115,7 @@ class BlockOnSheet : public ::testing::TestWithParam<std::pair<double, double>> 
 TEST_P(BlockOnSheet, DoesNotGoThrough) {
   const auto [thickness, share] = GetParam();
   Deck deck = block_on_sheet(thickness, share * wave_speed);
-  const Outcome outcome = run_looking(deck);
+  const Outcome outcome = run_looking(deck, 2);
   EXPECT_GT(outcome.looks, 3);
   EXPECT_EQ(outcome.crossings, 0);
   EXPECT_EQ(outcome.unresolved, 0u);

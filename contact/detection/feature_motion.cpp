@@ -88,7 +88,7 @@ void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surfac
   }
   start_sums(node.size());
   team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
-    Sum& sum = sum_[begin / features_a_range];
+    double longest = 0;
     for (std::size_t s = begin; s < end; ++s) {
       if (surface.node[s] < 0) {
         node[s] = {};
@@ -98,9 +98,10 @@ void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surfac
       const double* x = nodes.record[static_cast<std::size_t>(surface.node[s])].position;
       way_[s].moved = follows ? length_in_frame(node[s].start, x, frame_) : 0;
       of_node.path[s] += way_[s].moved;
-      sum.longest_moved = std::max(sum.longest_moved, way_[s].moved);
+      longest = std::max(longest, way_[s].moved);
       std::copy(x, x + 3, node[s].start);
     }
+    sum_[begin / features_a_range].longest_moved = longest;
   });
   double longest = 0;
   for (const Sum& sum : sum_) longest = std::max(longest, sum.longest_moved);
@@ -116,7 +117,7 @@ void FeatureMotion::end_by_velocity(const SurfaceFeatures& features, const Surfa
                                     ThreadTeam& team) {
   start_sums(node.size());
   team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
-    Sum& sum = sum_[begin / features_a_range];
+    Sum sum;
     for (std::size_t s = begin; s < end; ++s) {
       const int global = surface.node[s];
       if (global < 0) continue;
@@ -130,11 +131,13 @@ void FeatureMotion::end_by_velocity(const SurfaceFeatures& features, const Surfa
       }
       for (int axis = 0; axis < 3; ++axis) {
         sum.displacement[axis] += moved.end[axis] - moved.start[axis];
-        sum.magnitude = std::max({sum.magnitude, std::abs(moved.start[axis]), std::abs(moved.end[axis])});
+        sum.magnitude =
+            std::max(sum.magnitude, std::max(std::abs(moved.start[axis]), std::abs(moved.end[axis])));
       }
       sum.count += 1;
       if (predicted_) sum.exceeds = raise(s) || sum.exceeds;
     }
+    sum_[begin / features_a_range] = sum;
   });
   magnitude_ = 0;
   for (const Sum& sum : sum_) magnitude_ = std::max(magnitude_, sum.magnitude);

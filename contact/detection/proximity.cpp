@@ -51,7 +51,7 @@ class Finder {
 
  private:
   // Along the direction that the pairs had: how far they are apart at least.
-  void look(const typename Kind::Pairs& pack, PairsOfRange& near) const {
+  BRIO_INLINE void look(const typename Kind::Pairs& pack, PairsOfRange& near) const {
     const PackOfWays ways = ways_of(kind_, pack);
     const auto at = points_of(pack, rows_);
     Vector3<Pack> direction = directions_of(kind_.list, pack);
@@ -82,11 +82,20 @@ class Finder {
       const Vector3<Pack> normal = (Pack(1.0) / where(has_direction, distance, Pack(1.0))) * closest.offset;
       const unsigned lanes = lane_bits(has_direction) & pack.lanes();
       store_directions(kind_.list, pack, lanes, normal);
-      for_lanes(lane_bits(!(wake > ways.ahead)) & lanes, [&](int lane) {
+      for_lanes(lane_bits(!(wake > ways.ahead)) & lanes & candidates(closest), [&](int lane) {
         filter(closest, lane, pack.pair[lane], {normal.x[lane], normal.y[lane], normal.z[lane]},
                distance[lane], ways.reach[lane], found);
       });
     }
+  }
+
+  // Not what the filter leaves out at once: edges of faces that are nearest at their ends.
+  unsigned candidates(const ClosestNodeFace&) const { return first_lanes(pack_size); }
+  unsigned candidates(const ClosestOnSegments<Pack>& closest) const {
+    const bool all_of_faces = kind_.features.edge.back().of_face();  // the others come last
+    if (!all_of_faces) return first_lanes(pack_size);
+    const auto is_inside = [](Pack at) { return (at > Pack(no_weight)) & (at < Pack(1 - no_weight)); };
+    return lane_bits(is_inside(closest.on_a) & is_inside(closest.on_b));
   }
 
   void filter(const ClosestNodeFace& closest, int lane, int pair, const Vector3d& normal, double distance,

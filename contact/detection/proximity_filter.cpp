@@ -9,8 +9,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A weight below this is rounding: the closest point does not lie on that corner's side.
-constexpr double no_weight = 1e-9;
 /// Neighbours that come nearer by less than this sine are rounding.
 constexpr double nearer_by_rounding = 1e-6;
 /// A face beside an edge lies in the plane at right angles to the closest distance where it leaves it by less

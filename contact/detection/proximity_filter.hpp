@@ -6,6 +6,9 @@
 
 namespace brio {
 
+/// A weight below this is rounding: the closest point does not lie on that corner's side.
+inline constexpr double no_weight = 1e-9;
+
 /// The closest points of a pair at the start of the step.
 template <std::size_t Numbers>
 struct NearPair {

@@ -257,6 +257,8 @@ BRIO_INLINE PlaneStressEnd<T> flow_within_bracket(const PlaneStressFlow<T>& flow
     const T bend = 1.5 * newton * (series.second / series.first - series.first / series.squared);
     const T old = multiplier;
     multiplier = max(old + newton * (1.0 + min(max(bend, -0.5), 1.0)), 0.0);
+    const auto is_number = (newton > T(0.0)) | (newton <= T(0.0));
+    multiplier = where(is_number, multiplier, newton);
     const auto moves =
         abs(multiplier - old) * flow.shear_rate > small_change * (1.0 + flow.shear_rate * multiplier);
     low = where(newton > T(0.0), old, low);

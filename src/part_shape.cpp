@@ -135,6 +135,7 @@ PartShape shape_of(const Model& model, const PartInModel& part) {
   std::vector<double> all;
   std::vector<std::vector<int>> elements;
   for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
+    if (nodes_of_element(model, part, e).empty()) continue;  // deleted
     elements.push_back(nodes_of_element(model, part, e));
     const std::vector<double> edges = edge_lengths(model, elements.back());
     if (edges.empty()) continue;

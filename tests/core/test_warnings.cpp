@@ -48,6 +48,16 @@ void expect_none(const Deck& deck) {
 
 TEST(Warnings, NoneOfASceneThatIsWellMade) { expect_none(blocks()); }
 
+TEST(Warnings, NoneOfElementsThatAreDeletedAtOnce) {
+  Deck deck = blocks();
+  deck.parts[0].deletion.minimum_step = 1;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  update_velocities(model, 0.1, team);
+  ASSERT_EQ(model.erosion->total_deleted(), 27);
+  scene_warnings(deck, model);
+}
+
 TEST(Warnings, OfPartsThatMeetWithoutContact) {
   Deck deck = blocks();
   deck.contact.reset();

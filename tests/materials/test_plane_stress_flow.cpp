@@ -182,5 +182,35 @@ TEST(PlaneStressFlow, FindsTheRootInSinglePrecision) {
   expect_root<Lanes<float>>(LinearHardening{yield, 1e9}, 7, 1e2, 2e-6);
 }
 
+// Of any sizes of stress and hardening: a root on the yield surface, or what is not a number; but it ends.
+TEST(PlaneStressFlow, EndsWhateverTheSizesOfStresses) {
+  using T = Lanes<double>;
+  std::mt19937_64 generator(7);
+  std::uniform_real_distribution<double> power(-150, 150), unity(0, 1);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double exponent = trial % 2 == 0 ? 1 : unity(generator);
+    const PowerHardening law{std::pow(10.0, power(generator)), std::pow(10.0, power(generator)), exponent,
+                             trial % 3 == 0 ? 0 : 0.005};
+    PlaneStressFlow<T> flow;
+    flow.unit = std::pow(10.0, power(generator));
+    T strain;
+    for (int lane = 0; lane < NumberTraits<T>::lanes; ++lane) {
+      flow.sum_squared.set(lane, std::pow(10.0, 2 * power(generator)));
+      flow.shear_squared.set(lane, std::pow(10.0, 2 * power(generator)));
+      flow.transverse_squared.set(lane, std::pow(10.0, 2 * power(generator)));
+      flow.sum_rate.set(lane, 0.2 + 0.8 * unity(generator));
+      flow.shear_rate.set(lane, 1);
+      flow.transverse_rate.set(lane, 0.9);
+      strain.set(lane, 0.01 * unity(generator));
+    }
+    const auto start = law.at(strain);
+    const PlaneStressEnd<T> end = flow_in_plane_stress(flow, law, start, flow.sum_squared >= T(0.0));
+    for (int lane = 0; lane < NumberTraits<T>::lanes; ++lane) {
+      if (std::isnan(end.multiplier[lane])) continue;
+      EXPECT_GE(end.multiplier[lane], 0) << "trial " << trial;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace brio

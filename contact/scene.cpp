@@ -220,12 +220,12 @@ void store_solution(ContactScene& scene, Nodes& nodes, double dt, const Ties& ti
 }  // namespace
 
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies,
-             const Ties& ties) {
+             const Ties& ties, std::span<const ContactWall> walls) {
   assert(nodes.velocity_before.size() == nodes.size());
   scene.step = ContactStep{};
   if (scene.surface.node.empty()) return;
   if (scene.distance) {
-    resolve_by_distances(scene, nodes, dt, team, bodies, ties);
+    resolve_by_distances(scene, nodes, dt, team, bodies, ties, walls);
     scene.last_dt = dt;
     return;
   }

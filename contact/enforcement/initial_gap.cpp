@@ -367,7 +367,6 @@ class GapMaker {
 
 std::vector<InitialOverlap> make_initial_gap(ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
   std::vector<InitialOverlap> report = GapMaker(scene, nodes, team).run();
-  scene.distance->changed = true;
   scene.candidates.smallest_edge = scene.distance->features.smallest_edge;
   scene.candidates.mean_edge = scene.distance->features.mean_edge;
   return report;

@@ -34,14 +34,13 @@ void change_features(DistanceContact& distance, Surface& surface, const ContactO
     if (const int node = surface.node[static_cast<std::size_t>(slave)]; node >= 0)
       surface.radius[static_cast<std::size_t>(slave)] =
           topology.debris[static_cast<std::size_t>(node)].radius;
-  if (distance.features.edge.empty()) return;  // not collected yet
   std::vector<int> edges, nodes = affected, faces = change.dead_face;
   update(distance.features, surface, options, change, edges);
   nodes.insert(nodes.end(), change.dead_slave.begin(), change.dead_slave.end());
   nodes.insert(nodes.end(), change.new_slave.begin(), change.new_slave.end());
   faces.insert(faces.end(), change.new_face.begin(), change.new_face.end());
   distance.motion.join(distance.features, surface, change.new_slave);
-  distance.pairs.change(nodes, faces, edges);
+  distance.pairs.change(nodes, faces, edges, change.debris);
 }
 
 }  // namespace

@@ -80,11 +80,6 @@ class Resolution {
   static constexpr int iterations_a_pass = 10;
 
   void find_constraints() {
-    if (distance_.features.edge.empty()) {
-      collect(distance_.features, scene_.surface, scene_.options);
-      scene_.candidates.smallest_edge = distance_.features.smallest_edge;
-      scene_.candidates.mean_edge = distance_.features.mean_edge;
-    }
     distance_.motion.begin(distance_.features, scene_.surface, nodes_, team_);
     distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
     if (distance_.pairs.is_due(scene_.surface, distance_.motion)) search();

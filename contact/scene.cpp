@@ -149,6 +149,9 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   if (options.rule == DetectionRule::distance) {
     scene.distance.emplace();
     measure(scene.distance->features, scene.surface, nodes);
+    collect(scene.distance->features, scene.surface, options);
+    scene.candidates.smallest_edge = scene.distance->features.smallest_edge;
+    scene.candidates.mean_edge = scene.distance->features.mean_edge;
   }
   const std::size_t slaves = scene.surface.slaves();
   scene.motion.resize(slaves);

@@ -184,14 +184,23 @@ void FeaturePairs::forget_changes() {
   forget(node_leaves_, changes_.node);
   forget(face_leaves_, changes_.face);
   forget(edge_leaves_, changes_.edge);
+  changes_.grown.clear();
+  changes_.before_first_search = false;
 }
 
-void FeaturePairs::change(std::span<const int> nodes, std::span<const int> faces,
-                          std::span<const int> edges) {
-  if (reach_.empty()) return;
-  changes_.node.insert(changes_.node.end(), nodes.begin(), nodes.end());
-  changes_.face.insert(changes_.face.end(), faces.begin(), faces.end());
-  changes_.edge.insert(changes_.edge.end(), edges.begin(), edges.end());
+void FeaturePairs::change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
+                          std::span<const int> grown) {
+  if (reach_.empty()) {
+    changes_.before_first_search = true;
+    return;
+  }
+  const auto append = [](std::vector<int>& to, std::span<const int> from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(changes_.node, nodes);
+  append(changes_.face, faces);
+  append(changes_.edge, edges);
+  append(changes_.grown, grown);
 }
 
 void FeaturePairs::take_in_changes(const Scene& scene) {

@@ -81,8 +81,9 @@ class FeaturePairs {
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
             const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team);
   /// The surface has changed: features have joined, and what is listed has changed or is no more. Nodes stand
-  /// for all features at them.
-  void change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges);
+  /// for all features at them. \param grown nodes whose radii have grown
+  void change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
+              std::span<const int> grown);
   /// The next search is for all.
   void expire() { reach_.clear(); }
   std::uint64_t searches() const { return searches_; }
@@ -122,8 +123,9 @@ class FeaturePairs {
   std::vector<CaptureBox> query_;
 
   struct Changes {
-    std::vector<int> node, face, edge;
-    bool empty() const { return node.empty() && face.empty() && edge.empty(); }
+    std::vector<int> node, face, edge, grown;
+    bool before_first_search = false;
+    bool empty() const { return node.empty() && face.empty() && edge.empty() && !before_first_search; }
   } changes_;             ///< since the last search
   bool changed_ = false;  ///< whether this search follows a change
   /// Pairs taken out in this search, ascending: those with radii where it follows a change, else those that

@@ -349,6 +349,7 @@ void update(SurfaceFeatures& features, const Surface& surface, const ContactOpti
   collector.go_on();
   collector.keep_rings();
   for (int s : change.changed_slave) collector.set_node_radius(s);
+  for (int s : change.dead_slave) collector.set_node_radius(s);
   for (int r : change.dead_round) collector.drop_round(r);
   for (int f : change.dead_face) collector.drop_face(f);
   for (int f : change.new_face)

@@ -369,9 +369,13 @@ void FeaturePairs::add_node_face(const Scene& scene, int slave, int f) {
     return;
   const double radii = scene.features.node_radius[static_cast<std::size_t>(slave)] +
                        scene.features.face_radius[static_cast<std::size_t>(f)];
-  node_face.add(
-      slave, f,
-      spaced ? spacing_of_new(kept_node_face_, slave, f, radii <= 2 * scene.features.skin) : Spacing::skins);
+  const auto& grown_nodes = changes_.grown;
+  Spacing spacing = Spacing::skins;
+  if (spaced && std::find(grown_nodes.begin(), grown_nodes.end(), slave) != grown_nodes.end())
+    spacing = Spacing::waiting;
+  else if (spaced)
+    spacing = spacing_of_new(kept_node_face_, slave, f, radii <= 2 * scene.features.skin);
+  node_face.add(slave, f, spacing);
 }
 
 void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {

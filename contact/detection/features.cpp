@@ -125,6 +125,9 @@ class Collector {
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
     for (int e : touched_)
       if (at(features_.edge, e).kind == EdgeKind::side) settle_side(e);
+    if (keeps_rings_)
+      for (int e : touched_)  // a side that has followed another
+        if (at(features_.edge, e).kind == EdgeKind::side) join_rings(e);
     changed_.insert(changed_.end(), touched_.begin(), touched_.end());
     std::sort(changed_.begin(), changed_.end());
     changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
@@ -163,11 +166,14 @@ class Collector {
     edge.node = at(features_.edge_node, e) = {a, b};
     edge.kind = kind;
     changed_.push_back(e);
-    if (keeps_rings_ && joins(kind)) {
-      features_.ring.insert(a, b);
-      features_.ring.insert(b, a);
-    }
+    if (keeps_rings_ && joins(kind)) join_rings(e);
     return e;
+  }
+
+  void join_rings(int e) {
+    const auto [a, b] = at(features_.edge_node, e);
+    features_.ring.insert(a, b);
+    features_.ring.insert(b, a);
   }
 
   void end(int e) {

@@ -17,11 +17,33 @@ void make_erodible(ContactScene& scene, std::span<const SurfacePart> parts, cons
                                        .local = {},
                                        .change = {},
                                        .growing = {}});
+  scene.erosion->exclusion.keeps_torn = !scene.distance;
   // A mean over fewer shells may be larger than any mean so far.
   double& bound = scene.candidates.radius_bound;
   for (const SurfacePart& part : parts) bound = std::max(bound, part.debris_radius);
   for (double thickness : scene.surface.thickness) bound = std::max(bound, 0.5 * thickness);
 }
+
+namespace {
+
+// Debris has its full radius at once: what it is nearer to waits until it has been apart.
+void change_features(DistanceContact& distance, Surface& surface, const ContactOptions& options,
+                     const SurfaceTopology& topology, const SurfaceChange& change,
+                     const std::vector<int>& affected) {
+  for (int slave : change.debris)
+    if (const int node = surface.node[static_cast<std::size_t>(slave)]; node >= 0)
+      surface.radius[static_cast<std::size_t>(slave)] =
+          topology.debris[static_cast<std::size_t>(node)].radius;
+  std::vector<int> edges, nodes = affected, faces = change.dead_face;
+  update(distance.features, surface, options, change, edges);
+  nodes.insert(nodes.end(), change.dead_slave.begin(), change.dead_slave.end());
+  nodes.insert(nodes.end(), change.new_slave.begin(), change.new_slave.end());
+  faces.insert(faces.end(), change.new_face.begin(), change.new_face.end());
+  distance.motion.join(distance.features, surface, change.new_slave);
+  distance.pairs.change(nodes, faces, edges, change.debris);
+}
+
+}  // namespace
 
 void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const Nodes& nodes,
            ThreadTeam& team) {
@@ -29,18 +51,19 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const N
   ContactErosion& erosion = *scene.erosion;
   Surface& surface = scene.surface;
   // What the last search found knows the dead of before no more.
-  if (erosion.search != scene.candidates.counts.searches) {
-    erosion.search = scene.candidates.counts.searches;
+  const std::uint64_t searches =
+      scene.distance ? scene.distance->pairs.searches() : scene.candidates.counts.searches;
+  if (erosion.search != searches) {
+    erosion.search = searches;
     if (!erosion.keeps_numbers) erosion.topology.faces.release();
     erosion.topology.slaves.release();
   }
   delete_elements(surface, erosion.topology, deleted, erosion.change);
-  if (scene.distance) scene.distance->changed = true;
   if (erosion.change.split)
     for (Contact& contact : scene.contacts)
       if (!contact.of_lines()) contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;
-  erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
-  scene.travel.join(surface, nodes, erosion.change.new_slave);
+  const std::vector<int>& affected =
+      erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
   scene.motion.resize(surface.slaves());
   scene.in_contact.resize(surface.slaves());
   scene.pushed.resize(surface.slaves());
@@ -51,6 +74,11 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const N
       scene.normal_impulse[static_cast<std::size_t>(slave)].setZero();
       scene.friction_impulse[static_cast<std::size_t>(slave)].setZero();
     }
+  if (scene.distance) {
+    change_features(*scene.distance, surface, scene.options, erosion.topology, erosion.change, affected);
+    return;
+  }
+  scene.travel.join(surface, nodes, erosion.change.new_slave);
   erosion.growing.insert(erosion.growing.end(), erosion.change.debris.begin(), erosion.change.debris.end());
   erosion.local.add(scene.candidates, surface, scene.excluded, scene.options, nodes, erosion.change, team);
 }

@@ -124,8 +124,8 @@ ErodingExclusion::ErodingExclusion(const Surface& surface, const Nodes& referenc
     reference_.push_back(position(reference, static_cast<int>(n)));
 }
 
-void ErodingExclusion::mend(Lists& excluded, const Surface& surface, const SurfaceTopology& topology,
-                            const SurfaceChange& change) {
+const std::vector<int>& ErodingExclusion::mend(Lists& excluded, const Surface& surface,
+                                               const SurfaceTopology& topology, const SurfaceChange& change) {
   excluded.loosen();
   while (excluded.first.size() < surface.slaves()) excluded.add_list();
   for (int slave : change.dead_slave) excluded.clear(slave);
@@ -140,6 +140,7 @@ void ErodingExclusion::mend(Lists& excluded, const Surface& surface, const Surfa
   if (!reference_.empty()) add_around_tear(excluded, surface, change);
   sort_out(affected_);
   for (int slave : affected_) mend_slave(excluded, surface, topology, slave);
+  return affected_;
 }
 
 // A path of faces within a fold's distance of a slave that led over a dead face leads to one of its nodes
@@ -177,6 +178,7 @@ void ErodingExclusion::mend_slave(Lists& excluded, const Surface& surface, const
   for (int f : excluded.of(slave)) {
     if (!surface.face[static_cast<std::size_t>(f)].alive()) continue;
     if (std::binary_search(found_.begin(), found_.end(), f)) continue;
+    if (!keeps_torn && surface.face[static_cast<std::size_t>(f)].shell) continue;
     kept_.push_back(f);
     if (!surface.face[static_cast<std::size_t>(f)].shell) continue;  // overlapped as drawn
     const std::pair pair(node, f);

@@ -51,9 +51,11 @@ class ErodingExclusion {
  public:
   ErodingExclusion(const Surface& surface, const Nodes& reference);
 
-  void mend(Lists& excluded, const Surface& surface, const SurfaceTopology& topology,
-            const SurfaceChange& change);
+  /// \returns the slave nodes whose lists may have changed, ascending
+  const std::vector<int>& mend(Lists& excluded, const Surface& surface, const SurfaceTopology& topology,
+                               const SurfaceChange& change);
 
+  bool keeps_torn = true;
   /// Pairs (global node, face) that are no longer connected but excluded until they have been apart.
   std::vector<std::pair<int, int>> torn;
 

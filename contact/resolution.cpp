@@ -30,7 +30,7 @@ void set(double* components, const Vector3<double>& a) {
 class Resolution {
  public:
   Resolution(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies,
-             const Ties& ties)
+             const Ties& ties, std::span<const ContactWall> walls)
       : scene_(scene),
         distance_(*scene.distance),
         rows_(scene.distance->rows),
@@ -38,7 +38,8 @@ class Resolution {
         dt_(dt),
         team_(team),
         bodies_(bodies),
-        ties_(ties) {}
+        ties_(ties),
+        walls_(walls) {}
 
   void run() {
     find_constraints();
@@ -50,7 +51,8 @@ class Resolution {
       look_again();
       find_hits(distance_.guard, distance_.proximity, distance_.features, scene_.surface, scene_.options,
                 distance_.pairs, distance_.motion, team_);
-      if (distance_.guard.hits.empty()) break;
+      const bool behind_walls = find_missed_at_walls(round);
+      if (distance_.guard.hits.empty() && !behind_walls) break;
       if (round == 0) ++distance_.steps_with_hits;
       ++distance_.rounds;
       if (round >= most_rounds + most_zone_rounds) {
@@ -72,18 +74,12 @@ class Resolution {
   static constexpr int most_zone_rounds = 60;
   static constexpr double same_weight = 0.01;
   static constexpr double same_direction = 0.9999;
+  /// Over the smallest edge: less is rounding of positions.
+  static constexpr double behind_wall = 1e-9;
   /// Iterations of the solver for one pass of the options.
   static constexpr int iterations_a_pass = 10;
 
   void find_constraints() {
-    if (distance_.changed) {
-      collect(distance_.features, scene_.surface, scene_.options);
-      distance_.pairs.expire();
-      distance_.motion.forget();
-      distance_.changed = false;
-      scene_.candidates.smallest_edge = distance_.features.smallest_edge;
-      scene_.candidates.mean_edge = distance_.features.mean_edge;
-    }
     distance_.motion.begin(distance_.features, scene_.surface, nodes_, team_);
     distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
     if (distance_.pairs.is_due(scene_.surface, distance_.motion)) search();
@@ -92,8 +88,7 @@ class Resolution {
     scene_.last.swap(scene_.contacts);
     find_proximities(distance_.proximity, distance_.features, scene_.surface, scene_.options, distance_.pairs,
                      distance_.motion, team_, scene_.contacts);
-    inherit_impulses(scene_.last, scene_.last_dt > 0 ? dt_ / scene_.last_dt : 1.0, scene_.contacts,
-                     rows_.taken);
+    inherit_impulses(scene_.last, step_ratio(), scene_.contacts, rows_.taken);
   }
 
   void search() {
@@ -120,13 +115,42 @@ class Resolution {
     scene_.in_contact.clear();
     distance_.zone_impulse.clear();
     rows_.clear();
+    distance_.row_of_contact.clear();
     add_rows_from(0);
+    if (walls_.empty()) return;
+    const double band = proximity_band * distance_.features.smallest_edge;
+    distance_.walls.find(walls_, scene_.surface, distance_.motion, dt_, band, step_ratio());
+    add_wall_rows_from(0);
   }
+  double step_ratio() const { return scene_.last_dt > 0 ? dt_ / scene_.last_dt : 1; }
+  RowSources sources() const { return {scene_.surface, distance_.features, nodes_, ties_, bodies_}; }
 
   void add_rows_from(std::size_t first) {
-    add_rows(rows_, {scene_.surface, distance_.features, nodes_, ties_, bodies_},
-             std::span<const Contact>(scene_.contacts).subspan(first));
-    for (std::size_t i = first; i < scene_.contacts.size(); ++i) set_target(rows_.rows.row[i]);
+    const std::size_t known = rows_.rows.size();
+    for (std::size_t i = first; i < scene_.contacts.size(); ++i)
+      distance_.row_of_contact.push_back(known + i - first);
+    add_rows(rows_, sources(), std::span<const Contact>(scene_.contacts).subspan(first));
+    set_targets(known);
+  }
+  void add_wall_rows_from(std::size_t first) {
+    const std::size_t known = rows_.rows.size();
+    add_rows(rows_, sources(), walls_, std::span<const NodeAtWall>(distance_.walls.touch).subspan(first));
+    set_targets(known);
+  }
+  void set_targets(std::size_t first) {
+    for (std::size_t i = first; i < rows_.rows.size(); ++i) set_target(rows_.rows.row[i]);
+  }
+  ConstraintRow& row_of(std::size_t contact) { return rows_.rows.row[distance_.row_of_contact[contact]]; }
+
+  // Rows for nodes that others push behind a wall.
+  bool find_missed_at_walls(int round) {
+    if (walls_.empty() || round >= most_rounds) return false;
+    const std::size_t known = distance_.walls.touch.size();
+    if (!distance_.walls.find_missed(walls_, scene_.surface, distance_.motion, dt_,
+                                     behind_wall * distance_.features.smallest_edge))
+      return false;
+    add_wall_rows_from(known);
+    return true;
   }
 
   void set_target(ConstraintRow& row) const {
@@ -202,7 +226,7 @@ class Resolution {
       if (hit.at_hit && (again || hit.at_start.normal.isZero(0))) add(*hit.at_hit, ordinary);
     }
     for (std::size_t i = ordinary; i < known; ++i) {
-      ConstraintRow& row = rows_.rows.row[i];
+      ConstraintRow& row = row_of(i);
       if (row.gap == scene_.contacts[i].gap) continue;
       row.gap = scene_.contacts[i].gap;
       set_target(row);
@@ -230,16 +254,31 @@ class Resolution {
 
   void finish(std::size_t ordinary) {
     for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
-      scene_.contacts[i].impulse = rows_.rows.row[i].impulse;
-      scene_.contacts[i].friction = to_eigen(rows_.rows.row[i].friction);
+      scene_.contacts[i].impulse = row_of(i).impulse;
+      scene_.contacts[i].friction = to_eigen(row_of(i).friction);
     }
+    const bool at_walls = take_over_walls();
     sum_impulses(scene_);
     count_contacts(scene_);
     if (!distance_.zone_impulse.empty()) book_zones();
-    if (scene_.step.active > 0) book_rows();
+    if (scene_.step.active > 0 || at_walls) book_rows();
     add_to_totals(scene_);
     scene_.contacts.resize(ordinary);
     if (bodies_.size() > 1) scene_.rigid.find(scene_.surface, nodes_, scene_.contacts, bodies_);
+  }
+
+  // \returns whether a wall pushes
+  bool take_over_walls() {
+    bool pushes = false;
+    auto touch = distance_.walls.touch.begin();
+    for (const ConstraintRow& row : rows_.rows.row) {
+      if (row.wall < 0) continue;
+      touch->impulse = row.impulse;
+      touch->friction = row.friction;
+      pushes = pushes || row.impulse > 0;
+      ++touch;
+    }
+    return pushes;
   }
 
   // Before the impulses of rows are given to the bodies, which hold those of zones.
@@ -278,8 +317,14 @@ class Resolution {
   }
 
   void book_rows() {
-    const RowWork work = book(rows_.rows, rows_.before, rows_.block, rows_.place, {});
+    std::vector<PushOnWall>& pushes = distance_.walls.push;
+    pushes.assign(walls_.size(), {});
+    const RowWork work = book(rows_.rows, rows_.before, rows_.block, rows_.place, pushes);
     ContactStep& step = scene_.step;
+    for (const PushOnWall& push : pushes) {
+      step.wall_impulse -= to_eigen(push.impulse);
+      step.wall_moment -= to_eigen(push.moment);
+    }
     step.normal_work_before += work.normal_before;
     step.normal_work_after += work.normal_after;
     step.friction_work_before += work.friction_before;
@@ -308,13 +353,15 @@ class Resolution {
   ThreadTeam& team_;
   std::span<RigidMotion> bodies_;
   const Ties& ties_;
+  std::span<const ContactWall> walls_;
 };
 
 }  // namespace
 
 void resolve_by_distances(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
-                          std::span<RigidMotion> bodies, const Ties& ties) {
-  Resolution(scene, nodes, dt, team, bodies, ties).run();
+                          std::span<RigidMotion> bodies, const Ties& ties,
+                          std::span<const ContactWall> walls) {
+  Resolution(scene, nodes, dt, team, bodies, ties, walls).run();
 }
 
 }  // namespace brio

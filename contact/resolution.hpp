@@ -10,6 +10,7 @@ namespace brio {
 
 /// See `resolve`. \pre scene.distance.
 void resolve_by_distances(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
-                          std::span<RigidMotion> bodies, const Ties& ties);
+                          std::span<RigidMotion> bodies, const Ties& ties,
+                          std::span<const ContactWall> walls);
 
 }  // namespace brio

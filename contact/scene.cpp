@@ -149,6 +149,9 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   if (options.rule == DetectionRule::distance) {
     scene.distance.emplace();
     measure(scene.distance->features, scene.surface, nodes);
+    collect(scene.distance->features, scene.surface, options);
+    scene.candidates.smallest_edge = scene.distance->features.smallest_edge;
+    scene.candidates.mean_edge = scene.distance->features.mean_edge;
   }
   const std::size_t slaves = scene.surface.slaves();
   scene.motion.resize(slaves);
@@ -220,12 +223,12 @@ void store_solution(ContactScene& scene, Nodes& nodes, double dt, const Ties& ti
 }  // namespace
 
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies,
-             const Ties& ties) {
+             const Ties& ties, std::span<const ContactWall> walls) {
   assert(nodes.velocity_before.size() == nodes.size());
   scene.step = ContactStep{};
   if (scene.surface.node.empty()) return;
   if (scene.distance) {
-    resolve_by_distances(scene, nodes, dt, team, bodies, ties);
+    resolve_by_distances(scene, nodes, dt, team, bodies, ties, walls);
     scene.last_dt = dt;
     return;
   }

@@ -52,6 +52,8 @@ struct ContactStep {
   double support_work_after = 0;
   Eigen::Vector3d support_impulse = Eigen::Vector3d::Zero();
   Eigen::Vector3d support_moment = Eigen::Vector3d::Zero();  ///< about the origin
+  Eigen::Vector3d wall_impulse = Eigen::Vector3d::Zero();    ///< of walls on nodes
+  Eigen::Vector3d wall_moment = Eigen::Vector3d::Zero();     ///< about the origin
 
   double normal_work() const { return 0.5 * (normal_work_before + normal_work_after); }
   double friction_work() const { return 0.5 * (friction_work_before + friction_work_after); }
@@ -77,8 +79,9 @@ struct DistanceContact {
   Proximity proximity;
   CrossingGuard guard;
   ContactRows rows;  ///< of this step
+  std::vector<std::size_t> row_of_contact;
+  NodesAtWalls walls;
   ImpulseSolver solver;
-  bool changed = true;                        ///< the surface, since its features were collected
   std::vector<Eigen::Vector3d> zone_impulse;  ///< of each slave node, in this step; empty: no zone
   std::vector<int> zone_of;                   ///< of each slave node and body
   std::uint64_t steps_with_hits = 0, rounds = 0, zones = 0, unresolved = 0;
@@ -126,8 +129,10 @@ void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
 /// caller
 /// \param ties nodes that surfaces hold, with `hold` said to the scene before; they move with their faces on
 /// entry and on return
+/// \param walls as they are at the start of the step, always the same ones
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
-             std::span<RigidMotion> bodies = {}, const Ties& ties = {});
+             std::span<RigidMotion> bodies = {}, const Ties& ties = {},
+             std::span<const ContactWall> walls = {});
 
 /// The parts of `resolve`: impulses of nodes from those of the contacts; contacts, active ones and the
 /// deepest overlap into the step; the step into the totals.

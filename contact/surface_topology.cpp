@@ -223,6 +223,7 @@ class Deletion {
   }
 
   void remove_round(int index) {
+    change_.dead_round.push_back(index);
     RoundElement& element = surface_.round[static_cast<std::size_t>(index)];
     for (int k = 0; k < (element.is_point() ? 1 : 2); ++k) {
       const int slave = surface_.slave(element.node[static_cast<std::size_t>(k)]);

@@ -53,13 +53,14 @@ struct FreeNumbers {
 struct SurfaceChange {
   std::vector<int> dead_face;
   std::vector<int> new_face;
+  std::vector<int> dead_round;
   std::vector<int> dead_slave;
   std::vector<int> new_slave;
   std::vector<int> changed_slave;  ///< living ones that gained or lost faces, new ones among them; ascending
   std::vector<int> debris;         ///< changed ones that were left without elements and stay
   bool split = false;              ///< there are new bodies
   void clear() {
-    for (auto* list : {&dead_face, &new_face, &dead_slave, &new_slave, &changed_slave, &debris})
+    for (auto* list : {&dead_face, &new_face, &dead_round, &dead_slave, &new_slave, &changed_slave, &debris})
       list->clear();
     split = false;
   }

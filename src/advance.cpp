@@ -186,11 +186,23 @@ void carry_rigid(Model& model, ThreadTeam& team) {
   carry_velocities(model.rigid, model.nodes, team);
 }
 
+// To where they are at the start of the step.
+void move_contact_walls(Model& model) {
+  model.contact_walls.resize(model.walls.size());
+  for (std::size_t w = 0; w < model.walls.size(); ++w) {
+    const RigidWall& wall = model.walls[w].wall;
+    const Eigen::Vector3d velocity(wall.velocity.data());
+    model.contact_walls[w] = {Eigen::Vector3d(wall.point.data()) + model.times.time * velocity,
+                              Eigen::Vector3d(wall.normal.data()), velocity, wall.friction};
+  }
+}
+
 void resolve_contact(Model& model, ThreadTeam& team) {
   if (model.contacts.empty()) return;
   const StageTimer timer(model.stages, Stage::contact);
+  move_contact_walls(model);
   for (ContactScene& scene : model.contacts) {
-    resolve(scene, model.nodes, model.times.next, team, model.rigid.motion, model.ties);
+    resolve(scene, model.nodes, model.times.next, team, model.rigid.motion, model.ties, model.contact_walls);
     expect_driven_bodies_apart(model, scene);
     settle(model.rigid);
     const ContactStep& step = scene.step;
@@ -209,6 +221,12 @@ void resolve_contact(Model& model, ThreadTeam& team) {
       support.angular[i] = step.support_moment[static_cast<Eigen::Index>(i)];
     }
     model.momentum.supports.add(support);
+    Impulse walls;
+    for (std::size_t i = 0; i < 3; ++i) {
+      walls.linear[i] = step.wall_impulse[static_cast<Eigen::Index>(i)];
+      walls.angular[i] = step.wall_moment[static_cast<Eigen::Index>(i)];
+    }
+    model.momentum.walls.add(walls);
   }
 }
 

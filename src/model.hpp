@@ -58,6 +58,7 @@ struct Model {
   std::vector<ActiveLoad> loads;
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
+  std::vector<ContactWall> contact_walls;  ///< the same, as contact takes them in a step
   RigidBodies rigid;
   std::vector<ContactScene> contacts;            ///< one if the deck names contact, else none
   std::optional<ContactAudits> contact_audits;   ///< if the deck asks for them

@@ -53,7 +53,7 @@ std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
     end[k] = motion_.end(corner[k]);
   }
   const Vector3d x = motion_.start(s), y = motion_.end(s);
-  const bool as_hull = list.spaced[pair] != 0;
+  const bool as_hull = list.has_radii(pair);
   const auto touch = first_touch({x, y - x}, start, end, as_hull);
   if (!touch) return std::nullopt;
   Hit hit{.kind = PairKind::node_face, .pair = pair, .time = touch->time, .at_start = {}, .at_hit = {}};

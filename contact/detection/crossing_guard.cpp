@@ -65,7 +65,7 @@ class Look {
     if (points == 0) return floor;
     const Pack of_points = Pack(floor_of_points) * radii_of(kind_, pack);
     for_lanes(points, [&](int lane) { floor.set(lane, of_points[lane]); });
-    lanes &= ~points | lane_bits(are_spaced(kind_.list, pack));
+    lanes &= ~points | lane_bits(have_spacing(Spacing::radii, kind_.list, pack));
     return floor;
   }
 

@@ -8,6 +8,11 @@ void FeatureBoxes::start(std::size_t count) {
   changed_.clear();
 }
 
+void FeatureBoxes::grow(std::size_t count) {
+  box_.resize(count, empty_box);
+  is_changed_.resize(count, 0);
+}
+
 void FeatureBoxes::build(ThreadTeam& team) {
   tree_.build(SearchNodes(box_), team);
   for (int feature : changed_) is_changed_[static_cast<std::size_t>(feature)] = 0;

@@ -14,6 +14,8 @@ class FeatureBoxes {
  public:
   /// As many features, none of which has a box.
   void start(std::size_t count);
+  /// More features, none of the new ones has a box.
+  void grow(std::size_t count);
   void set(std::size_t feature, const CaptureBox& box) { box_[feature] = box; }
   /// The tree of all boxes as they are.
   void build(ThreadTeam& team);

@@ -70,6 +70,19 @@ void FeatureMotion::restart(const SurfaceFeatures& features, const Surface& surf
   ++restarts_;
 }
 
+void FeatureMotion::join(const SurfaceFeatures& features, const Surface& surface,
+                         std::span<const int> new_slave) {
+  if (!known_) return;
+  joined_.insert(joined_.end(), new_slave.begin(), new_slave.end());
+  node.resize(surface.slaves());
+  way_.resize(surface.slaves());
+  for (auto [ways, count] : {std::pair(&of_node, surface.slaves()), std::pair(&of_face, surface.face.size()),
+                             std::pair(&of_edge, features.edge.size())}) {
+    ways->path.resize(count, 0);
+    ways->ahead.resize(count, 0);
+  }
+}
+
 void FeatureMotion::start_sums(std::size_t count) {
   sum_.assign((count + features_a_range - 1) / features_a_range, {});
 }
@@ -86,6 +99,12 @@ void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surfac
     for (std::size_t s = 0; s < node.size(); ++s)
       if (surface.rigid_body(surface.node[s]) >= 0) driven_.push_back(static_cast<int>(s));
   }
+  for (int slave : joined_) {  // as if it had moved with the frame
+    if (surface.node[index(slave)] < 0) continue;
+    const double* x = nodes.record[index(surface.node[index(slave)])].position;
+    for (int axis = 0; axis < 3; ++axis) node[index(slave)].start[axis] = x[axis] - frame_[axis];
+  }
+  joined_.clear();
   start_sums(node.size());
   team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
     double longest = 0;

@@ -61,8 +61,10 @@ class FeatureMotion {
   /// Whether the last positions at the end of the step were beyond the limits of any node.
   bool exceeds_limits() const { return exceeds_; }
 
-  /// The surface has changed: nothing is known of the last step.
+  /// Nothing is known of the last step.
   void forget() { known_ = false; }
+  /// The surface has changed: features may have joined. \param new_slave nodes of which no last step is known
+  void join(const SurfaceFeatures& features, const Surface& surface, std::span<const int> new_slave);
   /// Paths start at zero: pairs are found anew.
   void restart(const SurfaceFeatures& features, const Surface& surface);
   std::uint64_t restarts() const { return restarts_; }
@@ -111,6 +113,7 @@ class FeatureMotion {
   std::vector<Way> way_;     ///< of each slave node
   std::vector<Sum> sum_;     ///< one a range
   std::vector<int> driven_;  ///< slave nodes of rigid bodies
+  std::vector<int> joined_;  ///< slave nodes since the last step
   double longest_path_ = 0, longest_step_ = 0;
   double limit_factor_ = 1, limit_surplus_ = 0;
   double frame_[3] = {0, 0, 0};

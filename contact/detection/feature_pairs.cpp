@@ -96,16 +96,16 @@ void PairList::clear() {
   second.clear();
   for (auto& axis : direction) axis.clear();
   wake.clear();
-  spaced.clear();
+  spacing.clear();
 }
 
-void PairList::add(int a, int b, bool keep_distance) {
+void PairList::add(int a, int b, Spacing kept_apart) {
   ++changes;
   first.push_back(a);
   second.push_back(b);
   for (auto& axis : direction) axis.push_back(0);
   wake.push_back(-1);
-  spaced.push_back(keep_distance ? 1 : 0);
+  spacing.push_back(kept_apart);
 }
 
 bool FeaturePairs::is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const {
@@ -120,7 +120,7 @@ bool FeaturePairs::is_inside(std::size_t slave, const FeatureMotion& motion, dou
 }
 
 bool FeaturePairs::is_due(const Surface& surface, const FeatureMotion& motion) const {
-  if (reach_.size() != surface.slaves()) return true;
+  if (reach_.size() != surface.slaves() || !changes_.empty()) return true;
   for (std::size_t s = 0; s < reach_.size(); ++s)
     if (surface.node[s] >= 0 && !is_inside(s, motion, 1)) return true;
   return false;
@@ -164,10 +164,72 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
                         const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team) {
   const Scene scene{features, surface, excluded, share_of_buffer * options.reach_buffer * features.mean_edge,
                     proximity_band * features.smallest_edge};
+  ++searches_;
+  changed_ = !changes_.empty();
+  kept_node_face_.clear();
+  kept_edge_edge_.clear();
+  if (!reach_.empty()) take_in_changes(scene);
   if (reach_.size() == surface.slaves() && collect_leaving(scene, motion))
     find_leaving(scene, motion, team);
   else
     find_all(scene, motion, team);
+  forget_changes();
+}
+
+void FeaturePairs::forget_changes() {
+  const auto forget = [](std::vector<std::uint8_t>& leaves, std::vector<int>& changed) {
+    for (int i : changed) leaves[static_cast<std::size_t>(i)] = 0;
+    changed.clear();
+  };
+  forget(node_leaves_, changes_.node);
+  forget(face_leaves_, changes_.face);
+  forget(edge_leaves_, changes_.edge);
+  changes_.grown.clear();
+  changes_.before_first_search = false;
+}
+
+void FeaturePairs::change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
+                          std::span<const int> grown) {
+  if (reach_.empty()) {
+    changes_.before_first_search = true;
+    return;
+  }
+  const auto append = [](std::vector<int>& to, std::span<const int> from) {
+    to.insert(to.end(), from.begin(), from.end());
+  };
+  append(changes_.node, nodes);
+  append(changes_.face, faces);
+  append(changes_.edge, edges);
+  append(changes_.grown, grown);
+}
+
+void FeaturePairs::take_in_changes(const Scene& scene) {
+  reach_.resize(scene.surface.slaves(), empty_box);
+  node_box_.grow(reach_.size());
+  face_box_.grow(scene.surface.face.size());
+  edge_box_.grow(scene.features.edge.size());
+  node_leaves_.resize(node_box_.size(), 0);
+  face_leaves_.resize(face_box_.size(), 0);
+  edge_leaves_.resize(edge_box_.size(), 0);
+}
+
+namespace {
+
+std::uint64_t key_of(int a, int b) {
+  return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+}
+
+}  // namespace
+
+void FeaturePairs::remember(std::vector<std::uint64_t>& kept, int a, int b, Spacing spacing) const {
+  if (spacing == (changed_ ? Spacing::radii : Spacing::waiting)) kept.push_back(key_of(a, b));
+}
+
+Spacing FeaturePairs::spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b,
+                                     bool only_skins) const {
+  if (only_skins) return Spacing::radii;
+  const bool was_kept = std::binary_search(kept.begin(), kept.end(), key_of(a, b));
+  return was_kept == changed_ ? Spacing::radii : Spacing::waiting;
 }
 
 void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
@@ -184,7 +246,8 @@ void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTea
   for (std::size_t f = 0; f < surface.face.size(); ++f)
     if (surface.face[f].alive()) face_box_.set(f, face_box(scene, f));
   edge_box_.start(scene.features.edge.size());
-  for (std::size_t e = 0; e < scene.features.edge.size(); ++e) edge_box_.set(e, edge_box(scene, e));
+  for (std::size_t e = 0; e < scene.features.edge.size(); ++e)
+    if (scene.features.edge[e].alive()) edge_box_.set(e, edge_box(scene, e));
   node_box_.build(team);
   face_box_.build(team);
   edge_box_.build(team);
@@ -192,6 +255,13 @@ void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTea
   face_leaves_.assign(face_box_.size(), 0);
   edge_leaves_.assign(edge_box_.size(), 0);
 
+  const auto remember_all = [&](const PairList& pairs, std::vector<std::uint64_t>& kept) {
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      remember(kept, pairs.first[i], pairs.second[i], pairs.spacing[i]);
+    std::sort(kept.begin(), kept.end());
+  };
+  remember_all(node_face, kept_node_face_);
+  remember_all(edge_edge, kept_edge_edge_);
   node_face.clear();
   node_box_.find(face_box_.boxes(), team, counts,
                  [&](std::size_t f, int s) { add_node_face(scene, s, static_cast<int>(f)); });
@@ -210,8 +280,14 @@ bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& moti
   node_.clear();
   face_.clear();
   edge_.clear();
+  const auto mark = [](std::vector<std::uint8_t>& leaves, const std::vector<int>& changed) {
+    for (int i : changed) leaves[static_cast<std::size_t>(i)] = 1;
+  };
+  mark(node_leaves_, changes_.node);
+  mark(face_leaves_, changes_.face);
+  mark(edge_leaves_, changes_.edge);
   for (std::size_t s = 0; s < reach_.size(); ++s)
-    if (surface.node[s] >= 0 && !is_inside(s, motion, steps_of_notice)) {
+    if (surface.node[s] >= 0 && (node_leaves_[s] != 0 || !is_inside(s, motion, steps_of_notice))) {
       node_.push_back(static_cast<int>(s));
       node_leaves_[s] = 1;
     }
@@ -224,6 +300,7 @@ bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& moti
     if (face_leaves_[f] != 0) face_.push_back(static_cast<int>(f));
   }
   for (std::size_t e = 0; e < scene.features.edge.size(); ++e) {
+    if (!scene.features.edge[e].alive()) continue;
     for (int node : scene.features.edge[e].node)
       edge_leaves_[e] |= node_leaves_[static_cast<std::size_t>(node)];
     if (edge_leaves_[e] != 0) edge_.push_back(static_cast<int>(e));
@@ -243,8 +320,14 @@ void FeaturePairs::find_leaving(const Scene& scene, const FeatureMotion& motion,
   for (int s : node_) node_box_.change(s, node_box(scene, static_cast<std::size_t>(s)));
   for (int f : face_) face_box_.change(f, face_box(scene, static_cast<std::size_t>(f)));
   for (int e : edge_) edge_box_.change(e, edge_box(scene, static_cast<std::size_t>(e)));
+  drop_dead(scene);
 
-  node_face.remove_if([&](int s, int f) { return leaves(node_leaves_, s) || leaves(face_leaves_, f); });
+  node_face.remove_if([&](int s, int f, Spacing spacing) {
+    const bool out = leaves(node_leaves_, s) || leaves(face_leaves_, f);
+    if (out) remember(kept_node_face_, s, f, spacing);
+    return out;
+  });
+  std::sort(kept_node_face_.begin(), kept_node_face_.end());
   gather(face_box_, face_);
   node_box_.find(query_, team, counts, [&](std::size_t i, int s) { add_node_face(scene, s, face_[i]); });
   gather(node_box_, node_);
@@ -252,13 +335,28 @@ void FeaturePairs::find_leaving(const Scene& scene, const FeatureMotion& motion,
     if (!leaves(face_leaves_, f)) add_node_face(scene, node_[i], f);
   });
 
-  edge_edge.remove_if([&](int a, int b) { return leaves(edge_leaves_, a) || leaves(edge_leaves_, b); });
+  edge_edge.remove_if([&](int a, int b, Spacing spacing) {
+    const bool out = leaves(edge_leaves_, a) || leaves(edge_leaves_, b);
+    if (out) remember(kept_edge_edge_, a, b, spacing);
+    return out;
+  });
+  std::sort(kept_edge_edge_.begin(), kept_edge_edge_.end());
   gather(edge_box_, edge_);
   edge_box_.find(query_, team, counts, [&](std::size_t i, int other) {
     const int own = edge_[i];
     if (other == own || (leaves(edge_leaves_, other) && other < own)) return;
     add_edge_edge(scene, std::min(own, other), std::max(own, other));
   });
+}
+
+// What is no more has no box; the flags of what changed stay for the removal of pairs.
+void FeaturePairs::drop_dead(const Scene& scene) {
+  for (int s : changes_.node)
+    if (scene.surface.node[static_cast<std::size_t>(s)] < 0) node_box_.change(s, empty_box);
+  for (int f : changes_.face)
+    if (!scene.surface.face[static_cast<std::size_t>(f)].alive()) face_box_.change(f, empty_box);
+  for (int e : changes_.edge)
+    if (!scene.features.edge[static_cast<std::size_t>(e)].alive()) edge_box_.change(e, empty_box);
 }
 
 void FeaturePairs::add_node_face(const Scene& scene, int slave, int f) {
@@ -269,7 +367,15 @@ void FeaturePairs::add_node_face(const Scene& scene, int slave, int f) {
   if (!spaced && !grown(box_of(scene.surface, face), 2 * scene.features.skin + scene.band)
                       .overlaps(reach_[static_cast<std::size_t>(slave)]))
     return;
-  node_face.add(slave, f, spaced);
+  const double radii = scene.features.node_radius[static_cast<std::size_t>(slave)] +
+                       scene.features.face_radius[static_cast<std::size_t>(f)];
+  const auto& grown_nodes = changes_.grown;
+  Spacing spacing = Spacing::skins;
+  if (spaced && std::find(grown_nodes.begin(), grown_nodes.end(), slave) != grown_nodes.end())
+    spacing = Spacing::waiting;
+  else if (spaced)
+    spacing = spacing_of_new(kept_node_face_, slave, f, radii <= 2 * scene.features.skin);
+  node_face.add(slave, f, spacing);
 }
 
 void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
@@ -280,7 +386,9 @@ void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
   if (!spaced && (a.kind == EdgeKind::cross_diagonal || b.kind == EdgeKind::cross_diagonal ||
                   !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b))))
     return;
-  edge_edge.add(first, second, spaced);
+  const bool only_skins = a.radius + b.radius <= 2 * scene.features.skin;
+  edge_edge.add(first, second,
+                spaced ? spacing_of_new(kept_edge_edge_, first, second, only_skins) : Spacing::skins);
 }
 
 }  // namespace brio

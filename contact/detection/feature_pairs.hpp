@@ -6,9 +6,11 @@
 /// features at such nodes alone: until then no pair is missing, and a fast splinter makes nobody else search.
 /// Left out are pairs that share a node, that are parts of one rigid body, of one face, or that the deck
 /// keeps from touching. Pairs of one piece (the fold of a shell, the sides of one element) are listed too:
-/// not their radii, which overlap as drawn, but two skins are kept between them.
+/// not their radii, which overlap as drawn, but two skins are kept between them. What a deletion pairs anew
+/// begins as near as it was: such a pair waits with two skins until it has been apart by its radii.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "contact/detection/feature_boxes.hpp"
@@ -18,19 +20,24 @@
 
 namespace brio {
 
+/// What is kept between a pair: two skins; its radii; its radii once it has been apart by them, two skins
+/// until then.
+enum class Spacing : std::uint8_t { skins, radii, waiting };
+
 /// One list of pairs, struct of arrays. The first feature is a node or an edge, the second a face or an edge.
 struct PairList {
   std::vector<int> first, second;
-  std::vector<float> direction[3];   ///< from the second to the first; zero: not known
-  std::vector<double> wake;          ///< sum of both paths at which the pair has to be looked at
-  std::vector<std::uint8_t> spaced;  ///< 1: their radii are kept apart; 0: two skins, as they are one piece
+  std::vector<float> direction[3];  ///< from the second to the first; zero: not known
+  std::vector<double> wake;         ///< sum of both paths at which the pair has to be looked at
+  std::vector<Spacing> spacing;
 
   std::uint64_t changes = 0;  ///< how often pairs were put in or taken out
 
   std::size_t size() const { return first.size(); }
   void clear();
-  void add(int a, int b, bool keep_distance);
-  /// Take out those for which `leaves(first, second)`; the others keep their order.
+  void add(int a, int b, Spacing kept_apart);
+  bool has_radii(std::size_t pair) const { return spacing[pair] == Spacing::radii; }
+  /// Take out those for which `leaves(first, second, spacing)`; the others keep their order.
   template <class Leaves>
   void remove_if(const Leaves& leaves);
   Eigen::Vector3d direction_of(std::size_t pair) const {
@@ -46,19 +53,19 @@ void PairList::remove_if(const Leaves& leaves) {
   ++changes;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    if (leaves(first[i], second[i])) continue;
+    if (leaves(first[i], second[i], spacing[i])) continue;
     first[kept] = first[i];
     second[kept] = second[i];
     for (auto& axis : direction) axis[kept] = axis[i];
     wake[kept] = wake[i];
-    spaced[kept] = spaced[i];
+    spacing[kept] = spacing[i];
     ++kept;
   }
   first.resize(kept);
   second.resize(kept);
   for (auto& axis : direction) axis.resize(kept);
   wake.resize(kept);
-  spaced.resize(kept);
+  spacing.resize(kept);
 }
 
 class FeaturePairs {
@@ -73,8 +80,13 @@ class FeaturePairs {
   /// restart.
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
             const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team);
-  /// The surface has changed.
+  /// The surface has changed: features have joined, and what is listed has changed or is no more. Nodes stand
+  /// for all features at them. \param grown nodes whose radii have grown
+  void change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
+              std::span<const int> grown);
+  /// The next search is for all.
   void expire() { reach_.clear(); }
+  std::uint64_t searches() const { return searches_; }
 
  private:
   struct Scene {
@@ -93,9 +105,14 @@ class FeaturePairs {
   CaptureBox face_box(const Scene& scene, std::size_t face) const;
   CaptureBox edge_box(const Scene& scene, std::size_t edge) const;
 
+  void take_in_changes(const Scene& scene);
+  void forget_changes();
   bool collect_leaving(const Scene& scene, const FeatureMotion& motion);
+  void remember(std::vector<std::uint64_t>& kept, int a, int b, Spacing spacing) const;
+  Spacing spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b, bool only_skins) const;
   void find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
   void find_leaving(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team);
+  void drop_dead(const Scene& scene);
   void add_node_face(const Scene& scene, int slave, int face);
   void add_edge_edge(const Scene& scene, int first, int second);
 
@@ -104,6 +121,17 @@ class FeaturePairs {
   std::vector<int> node_, face_, edge_;  ///< what has left its boxes, ascending
   std::vector<std::uint8_t> node_leaves_, face_leaves_, edge_leaves_;
   std::vector<CaptureBox> query_;
+
+  struct Changes {
+    std::vector<int> node, face, edge, grown;
+    bool before_first_search = false;
+    bool empty() const { return node.empty() && face.empty() && edge.empty() && !before_first_search; }
+  } changes_;             ///< since the last search
+  bool changed_ = false;  ///< whether this search follows a change
+  /// Pairs taken out in this search, ascending: those with radii where it follows a change, else those that
+  /// wait.
+  std::vector<std::uint64_t> kept_node_face_, kept_edge_edge_;
+  std::uint64_t searches_ = 0;
 };
 
 /// Distance beyond touching at which constraints are formed, over the smallest edge.

@@ -17,12 +17,14 @@
 #include "contact/lists.hpp"
 #include "contact/options.hpp"
 #include "contact/surface.hpp"
+#include "contact/surface_topology.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {
 
-/// The diagonal of a face is that from its first corner; the other one is its cross diagonal.
-enum class EdgeKind : std::uint8_t { side, diagonal, cross_diagonal, beam, particle, node };
+/// The diagonal of a face is that from its first corner; the other one is its cross diagonal. None: the edge
+/// is no more, and its number is free.
+enum class EdgeKind : std::uint8_t { side, diagonal, cross_diagonal, beam, particle, node, none };
 
 struct EdgeFeature {
   std::array<int, 2> node{};  ///< slave indices, ascending; the same twice: a point
@@ -39,6 +41,7 @@ struct EdgeFeature {
 
   bool is_point() const { return node[0] == node[1]; }
   bool of_face() const { return kind <= EdgeKind::cross_diagonal; }
+  bool alive() const { return kind != EdgeKind::none; }
 };
 
 struct SurfaceFeatures {
@@ -46,13 +49,18 @@ struct SurfaceFeatures {
   double mean_edge = 0;      ///< as built
   double skin = 0;           ///< radius of what has no thickness
   std::vector<EdgeFeature> edge;
-  std::vector<std::array<int, 4>> edge_of_face;  ///< sides by corner; the fourth of a triangle is -1
-  std::vector<std::array<int, 4>> face_node;     ///< slave indices of the corners; of dead faces node 0
-  std::vector<std::array<int, 2>> edge_node;     ///< EdgeFeature::node side by side
-  std::vector<double> edge_radius;               ///< EdgeFeature::radius side by side
-  std::vector<double> node_radius;               ///< of each slave node
-  std::vector<double> face_radius;               ///< of each face
-  Lists ring;                                    ///< of each slave node: those at the other ends of its edges
+  bool all_of_faces = true;                          ///< no edge is a beam or a point
+  std::vector<std::array<int, 4>> edge_of_face;      ///< sides by corner; -1: none
+  std::vector<std::array<int, 2>> diagonal_of_face;  ///< both diagonals; -1: none
+  std::vector<int> edge_of_round;                    ///< of each beam and particle
+  std::vector<int> point_of_node;                    ///< of each slave node, where there are beams; -1: none
+  std::vector<std::array<int, 4>> face_node;         ///< slave indices of the corners; of dead faces node 0
+  std::vector<std::array<int, 2>> edge_node;         ///< EdgeFeature::node side by side
+  std::vector<double> edge_radius;                   ///< EdgeFeature::radius side by side
+  std::vector<double> node_radius;                   ///< of each slave node
+  std::vector<double> face_radius;                   ///< of each face
+  Lists ring;  ///< of each slave node: those at the other ends of its sides and beams, ascending
+  std::vector<int> retired, free;  ///< numbers of edges that are no more: of the last update, and of before
 };
 
 /// Skin of a solid, over the smallest edge of the surface: two solids touch at twice that distance.
@@ -63,5 +71,11 @@ void measure(SurfaceFeatures& features, const Surface& surface, const Nodes& nod
 
 /// Collect edges, radii and rings anew, in an order that depends on the surface alone.
 void collect(SurfaceFeatures& features, const Surface& surface, const ContactOptions& options);
+
+/// Follow a deletion; edges keep their numbers. \param changed_edges replaced by the numbers of those that
+/// are new, that have changed, or that are no more; those of no more are given away by the next update at the
+/// earliest
+void update(SurfaceFeatures& features, const Surface& surface, const ContactOptions& options,
+            const SurfaceChange& change, std::vector<int>& changed_edges);
 
 }  // namespace brio

@@ -184,14 +184,16 @@ BRIO_INLINE Vector3<Pack> directions_of(const PairList& list, const Pairs& pack)
   return {component(list.direction[0]), component(list.direction[1]), component(list.direction[2])};
 }
 template <class Pairs>
-BRIO_INLINE MaskOf<Pack> are_spaced(const PairList& list, const Pairs& pack) {
-  const auto lane = [&](std::size_t l) {
-    return -static_cast<std::int64_t>(list.spaced[static_cast<std::size_t>(pack.pair[l])]);
+BRIO_INLINE MaskOf<Pack> have_spacing(Spacing spacing, const PairList& list, const Pairs& pack) {
+  const auto lane = [&](std::size_t l) -> std::int64_t {
+    return list.spacing[static_cast<std::size_t>(pack.pair[l])] == spacing ? -1 : 0;
   };
   return {MaskOf<Pack>::Vector{lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7)}};
 }
 /// What is known of the pairs besides their points.
 struct PackOfWays {
+  Pack radii;
+  MaskOf<Pack> waits;
   Pack reach;        ///< distance at which they touch
   Pack path, ahead;  ///< sums of both features
 };
@@ -204,7 +206,9 @@ BRIO_INLINE Pack radii_of(const Kind& kind, const typename Kind::Pairs& pack) {
 template <class Kind>
 BRIO_INLINE PackOfWays ways_of(const Kind& kind, const typename Kind::Pairs& pack) {
   PackOfWays ways;
-  ways.reach = where(are_spaced(kind.list, pack), radii_of(kind, pack), Pack(2 * kind.features.skin));
+  ways.radii = radii_of(kind, pack);
+  ways.waits = have_spacing(Spacing::waiting, kind.list, pack);
+  ways.reach = where(have_spacing(Spacing::radii, kind.list, pack), ways.radii, Pack(2 * kind.features.skin));
   const FeatureWays &first = kind.first_ways(), &second = kind.second_ways();
   ways.path = gather_numbers(first.path.data(), pack.a) + gather_numbers(second.path.data(), pack.b);
   ways.ahead = gather_numbers(first.ahead.data(), pack.a) + gather_numbers(second.ahead.data(), pack.b);
@@ -233,14 +237,14 @@ BRIO_INLINE void store_wakes(PairList& list, const Pairs& pack, unsigned lanes, 
 /// Pairs that a pass takes at once: one task of a team of threads.
 inline constexpr std::size_t pairs_a_range = 512;
 
-/// Pairs of a range that go on to the next stage of a pass: those whose radii are kept apart and those of one
-/// piece apart, as their closest points are not of the same kind.
+/// Pairs of a range that go on to the next stage of a pass: those whose radii are kept apart and the others
+/// apart, as their closest points are not of the same kind.
 struct PairsOfRange {
   std::array<std::array<int, pairs_a_range>, 2> pair;
   std::array<std::size_t, 2> count{};
 
   void add(const PairList& list, int p) {
-    const std::size_t kind = list.spaced[static_cast<std::size_t>(p)] != 0 ? 1 : 0;
+    const std::size_t kind = list.has_radii(static_cast<std::size_t>(p)) ? 1 : 0;
     pair[kind][count[kind]++] = p;
   }
 };

@@ -61,10 +61,21 @@ class Finder {
       store_directions(kind_.list, pack, lane_bits(is_unknown) & pack.lanes(), direction);
     }
     const Pack apart = Pack(1 - rounding_of_direction) * height_between(direction, at.first, at.second);
-    const Pack wake = ways.path + apart - ways.reach - Pack(band_);
+    const Pack wake = ways.path + apart - reach_to_wake(ways) - Pack(band_);
     store_wakes(kind_.list, pack, pack.lanes(), wake);
+    end_wait(pack, ways.waits & (apart > ways.radii));
     for_lanes(lane_bits(!(wake > ways.ahead)) & pack.lanes(),
               [&](int lane) { near.add(kind_.list, pack.pair[lane]); });
+  }
+
+  // Pairs that wait are looked at as if they did not, so that they are seen to be apart before they meet.
+  static BRIO_INLINE Pack reach_to_wake(const PackOfWays& ways) {
+    return where(ways.waits, ways.radii, ways.reach);
+  }
+  BRIO_INLINE void end_wait(const typename Kind::Pairs& pack, MaskOf<Pack> apart) const {
+    for_lanes(lane_bits(apart) & pack.lanes(), [&](int lane) {
+      kind_.list.spacing[static_cast<std::size_t>(pack.pair[lane])] = Spacing::radii;
+    });
   }
 
   template <bool Spaced>
@@ -73,10 +84,15 @@ class Finder {
     for (std::size_t i = 0; i < count; i += pack_size) {
       const auto pack =
           pack_of(kind_, near.pair[Spaced ? 1 : 0].data(), i, std::min<std::size_t>(count, i + pack_size));
-      const PackOfWays ways = ways_of(kind_, pack);
+      PackOfWays ways = ways_of(kind_, pack);
       const auto closest = Kind::closest(points_of(pack, rows_), Spaced);
       const Pack distance = sqrt(closest.squared_distance);
-      const Pack wake = ways.path + distance - ways.reach - Pack(band_);
+      const Pack wake = ways.path + distance - reach_to_wake(ways) - Pack(band_);
+      if (!Spaced) {
+        const MaskOf<Pack> apart = ways.waits & (distance > ways.radii);
+        end_wait(pack, apart);
+        ways.reach = where(apart, ways.radii, ways.reach);
+      }
       store_wakes(kind_.list, pack, pack.lanes(), wake);
       const MaskOf<Pack> has_direction = closest.squared_distance > Pack(least_square_);
       const Vector3<Pack> normal = (Pack(1.0) / where(has_direction, distance, Pack(1.0))) * closest.offset;
@@ -92,8 +108,7 @@ class Finder {
   // Not what the filter leaves out at once: edges of faces that are nearest at their ends.
   unsigned candidates(const ClosestNodeFace&) const { return first_lanes(pack_size); }
   unsigned candidates(const ClosestOnSegments<Pack>& closest) const {
-    const bool all_of_faces = kind_.features.edge.back().of_face();  // the others come last
-    if (!all_of_faces) return first_lanes(pack_size);
+    if (!kind_.features.all_of_faces) return first_lanes(pack_size);
     const auto is_inside = [](Pack at) { return (at > Pack(no_weight)) & (at < Pack(1 - no_weight)); };
     return lane_bits(is_inside(closest.on_a) & is_inside(closest.on_b));
   }

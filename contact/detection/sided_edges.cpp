@@ -31,7 +31,7 @@ class EdgesAndEdges {
  private:
   Segment segment(const EdgeFeature& edge) const { return {look_.at(edge.node[0]), look_.at(edge.node[1])}; }
   static bool of_solid(const EdgeFeature& edge) { return edge.of_face() && !edge.shell; }
-  bool is_spaced(std::size_t pair) const { return list_.spaced[pair] != 0; }
+  bool is_spaced(std::size_t pair) const { return list_.has_radii(pair); }
   double reach_of(std::size_t pair) const {
     return is_spaced(pair) ? look_.edge(list_.first[pair]).radius + look_.edge(list_.second[pair]).radius
                            : 2 * features_.skin;

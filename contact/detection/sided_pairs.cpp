@@ -140,7 +140,7 @@ class NodesAndFaces {
     add(pair, s, seen, x - seen.offset, seen.offset / distance, distance, true);
   }
 
-  bool is_spaced(int pair) const { return list_.spaced[static_cast<std::size_t>(pair)] != 0; }
+  bool is_spaced(int pair) const { return list_.has_radii(static_cast<std::size_t>(pair)); }
   double reach_of(int pair, int s, int f) const {
     return is_spaced(pair) ? features_.node_radius[static_cast<std::size_t>(s)] +
                                  features_.face_radius[static_cast<std::size_t>(f)]

@@ -78,6 +78,24 @@ class Builder {
     add_side(second, -1, height_[1], second.point + height_[1] * normal_);
   }
 
+  void add(const NodeAtWall& touch, const ContactWall& wall) {
+    const int node = surface_.node[index(touch.slave)];
+    const Vector3d x = position(nodes_, node);
+    normal_ = wall.normal;
+    ConstraintRow& row = rows_.add_row(to_vector(normal_), wall.normal.dot(x - wall.point), wall.friction);
+    row.impulse = touch.impulse;
+    row.friction = touch.friction;
+    row.wall = touch.wall;
+    row.wall_velocity = to_vector(wall.velocity);
+    row.point = to_vector(x);
+    if (const int body = surface_.rigid_body(node); body >= 0) {
+      const int block = block_of_body(body);
+      rows_.add_rigid_body(block, block + 1, to_vector(x - centre(body)), Side::first);
+    } else {
+      add_node(node, 1);
+    }
+  }
+
  private:
   SidePoint side_of(const Contact& contact, std::size_t begin, std::size_t end) const {
     SidePoint side;
@@ -385,13 +403,27 @@ void ContactRows::clear() {
   place.clear();
 }
 
-void add_rows(ContactRows& rows, const RowSources& sources, std::span<const Contact> contacts) {
+namespace {
+
+Builder builder_of(ContactRows& rows, const RowSources& sources) {
   rows.block_of_node.resize(sources.nodes.size(), -1);
   if (sources.nodes.has_rotations()) rows.block_of_rotation.resize(sources.nodes.size(), -1);
   rows.block_of_body.resize(sources.bodies.size(), -1);
   rows.body_inertia.resize(sources.bodies.size());
-  Builder builder(rows, sources);
+  return {rows, sources};
+}
+
+}  // namespace
+
+void add_rows(ContactRows& rows, const RowSources& sources, std::span<const Contact> contacts) {
+  Builder builder = builder_of(rows, sources);
   for (const Contact& contact : contacts) builder.add(contact);
+}
+
+void add_rows(ContactRows& rows, const RowSources& sources, std::span<const ContactWall> walls,
+              std::span<const NodeAtWall> touches) {
+  Builder builder = builder_of(rows, sources);
+  for (const NodeAtWall& touch : touches) builder.add(touch, walls[index(touch.wall)]);
 }
 
 }  // namespace brio

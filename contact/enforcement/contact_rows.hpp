@@ -21,6 +21,7 @@
 #include "contact/detection/features.hpp"
 #include "contact/enforcement/booking.hpp"
 #include "contact/enforcement/constraint_row.hpp"
+#include "contact/enforcement/nodes_at_walls.hpp"
 #include "contact/pair.hpp"
 #include "contact/rigid_motion.hpp"
 #include "contact/surface.hpp"
@@ -74,5 +75,9 @@ struct RowSources {
 
 /// Append one row a contact, with the impulses that the contact carries.
 void add_rows(ContactRows& rows, const RowSources& sources, std::span<const Contact> contacts);
+
+/// Append one row a touch of a wall.
+void add_rows(ContactRows& rows, const RowSources& sources, std::span<const ContactWall> walls,
+              std::span<const NodeAtWall> touches);
 
 }  // namespace brio

@@ -144,7 +144,7 @@ class ImpulseSolver {
   std::vector<std::uint32_t> row_of_slot_;
   std::vector<std::uint32_t> mover_;  ///< by row: a block that it moves, then its island
   std::size_t slots_of_kind_[kinds] = {};
-  std::vector<double> scale_;  ///< s of each row
+  std::vector<double> squared_scale_;  ///< s^2 of each row
   IslandFinder finder_;
   std::vector<std::uint32_t> count_;        ///< rows by island and kind, then the next slot
   std::vector<std::uint32_t> block_order_;  ///< blocks that rows move, island by island
@@ -152,9 +152,9 @@ class ImpulseSolver {
   EntryLists<TranslationItem> translation_;
   EntryLists<TiltedItem> tilted_;  ///< of rows with tilt, and of general ones
   EntryLists<OtherItem> rotation_, matrix_;
-  std::vector<double> norm_;        ///< c of each entry: translations, rotations, matrices
-  std::vector<double> block_norm_;  ///< S of each block
-  std::vector<double> block_root_;  ///< bound of |W^(1/2)|; negative where W is not a multiple of one
+  std::vector<double> norm_;         ///< c of each entry: translations, rotations, matrices
+  std::vector<double> block_norm_;   ///< S of each block
+  std::vector<double> block_bound_;  ///< bound of |W|; negative where W is not a multiple of one
 
   std::vector<BlockVelocity> free_, now_, extrapolated_;  ///< by block
   std::vector<Sums> sums_;                                ///< by piece

@@ -40,28 +40,28 @@ double energy(const SymmetricTensor<double>& inverse_mass, const Vector& impulse
   return dot(impulse, inverse_mass * impulse);
 }
 
-/// c of each kind of entry, times the scale of the row: |W^(1/2) B^T|, of the normal alone where there is no
-/// friction. `root` is as in block_root_.
-double entry_norm(const ConstraintRow& row, const TranslationEntry& entry, const VelocityBlock& block,
-                  double root) {
-  const double weight = std::abs(entry.weight);
+/// c^2 of each kind of entry, times the squared scale of the row: |W^(1/2) B^T|^2, of the normal alone where
+/// there is no friction. `bound` is as in block_bound_. Squares scale with the unit of mass by powers of two
+/// as it does; roots would not.
+double entry_square(const ConstraintRow& row, const TranslationEntry& entry, const VelocityBlock& block,
+                    double bound) {
   if (row.friction_coefficient == 0)
-    return weight * (root >= 0 ? root : std::sqrt(energy(block.inverse_mass, row.normal)));
+    return square(entry.weight) * (bound >= 0 ? bound : energy(block.inverse_mass, row.normal));
   const double tilt = entry.tilt[0] * entry.tilt[0] + entry.tilt[1] * entry.tilt[1];
+  const double weight = std::abs(entry.weight);
   const double map = tilt == 0 ? weight : 0.5 * (std::sqrt(tilt) + std::sqrt(tilt + 4 * weight * weight));
-  return map * std::abs(root);
+  return square(map) * std::abs(bound);
 }
-double entry_norm(const ConstraintRow& row, const RotationEntry& entry, const VelocityBlock& block,
-                  double root) {
-  if (row.friction_coefficient == 0)
-    return std::sqrt(energy(block.inverse_mass, cross(entry.arm, row.normal)));
-  return std::sqrt(dot(entry.arm, entry.arm)) * std::abs(root);
+double entry_square(const ConstraintRow& row, const RotationEntry& entry, const VelocityBlock& block,
+                    double bound) {
+  if (row.friction_coefficient == 0) return energy(block.inverse_mass, cross(entry.arm, row.normal));
+  return dot(entry.arm, entry.arm) * std::abs(bound);
 }
-double entry_norm(const ConstraintRow& row, const MatrixEntry& entry, const VelocityBlock& block,
-                  double root) {
+double entry_square(const ConstraintRow& row, const MatrixEntry& entry, const VelocityBlock& block,
+                    double bound) {
   if (row.friction_coefficient == 0)
-    return std::sqrt(energy(block.inverse_mass, transposed_times(entry.matrix, row.normal)));
-  return std::sqrt(frobenius_squared(entry.matrix)) * std::abs(root);
+    return energy(block.inverse_mass, transposed_times(entry.matrix, row.normal));
+  return frobenius_squared(entry.matrix) * std::abs(bound);
 }
 
 bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<const VelocityBlock> blocks) {
@@ -75,24 +75,24 @@ bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<con
 }  // namespace
 
 void ImpulseSolver::measure_blocks(std::span<const VelocityBlock> blocks, ThreadTeam& team) {
-  block_root_.resize(blocks.size());
+  block_bound_.resize(blocks.size());
   block_norm_.resize(blocks.size());
   team.for_ranges(blocks.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const double root = std::sqrt(norm_bound(blocks[b].inverse_mass));
-      block_root_[b] = is_isotropic(blocks[b].inverse_mass) ? root : -root;
+      const double bound = norm_bound(blocks[b].inverse_mass);
+      block_bound_[b] = is_isotropic(blocks[b].inverse_mass) ? bound : -bound;
     }
   });
 }
 
-// c of all entries and the scale of rows; which kind a row is of.
+// c of all entries and the squared scale of rows; which kind a row is of.
 void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const VelocityBlock> blocks,
                                  ThreadTeam& team) {
   const std::size_t rotations = rows.translation.size();
   const std::size_t matrices = rotations + rows.rotation.size();
   norm_.resize(matrices + rows.matrix.size());
   kind_.resize(rows.size());
-  scale_.resize(rows.size());
+  squared_scale_.resize(rows.size());
   const auto measure = [&](std::size_t i) {
     const ConstraintRow& row = rows.row[i];
     double sum = 0;
@@ -101,16 +101,16 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
     bool tilted = false;
     bool plain = row.rotation.size() + row.matrix.size() == 0;
     const auto add = [&](const auto& entry, double& norm) {
-      norm = entry_norm(row, entry, blocks[index(entry.block)], block_root_[index(entry.block)]);
-      sum += norm * norm;
+      norm = entry_square(row, entry, blocks[index(entry.block)], block_bound_[index(entry.block)]);
+      sum += norm;
     };
     for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) {
       const TranslationEntry& entry = rows.translation[e];
-      const double root = block_root_[index(entry.block)];
+      const double bound = block_bound_[index(entry.block)];
       add(entry, norm_[e]);
-      along_normal += square(entry.weight * root);
-      lightest = std::max(lightest, square(root));
-      plain = plain && root >= 0;
+      along_normal += square(entry.weight) * bound;
+      lightest = std::max(lightest, bound);
+      plain = plain && bound >= 0;
       tilted = tilted || entry.tilt[0] != 0 || entry.tilt[1] != 0;
     }
     for (std::uint32_t e = row.rotation.begin; e < row.rotation.end; ++e)
@@ -118,11 +118,11 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
     for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e)
       add(rows.matrix[e], norm_[matrices + e]);
     const bool held = plain ? !(along_normal > held_share * lightest) : is_held(rows, row, blocks);
-    scale_[i] = held ? 0 : std::sqrt(sum);
-    const double inverse = held ? 0 : 1 / scale_[i];
-    for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) norm_[e] *= inverse;
-    for (std::uint32_t e = row.rotation.begin; e < row.rotation.end; ++e) norm_[rotations + e] *= inverse;
-    for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e) norm_[matrices + e] *= inverse;
+    squared_scale_[i] = held ? 0 : sum;
+    const auto finish = [&](double& norm) { norm = held ? 0 : std::sqrt(norm / sum); };
+    for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) finish(norm_[e]);
+    for (std::uint32_t e = row.rotation.begin; e < row.rotation.end; ++e) finish(norm_[rotations + e]);
+    for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e) finish(norm_[matrices + e]);
     const bool packed = row.rotation.size() + row.matrix.size() == 0 && row.translation.size() > 0 &&
                         row.translation.size() <= RowPack<false, false>::entries;
     kind_[i] = !packed                         ? general
@@ -133,7 +133,7 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
   const auto join_blocks = [&](const ConstraintRow& row) {
     std::uint32_t first = no_row;
     const auto join = [&](int block) {
-      if (block_root_[index(block)] == 0) return;
+      if (block_bound_[index(block)] == 0) return;
       const auto own = static_cast<std::uint32_t>(block);
       if (first == no_row) {
         first = own;

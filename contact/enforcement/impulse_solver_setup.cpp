@@ -63,7 +63,7 @@ void ImpulseSolver::order_blocks(std::size_t blocks) {
   const auto each_moved = [&](auto&& visit) {
     for (std::size_t b = 0; b < blocks; ++b) {
       const auto block = static_cast<std::uint32_t>(b);
-      const std::uint32_t island = block_root_[b] == 0 ? IslandFinder::none : finder_.number_if_any(block);
+      const std::uint32_t island = block_bound_[b] == 0 ? IslandFinder::none : finder_.number_if_any(block);
       if (island != IslandFinder::none) visit(block, island);
     }
   };
@@ -182,7 +182,7 @@ void ImpulseSolver::fill_lane(std::vector<RowPack<friction, tilt>>& packs, const
     pack.frame[3 * axis + 1].set(lane, frame[axis].y);
     pack.frame[3 * axis + 2].set(lane, frame[axis].z);
   }
-  start(pack.unknown, row, scale_[i] * scale_[i] * majorant,
+  start(pack.unknown, row, squared_scale_[i] * majorant,
         [&](Lanes<double>& to, double value) { to.set(lane, value); });
 }
 
@@ -198,7 +198,7 @@ void ImpulseSolver::fill_general(const ConstraintRows& rows, std::size_t i) {
     add(norm_[rotations + e], rows.rotation[e].block);
   for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e)
     add(norm_[matrices + e], rows.matrix[e].block);
-  start(general_[place_[slot_[i]]], row, scale_[i] * scale_[i] * majorant,
+  start(general_[place_[slot_[i]]], row, squared_scale_[i] * majorant,
         [](double& to, double value) { to = value; });
 }
 

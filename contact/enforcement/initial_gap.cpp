@@ -73,7 +73,6 @@ class GapMaker {
         block_(scene.surface.slaves(), -1) {}
 
   std::vector<InitialOverlap> run() {
-    collect(features_, surface_, scene_.options);
     depth_ = searched_depth();
     search();
     find(0);
@@ -366,11 +365,7 @@ class GapMaker {
 }  // namespace
 
 std::vector<InitialOverlap> make_initial_gap(ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
-  std::vector<InitialOverlap> report = GapMaker(scene, nodes, team).run();
-  scene.distance->changed = true;
-  scene.candidates.smallest_edge = scene.distance->features.smallest_edge;
-  scene.candidates.mean_edge = scene.distance->features.mean_edge;
-  return report;
+  return GapMaker(scene, nodes, team).run();
 }
 
 }  // namespace brio

@@ -144,5 +144,42 @@ TEST(Debris, FreedInContactPushesNothingAndGrowsWhereThereIsRoom) {
   EXPECT_NEAR(nearest, radius, 1e-3 * radius);
 }
 
+// By distances: debris has its full radius at once, but not towards what it is nearer to when it is freed,
+// until it has been apart.
+TEST(Debris, FreedNextToABlockWaitsUntilItHasBeenApart) {
+  SpringModel model;
+  model.stiffness = 200;
+  model.debris_radius = radius;
+  const double gap = 0.01;
+  const int above = model.add_box({1, 1, 2}, {0.6, 0.6, 1}, 1, shifted({0.67, 0.71, 1 + gap}));
+  model.add_box({2, 2, 1}, {2, 2, 1}, 1, shifted({0, 0, 0}));
+  ContactOptions options;
+  options.rule = DetectionRule::distance;
+  model.start_erodible(options);
+  model.step(1e-3);
+  model.erode(std::vector<SurfaceElement>{{0, 0}});
+  for (int i = 0; i < 50; ++i) {
+    model.step(1e-3);
+    for (int n = 0; n < model.count(); ++n) ASSERT_EQ(model.v(n), Vector3d::Zero());
+  }
+  const int node = above + 3;
+  const auto fly = [&](double speed, int steps) {
+    model.set_velocity(node, {0, 0, speed});
+    double nearest = HUGE_VAL;
+    for (int i = 0; i < steps; ++i) {
+      model.step(1e-3);
+      nearest = std::min(nearest, distance_to_surface(model, node));
+    }
+    return nearest;
+  };
+  const double skin = model.scene.distance->features.skin;
+  fly(1, 50);
+  EXPECT_EQ(model.v(node)[2], 1) << "it is not pushed";
+  EXPECT_NEAR(fly(-1, 80), 2 * skin, 0.25 * skin) << "it has not been apart by its radius";
+  fly(1, 150);
+  EXPECT_EQ(model.v(node)[2], 1);
+  EXPECT_NEAR(fly(-1, 200), radius + skin, 1e-3 * radius);
+}
+
 }  // namespace
 }  // namespace brio::test

@@ -50,7 +50,7 @@ TEST(Warnings, NoneOfASceneThatIsWellMade) { expect_none(blocks()); }
 
 TEST(Warnings, NoneOfElementsThatAreDeletedAtOnce) {
   Deck deck = blocks();
-  deck.parts[0].deletion.minimum_step = 1;
+  deck.parts[0].deletion.emplace().minimum_step = 1;
   Model model = build_model(deck);
   ThreadTeam team(1);
   update_velocities(model, 0.1, team);

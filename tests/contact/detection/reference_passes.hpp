@@ -54,7 +54,7 @@ class Reference {
         touches.emplace_back(PairKind::node_face, all_.node_face.first[i], all_.node_face.second[i]);
     for (std::size_t i = 0; i < all_.edge_edge.size(); ++i) {
       const int a = all_.edge_edge.first[i], b = all_.edge_edge.second[i];
-      if (all_.edge_edge.spaced[i] == 0 && (edge(a).is_point() || edge(b).is_point())) continue;
+      if (!all_.edge_edge.has_radii(i) && (edge(a).is_point() || edge(b).is_point())) continue;
       if (check.edge_and_edge(i)) touches.emplace_back(PairKind::edge_edge, a, b);
     }
     std::sort(touches.begin(), touches.end());
@@ -86,7 +86,7 @@ class Reference {
     FaceVertices at;
     for (std::size_t k = 0; k < 4; ++k)
       at[k] = motion_.start(scene_.features.face_node[static_cast<std::size_t>(f)][k]);
-    const bool spaced = list.spaced[i] != 0;
+    const bool spaced = list.has_radii(i);
     const Vector3<double> x = plain(motion_.start(s));
     std::array<double, 4> weights{};
     Vector3<double> offset{};
@@ -115,7 +115,7 @@ class Reference {
     const auto found = closest_on_segments(plain(motion_.start(a.node[0])), plain(motion_.start(a.node[1])),
                                            plain(motion_.start(b.node[0])), plain(motion_.start(b.node[1])));
     const double distance = std::sqrt(found.squared_distance);
-    const double reach = list.spaced[i] != 0 ? a.radius + b.radius : 2 * scene_.features.skin;
+    const double reach = list.has_radii(i) ? a.radius + b.radius : 2 * scene_.features.skin;
     return {
         static_cast<int>(i), {found.on_a, found.on_b}, eigen((1 / distance) * found.offset), distance, reach};
   }

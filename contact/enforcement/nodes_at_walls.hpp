@@ -1,0 +1,48 @@
+#pragma once
+/// Nodes of the surface at rigid walls. Each is a row, so that what a wall pushes and what bodies push on
+/// each other is found together.
+
+#include <Eigen/Dense>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/detection/feature_motion.hpp"
+#include "contact/enforcement/booking.hpp"
+#include "contact/surface.hpp"
+#include "src/base/tensor.hpp"
+
+namespace brio {
+
+/// A plane that nodes cannot pass, at the start of a step.
+struct ContactWall {
+  Eigen::Vector3d point, normal;  ///< the normal of unit length, into the free side
+  Eigen::Vector3d velocity;
+  double friction = 0;  ///< Coulomb's coefficient
+};
+
+/// A node on a wall, with what the wall gave it.
+struct NodeAtWall {
+  int wall = 0;
+  int slave = 0;
+  double impulse = 0;
+  Vector3<double> friction{0, 0, 0};
+};
+
+struct NodesAtWalls {
+  std::vector<NodeAtWall> touch;      ///< of this step, first those that were expected, by wall and slave
+  std::vector<NodeAtWall> last;       ///< of the step before, by wall and slave
+  std::vector<PushOnWall> push;       ///< on each wall, in this step
+  std::vector<std::uint8_t> touches;  ///< of each wall and slave: whether it is listed
+
+  /// Replace the touches by those of nodes that may reach a wall in this step, with impulses as they were.
+  /// \param band height below which nodes are listed whatever their motion
+  void find(std::span<const ContactWall> walls, const Surface& surface, const FeatureMotion& motion,
+            double dt, double band, double step_ratio);
+  /// Append nodes that end the step behind a wall by more than a tolerance and are not listed.
+  /// \returns whether there are any
+  bool find_missed(std::span<const ContactWall> walls, const Surface& surface, const FeatureMotion& motion,
+                   double dt, double tolerance);
+};
+
+}  // namespace brio

@@ -1,0 +1,138 @@
+// Features and pairs that follow deletions, against those collected and found anew.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "tests/contact/spring_model.hpp"
+
+namespace brio::test {
+namespace {
+
+using EdgeName = std::tuple<int, int, EdgeKind>;
+
+EdgeName name_of(const EdgeFeature& edge) { return {edge.node[0], edge.node[1], edge.kind}; }
+
+auto content_of(const EdgeFeature& edge) {
+  std::array<int, 2> face = edge.face;
+  std::array<int, 4> wing = edge.wing;
+  std::sort(face.begin(), face.end());
+  std::sort(wing.begin(), wing.end());
+  return std::tuple(face, wing, edge.part, edge.body, edge.round, edge.shell, edge.faces, edge.radius);
+}
+
+void expect_as_collected_anew(const ContactScene& scene) {
+  const SurfaceFeatures& mended = scene.distance->features;
+  SurfaceFeatures anew = mended;
+  collect(anew, scene.surface, scene.options);
+  std::map<EdgeName, const EdgeFeature*> known;
+  for (std::size_t e = 0; e < mended.edge.size(); ++e) {
+    const EdgeFeature& edge = mended.edge[e];
+    EXPECT_EQ(mended.edge_node[e], edge.node);
+    EXPECT_EQ(mended.edge_radius[e], edge.radius);
+    if (edge.alive()) {
+      ASSERT_TRUE(known.try_emplace(name_of(edge), &edge).second) << "twice";
+    }
+  }
+  ASSERT_EQ(known.size(), anew.edge.size());
+  for (const EdgeFeature& edge : anew.edge) {
+    ASSERT_EQ(known.count(name_of(edge)), 1U);
+    ASSERT_EQ(content_of(*known.at(name_of(edge))), content_of(edge));
+  }
+  for (std::size_t f = 0; f < scene.surface.face.size(); ++f) {
+    if (!scene.surface.face[f].alive()) continue;
+    ASSERT_EQ(mended.face_node[f], anew.face_node[f]);
+    ASSERT_EQ(mended.face_radius[f], anew.face_radius[f]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int mine = mended.edge_of_face[f][k], other = anew.edge_of_face[f][k];
+      ASSERT_EQ(mine < 0, other < 0);
+      if (mine < 0) continue;
+      ASSERT_EQ(name_of(mended.edge[static_cast<std::size_t>(mine)]),
+                name_of(anew.edge[static_cast<std::size_t>(other)]));
+    }
+  }
+  for (int s = 0; s < static_cast<int>(scene.surface.slaves()); ++s) {
+    ASSERT_EQ(mended.node_radius[static_cast<std::size_t>(s)], anew.node_radius[static_cast<std::size_t>(s)]);
+    const auto mine = mended.ring.of(s), other = anew.ring.of(s);
+    ASSERT_TRUE(std::equal(mine.begin(), mine.end(), other.begin(), other.end())) << "ring of " << s;
+  }
+}
+
+std::set<std::pair<int, int>> listed(const PairList& pairs) {
+  std::set<std::pair<int, int>> found;
+  for (std::size_t i = 0; i < pairs.size(); ++i) found.insert({pairs.first[i], pairs.second[i]});
+  EXPECT_EQ(found.size(), pairs.size()) << "no pair twice";
+  return found;
+}
+
+// What is near where the nodes are now is listed; nothing listed is dead.
+void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
+  const DistanceContact& distance = *scene.distance;
+  FeatureMotion still;
+  FeaturePairs near;
+  ThreadTeam team(1);
+  still.begin(distance.features, scene.surface, nodes, team);
+  still.end_by_velocity(distance.features, scene.surface, nodes, 0, {}, team);
+  ContactOptions options = scene.options;
+  options.reach_buffer = 1e-6;
+  near.find(distance.features, scene.surface, scene.excluded, options, still, team);
+  const auto all_nodes = listed(distance.pairs.node_face), near_nodes = listed(near.node_face);
+  EXPECT_TRUE(std::includes(all_nodes.begin(), all_nodes.end(), near_nodes.begin(), near_nodes.end()));
+  const auto all_edges = listed(distance.pairs.edge_edge), near_edges = listed(near.edge_edge);
+  EXPECT_TRUE(std::includes(all_edges.begin(), all_edges.end(), near_edges.begin(), near_edges.end()));
+  for (const auto& [s, f] : all_nodes) {
+    ASSERT_GE(scene.surface.node[static_cast<std::size_t>(s)], 0);
+    ASSERT_TRUE(scene.surface.face[static_cast<std::size_t>(f)].alive());
+  }
+  for (const auto& [a, b] : all_edges) {
+    ASSERT_TRUE(distance.features.edge[static_cast<std::size_t>(a)].alive());
+    ASSERT_TRUE(distance.features.edge[static_cast<std::size_t>(b)].alive());
+  }
+}
+
+// Elements of a block, of another that hits it, and of a sheet go in random order, one or many at once, until
+// nothing is left but debris.
+TEST(FeatureUpdates, AreAsCollectedAnewButForNumbers) {
+  for (const double debris : {0.0, 0.01}) {
+    for (const std::size_t at_once : {1U, 4U}) {
+      SpringModel model;
+      model.stiffness = 10;
+      model.debris_radius = debris;
+      model.add_box({4, 4, 3}, {0.8, 0.8, 0.6}, 1, shifted({0, 0, 0}));
+      model.throw_from(model.add_box({3, 3, 2}, {0.6, 0.6, 0.4}, 1, shifted({0.13, 0.17, 0.65})),
+                       {0.1, 0, -1});
+      model.throw_from(model.add_sheet({4, 4}, {1, 1}, 0.05, 20, shifted({-0.1, -0.1, 1.15})), {0, 0.1, -2});
+      ContactOptions options;
+      options.rule = DetectionRule::distance;
+      model.start_erodible(options);
+      std::vector<SurfaceElement> living;
+      for (const auto& [part, count] : {std::pair(0, 48), std::pair(1, 18), std::pair(2, 16)})
+        for (int e = 0; e < count; ++e) living.push_back({part, e});
+      std::mt19937 random(11);
+      std::shuffle(living.begin(), living.end(), random);
+      std::size_t most_pairs = 0;
+      const double dt = 2e-3;
+      for (int i = 0; !living.empty(); ++i) {
+        model.accelerate(dt);
+        resolve(model.scene, model.nodes, dt, model.alone());
+        ASSERT_NO_FATAL_FAILURE(expect_as_collected_anew(model.scene)) << "step " << i;
+        ASSERT_NO_FATAL_FAILURE(expect_no_pair_missing(model.scene, model.nodes)) << "step " << i;
+        most_pairs = std::max(most_pairs, model.scene.distance->pairs.edge_edge.size());
+        model.move(dt);
+        if (i % 2 == 1) continue;
+        const std::size_t count = std::min(at_once, living.size());
+        model.erode(
+            std::vector<SurfaceElement>(living.end() - static_cast<std::ptrdiff_t>(count), living.end()));
+        living.resize(living.size() - count);
+      }
+      EXPECT_GT(most_pairs, 100U);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace brio::test

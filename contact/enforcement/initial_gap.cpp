@@ -24,6 +24,8 @@ namespace {
 constexpr double least_searched_share = 0.75;
 /// What is missing may be this share of the scale: rounding.
 constexpr double resolved_share = 1e-9;
+/// Of the scale: what overlaps by less lies on each other.
+constexpr double coincident_overlap = 1e-6;
 /// Moved is by this much more, over the smallest edge, so that what the solver leaves is none.
 constexpr double surplus_share = 1e-8;
 constexpr int most_rounds = 200;
@@ -203,7 +205,8 @@ class GapMaker {
   bool is_free(int slave, int axis) const {
     const int node = surface_.node[static_cast<std::size_t>(slave)];
     const auto n = static_cast<std::size_t>(node);
-    if (!nodes_.prescribed.empty() && (nodes_.prescribed[n] >> axis & 1) != 0) return false;
+    const bool released = released_.contains(slave);
+    if (!released && !nodes_.prescribed.empty() && (nodes_.prescribed[n] >> axis & 1) != 0) return false;
     if (!surface_.held.empty() && surface_.held.holder[n] >= 0) return false;
     return surface_.rigid_body(node) < 0;
   }
@@ -214,6 +217,19 @@ class GapMaker {
       for (int axis = 0; axis < 3; ++axis)
         if (contact.weight[k] * contact.normal[axis] != 0 && is_free(contact.node[k], axis)) return false;
     return true;
+  }
+
+  // Two parts that are both held and lie on each other have no side: their nodes are moved all the same, by
+  // as little as the gap. \returns whether there are any
+  bool release_coincident() {
+    const std::size_t known = released_.size();
+    for (const SidedPair& pair : found_) {
+      if (!is_missing(pair) || !must_move(pair) || !is_held(pair)) continue;
+      if (overlap(pair) > coincident_overlap * pair.scale) continue;
+      for (std::size_t k = 0; k < pair.contact.node.size(); ++k)
+        if (pair.contact.weight[k] != 0) released_.insert(pair.contact.node[k]);
+    }
+    return released_.size() > known;
   }
 
   const SidedPair* worst_missing() const {
@@ -235,7 +251,7 @@ class GapMaker {
       if (worst == nullptr) break;
       const bool only_gap = !must_move(*worst);
       missing = -worst->contact.gap;
-      if (!only_gap && (round >= most_rounds || is_held(*worst)))
+      if (!only_gap && (round >= most_rounds || (is_held(*worst) && !release_coincident())))
         refuse(*worst, "which moving nodes does not remove");
       if (round % rounds_to_halve == 0) {
         if (round >= most_rounds || (only_gap && missing > 0.5 * missing_before)) break;
@@ -353,6 +369,7 @@ class GapMaker {
   FeaturePairs pairs_;
   Displacements displacements_;
   double depth_ = 0;
+  std::set<int> released_;  ///< slave nodes that move though their motion is prescribed
   std::vector<SidedPair> found_;
   std::vector<InitialOverlap> report_;
   std::vector<std::set<int>> near_;  ///< nodes of each entry

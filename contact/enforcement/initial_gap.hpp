@@ -5,8 +5,8 @@
 ///
 /// Moved are nodes of the surface, each of equal weight, as little as does it: the constraints of
 /// find_sided_pairs are solved for displacements instead of velocities, along present normals, until none is
-/// missing. Held are components of motion that are prescribed, nodes of rigid bodies, and nodes that a tie
-/// holds, which follow what holds them.
+/// missing. Held are components of motion that are prescribed, but where two parts lie on each other that are
+/// both held, nodes of rigid bodies, and nodes that a tie holds, which follow what holds them.
 
 #include "contact/overlap.hpp"
 

@@ -220,15 +220,15 @@ TEST(Passes, WhatSleepsIsNotNear) {
           nf, detector.proximity.node_face, [&](std::size_t i) { return reference.node_face_distance(i); },
           [&](std::size_t i) {
             return !nf.has_radii(i) ? skins
-                                     : scene.features.node_radius[static_cast<std::size_t>(nf.first[i])] +
-                                           scene.features.face_radius[static_cast<std::size_t>(nf.second[i])];
+                                    : scene.features.node_radius[static_cast<std::size_t>(nf.first[i])] +
+                                          scene.features.face_radius[static_cast<std::size_t>(nf.second[i])];
           });
       judge(
           ee, detector.proximity.edge_edge, [&](std::size_t i) { return reference.edge_edge_distance(i); },
           [&](std::size_t i) {
             return !ee.has_radii(i) ? skins
-                                     : scene.features.edge[static_cast<std::size_t>(ee.first[i])].radius +
-                                           scene.features.edge[static_cast<std::size_t>(ee.second[i])].radius;
+                                    : scene.features.edge[static_cast<std::size_t>(ee.first[i])].radius +
+                                          scene.features.edge[static_cast<std::size_t>(ee.second[i])].radius;
           });
       if (HasFatalFailure()) return;
       scene.move(random);

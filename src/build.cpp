@@ -270,7 +270,19 @@ std::vector<PairRule> pair_rules(const ContactSection& contact, std::span<const 
   return rules;
 }
 
-// Before masses are lumped: small initial overlaps are removed by moving nodes.
+// Elements start as they are after nodes were moved out of overlaps; mass and inertia of rigid bodies stay.
+void follow_moved_nodes(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  Nodes& nodes = model.nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes.mass[i] = 0;
+    if (nodes.has_rotations()) nodes.rotational_inertia[i] = 0;
+  }
+  for (PartInModel& part : model.parts) part.mass = 0;
+  lump_masses(deck, meshes, model);
+  measure_arms(model);
+}
+
+// Small initial overlaps are removed by moving nodes; elements that are broken were named before.
 void make_contact(const Deck& deck, std::span<const Mesh> meshes,
                   const std::vector<std::vector<int>>& connectivity, Model& model) {
   check_debris_in_contact(deck);
@@ -359,8 +371,9 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   model.initial_overlaps = remove_overlap_with_walls(
       meshes, (deck.contact ? deck.contact->options : ContactOptions{}).initial_overlap_limit, model);
   make_ties(deck, meshes, connectivity, model);
-  make_contact(deck, meshes, connectivity, model);
   lump_masses(deck, meshes, model);
+  make_contact(deck, meshes, connectivity, model);
+  if (!model.initial_overlaps.empty()) follow_moved_nodes(deck, meshes, model);
   if (!model.ties.empty()) condense(model.ties, model.nodes);
   expect_nothing_behind_walls(meshes, model);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)

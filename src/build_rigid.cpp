@@ -40,6 +40,12 @@ MassProperties mass_of(const Part& part, const Rigid& rigid, const Mesh& mesh, c
   return properties;
 }
 
+void measure_arms(const Nodes& nodes, RigidBody& body) {
+  body.arm.clear();
+  for (int node : body.node)
+    body.arm.push_back(Vector3d(nodes.record[static_cast<std::size_t>(node)].position) - body.centre);
+}
+
 RigidBody make_body(std::size_t p, const Part& part, const Mesh& mesh, const Deck& deck, const Model& model) {
   const auto& rigid = std::get<Rigid>(part.element);
   const MassProperties properties = mass_of(part, rigid, mesh, deck);
@@ -52,8 +58,7 @@ RigidBody make_body(std::size_t p, const Part& part, const Mesh& mesh, const Dec
   body.centre = properties.centre;
   body.node = model.parts[p].node;
   std::sort(body.node.begin(), body.node.end());
-  for (int node : body.node)
-    body.arm.push_back(Vector3d(model.nodes.record[static_cast<std::size_t>(node)].position) - body.centre);
+  measure_arms(model.nodes, body);
   for (int node : mesh.connectivity)
     body.connectivity.push_back(model.parts[p].node[static_cast<std::size_t>(node)]);
   return body;
@@ -89,6 +94,10 @@ void make_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& mo
   if (!model.rigid.empty() && model.rigid.body.size() == deck.parts.size() && !deck.time.step)
     throw BuildError("all parts are rigid, so that no element bounds the step; time.step is required",
                      deck.time.place);
+}
+
+void measure_arms(Model& model) {
+  for (RigidBody& body : model.rigid.body) measure_arms(model.nodes, body);
 }
 
 std::vector<std::size_t> take_rigid(std::vector<int>& nodes, const NodeSelection& where, const Model& model) {

@@ -30,6 +30,9 @@ class EdgesAndEdges {
 
  private:
   Segment segment(const EdgeFeature& edge) const { return {look_.at(edge.node[0]), look_.at(edge.node[1])}; }
+  bool one_piece(const EdgeFeature& a, const EdgeFeature& b) const {
+    return a.body == b.body || surface_.held.one_piece(a.body, b.body);
+  }
   static bool of_solid(const EdgeFeature& edge) { return edge.of_face() && !edge.shell; }
   bool is_spaced(std::size_t pair) const { return list_.has_radii(pair); }
   double reach_of(std::size_t pair) const {
@@ -56,6 +59,8 @@ class EdgesAndEdges {
     if (distance <= coincident_) {
       const Vector3d way = way_between(a, b, feet, closest.normal);
       if (!way.isZero(0)) add(pair, feet, way, way.dot(closest.offset), false);
+      if (way.isZero(0) && !(a.of_face() && b.of_face()) && is_spaced(pair) && !one_piece(a, b))
+        add_without_side(ea, eb, reach);
       return;
     }
     const Vector3d normal = closest.offset / distance;
@@ -131,6 +136,22 @@ class EdgesAndEdges {
     };
     return !is_behind(edge.node[0]) && !is_behind(edge.node[1]) &&
            std::none_of(edge.wing.begin(), edge.wing.end(), is_behind);
+  }
+
+  // Beams and particles in one place.
+  void add_without_side(int ea, int eb, double reach) {
+    const EdgeFeature &a = look_.edge(ea), &b = look_.edge(eb);
+    SidedPair one;
+    one.contact.node = {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
+    one.contact.gap = -reach;
+    one.contact.face = -1;
+    one.contact.slave = first_line_slave + ea;
+    one.scale = reach;
+    one.is_apart = false;
+    one.feature = {ea, eb};
+    one.part = {a.part, b.part};
+    one.support = {ea, eb};
+    found_.push_back(one);
   }
 
   void add(std::size_t pair, const Feet& feet, const Vector3d& normal, double distance, bool is_apart) {

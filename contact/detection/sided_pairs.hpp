@@ -25,7 +25,8 @@ namespace brio {
 
 struct SidedPair {
   double distance = 0;   ///< of the middle surfaces; negative: inside
-  Contact contact;       ///< gap: distance over the radii, or two skins; negative where that is missing
+  /// Gap: distance over the radii, or two skins; negative where that is missing. No normal: in one place.
+  Contact contact;
   double skin = 0;       ///< what of the radii is skin
   double scale = 0;      ///< length that overlap is measured against: of an edge, or the touching thickness
   bool is_apart = true;  ///< the surfaces are on their sides, by more than rounding

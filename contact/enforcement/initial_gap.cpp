@@ -11,6 +11,7 @@
 #include "contact/detection/sided_pairs.hpp"
 #include "contact/enclosed.hpp"
 #include "contact/enforcement/impulse_solver.hpp"
+#include "contact/enforcement/retraction.hpp"
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
 
@@ -24,8 +25,6 @@ namespace {
 constexpr double least_searched_share = 0.75;
 /// What is missing may be this share of the scale: rounding.
 constexpr double resolved_share = 1e-9;
-/// Of the scale: what overlaps by less lies on each other.
-constexpr double coincident_overlap = 1e-6;
 /// Moved is by this much more, over the smallest edge, so that what the solver leaves is none.
 constexpr double surplus_share = 1e-8;
 constexpr int most_rounds = 200;
@@ -75,10 +74,12 @@ class GapMaker {
         block_(scene.surface.slaves(), -1) {}
 
   std::vector<InitialOverlap> run() {
+    for (int node : surface_.node) start_.push_back(position(nodes_, node));
     depth_ = searched_depth();
     search();
-    find(0);
     expect_uncrossed(true);
+    retract();
+    find(0);
     while (exclude_within_pieces()) {
       search();
       find(0);
@@ -86,7 +87,10 @@ class GapMaker {
     expect_within_limit();
     for (const SidedPair& pair : found_)
       if (is_missing(pair) && (!is_held(pair) || must_move(pair))) record(pair);
-    if (!report_.empty()) make_gap();
+    if (!report_.empty()) {
+      make_gap();
+      record_motion();
+    }
     expect_uncrossed(false);
     expect_bodies_apart(scene_, nodes_);
     return std::move(report_);
@@ -170,6 +174,8 @@ class GapMaker {
   void expect_within_limit() const {
     const SidedPair* deepest = nullptr;
     for (const SidedPair& pair : found_)
+      if (pair.contact.normal.isZero(0)) refuse(pair, "in one place, which leaves no side to move to");
+    for (const SidedPair& pair : found_)
       if (overlap(pair) > scene_.options.initial_overlap_limit * pair.scale &&
           (deepest == nullptr || overlap(pair) > overlap(*deepest)))
         deepest = &pair;
@@ -185,8 +191,21 @@ class GapMaker {
     throw std::invalid_argument(text.str());
   }
 
-  void record(const SidedPair& pair) {
-    const std::string &first = part_name(pair.part[0]), &second = part_name(pair.part[1]);
+  void retract() {
+    const std::vector<TouchingPair> touching = retract_touching_faces(features_, surface_, pairs_, nodes_);
+    for (const TouchingPair& pair : touching) {
+      const std::size_t entry = entry_of(pair.part);
+      report_[entry].gap = std::max(report_[entry].gap, 2 * features_.skin);
+      if (pair.depth > resolved_share * features_.smallest_edge)
+        report_[entry].depth = std::max(report_[entry].depth, pair.depth);
+      near_[entry].insert(pair.slave);
+      report_[entry].nodes = static_cast<int>(near_[entry].size());
+    }
+    if (!touching.empty()) search();
+  }
+
+  std::size_t entry_of(const std::array<int, 2>& parts) {
+    const std::string &first = part_name(parts[0]), &second = part_name(parts[1]);
     std::size_t entry = 0;
     while (entry < report_.size() &&
            (report_[entry].node_part != first || report_[entry].face_part != second))
@@ -195,6 +214,11 @@ class GapMaker {
       report_.push_back({.node_part = first, .face_part = second});
       near_.emplace_back();
     }
+    return entry;
+  }
+
+  void record(const SidedPair& pair) {
+    const std::size_t entry = entry_of(pair.part);
     InitialOverlap& known = report_[entry];
     if (overlap(pair) > resolved_share * pair.scale) known.depth = std::max(known.depth, overlap(pair));
     known.gap = std::max(known.gap, pair.skin);
@@ -205,8 +229,7 @@ class GapMaker {
   bool is_free(int slave, int axis) const {
     const int node = surface_.node[static_cast<std::size_t>(slave)];
     const auto n = static_cast<std::size_t>(node);
-    const bool released = released_.contains(slave);
-    if (!released && !nodes_.prescribed.empty() && (nodes_.prescribed[n] >> axis & 1) != 0) return false;
+    if (!nodes_.prescribed.empty() && (nodes_.prescribed[n] >> axis & 1) != 0) return false;
     if (!surface_.held.empty() && surface_.held.holder[n] >= 0) return false;
     return surface_.rigid_body(node) < 0;
   }
@@ -217,19 +240,6 @@ class GapMaker {
       for (int axis = 0; axis < 3; ++axis)
         if (contact.weight[k] * contact.normal[axis] != 0 && is_free(contact.node[k], axis)) return false;
     return true;
-  }
-
-  // Two parts that are both held and lie on each other have no side: their nodes are moved all the same, by
-  // as little as the gap. \returns whether there are any
-  bool release_coincident() {
-    const std::size_t known = released_.size();
-    for (const SidedPair& pair : found_) {
-      if (!is_missing(pair) || !must_move(pair) || !is_held(pair)) continue;
-      if (overlap(pair) > coincident_overlap * pair.scale) continue;
-      for (std::size_t k = 0; k < pair.contact.node.size(); ++k)
-        if (pair.contact.weight[k] != 0) released_.insert(pair.contact.node[k]);
-    }
-    return released_.size() > known;
   }
 
   const SidedPair* worst_missing() const {
@@ -243,15 +253,13 @@ class GapMaker {
   }
 
   void make_gap() {
-    std::vector<Vector3d> start;
-    for (int node : surface_.node) start.push_back(position(nodes_, node));
     double missing = 0, missing_before = infinity;
     for (int round = 0;; ++round) {
       const SidedPair* worst = worst_missing();
       if (worst == nullptr) break;
       const bool only_gap = !must_move(*worst);
       missing = -worst->contact.gap;
-      if (!only_gap && (round >= most_rounds || (is_held(*worst) && !release_coincident())))
+      if (!only_gap && (round >= most_rounds || is_held(*worst)))
         refuse(*worst, "which moving nodes does not remove");
       if (round % rounds_to_halve == 0) {
         if (round >= most_rounds || (only_gap && missing > 0.5 * missing_before)) break;
@@ -262,8 +270,11 @@ class GapMaker {
       search();
       find(0);
     }
-    for (std::size_t s = 0; s < start.size(); ++s) {
-      const double moved = (position(nodes_, surface_.node[s]) - start[s]).norm();
+  }
+
+  void record_motion() {
+    for (std::size_t s = 0; s < start_.size(); ++s) {
+      const double moved = (position(nodes_, surface_.node[s]) - start_[s]).norm();
       for (std::size_t i = 0; moved > 0 && i < report_.size(); ++i)
         if (const std::string& part = part_name(part_of(static_cast<int>(s)));
             report_[i].node_part == part || report_[i].face_part == part)
@@ -369,7 +380,7 @@ class GapMaker {
   FeaturePairs pairs_;
   Displacements displacements_;
   double depth_ = 0;
-  std::set<int> released_;  ///< slave nodes that move though their motion is prescribed
+  std::vector<Vector3d> start_;  ///< of each slave node
   std::vector<SidedPair> found_;
   std::vector<InitialOverlap> report_;
   std::vector<std::set<int>> near_;  ///< nodes of each entry

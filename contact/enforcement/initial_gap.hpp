@@ -3,10 +3,11 @@
 /// their radii, so that nothing crosses and every pair has a side. Solids keep their skins, two solids a gap
 /// of two skins; shells, beams and particles their thickness.
 ///
-/// Moved are nodes of the surface, each of equal weight, as little as does it: the constraints of
-/// find_sided_pairs are solved for displacements instead of velocities, along present normals, until none is
-/// missing. Held are components of motion that are prescribed, but where two parts lie on each other that are
-/// both held, nodes of rigid bodies, and nodes that a tie holds, which follow what holds them.
+/// First what is drawn touching is set back (retraction.hpp). Where more overlaps, moved are nodes of the
+/// surface, each of equal weight, as little as does it: the constraints of find_sided_pairs are solved for
+/// displacements instead of velocities, along present normals, until none is missing. Held are components of
+/// motion that are prescribed, nodes of rigid bodies, and nodes that a tie holds, which follow what holds
+/// them.
 
 #include "contact/overlap.hpp"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "contact/erosion.hpp"
+#include "contact/overlap.hpp"
 #include "contact/scene.hpp"
 #include "contact/surface.hpp"
 #include "src/base/nodes.hpp"
@@ -155,6 +156,12 @@ class SpringModel {
   }
   ThreadTeam& alone() { return alone_; }
   /// Take the present positions as those without strain.
+  /// Bodies that touch are moved apart by the gap of contact, at rest.
+  void make_gap() {
+    ThreadTeam team(1);
+    remove_initial_overlap(scene, nodes, team);
+    rest();
+  }
   void rest() {
     for (Spring& spring : springs_) spring.length = (x(spring.a) - x(spring.b)).norm();
   }

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "contact/closest_segments.hpp"
+#include "contact/detection/hull_point.hpp"
 
 namespace brio {
 
@@ -9,22 +13,70 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Neighbours that come nearer by less than this sine are rounding.
-constexpr double nearer_by_rounding = 1e-6;
+/// Neighbours that come nearer by less than this sine are rounding; and by less than this many units in the
+/// last place of positions, over the distance.
+constexpr double nearer_by_rounding = 1e-4;
+constexpr double roundings = 8;
 /// A face beside an edge lies in the plane at right angles to the closest distance where it leaves it by less
-/// than this sine. Where that is so at both edges, faces lie on each other, and the nodes keep the distance
-/// of the edges to a quarter of it times their length.
+/// than this sine. Where that is so at both edges, faces lie on each other, and nodes, and rims where they
+/// cross, keep the distance of inner edges to a quarter of it times their length.
 constexpr double flat_sine = 1e-3;
+/// Where the direction leaves the normals of the faces at a sharp edge by this angle or more, solids touch at
+/// what is left of their skins: rounded by whole skins, an edge that stands out by a hundredth of them would
+/// hold up what slides over it.
+constexpr double tilted_angle = 0.1;
+constexpr double skin_of_sharp_edges = 0.4;
+/// Faces that are turned by more than 20 degrees against each other meet in a sharp edge; less is the mesh of
+/// a curved surface.
+constexpr double sharp_cosine = 0.94;
+/// Of the step: where a motion that may lead past is looked at.
+constexpr std::array<double, 2> looked_at_shares{0.5, 1};
 
 }  // namespace
 
+// The normals of a face and of the sides of a node, as they were at the start of the step.
+template <class Faces>
+ProximityFilter::Edginess ProximityFilter::edginess(const Faces& faces, const Vector3d& direction) const {
+  Edginess found;
+  Vector3d first = Vector3d::Zero();
+  for (int f : faces) {
+    if (f < 0) continue;
+    const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+    const auto at = [&](std::size_t k) { return motion_.start(corner[k]); };
+    const Vector3d normal = unit_or((at(2) - at(0)).cross(at(3) - at(1)), Vector3d::Zero());
+    found.cosine = std::max(found.cosine, normal.dot(direction));
+    if (first.isZero(0)) first = normal;
+    found.sharp |= normal.dot(first) < sharp_cosine;
+  }
+  return found;
+}
+
+// From where on it is asked whether a motion leads past. Not where a contact rests, at a gap of rounding.
+double ProximityFilter::passing_gap(double tilt) const {
+  return tilt < tilted_angle ? band_ : 0.1 * 2 * features_.skin;
+}
+
+double ProximityFilter::tilt_of(double cosine) { return std::sqrt(2 * std::max(1 - cosine, 0.0)); }
+
+// What solids at a sharp edge do without of the distance at which they touch.
+double ProximityFilter::spared_skin(double tilt) const {
+  return (1 - skin_of_sharp_edges) * 2 * features_.skin * std::min(tilt / tilted_angle, 1.0);
+}
+
+// The sine by which directions are off where the closest points are as far apart as given.
+double ProximityFilter::slack_of(const Vector3d& foot, double distance) {
+  return std::max(nearer_by_rounding,
+                  roundings * std::numeric_limits<double>::epsilon() * foot.cwiseAbs().maxCoeff() / distance);
+}
+
 // Whether no neighbour in the list comes nearer than the foot along the direction away from the other side.
 template <class List>
-bool ProximityFilter::look_away(const List& neighbours, const Vector3d& foot, const Vector3d& away) const {
+bool ProximityFilter::look_away(const List& neighbours, const Vector3d& foot, const Vector3d& away,
+                                double slack) const {
   return std::all_of(neighbours.begin(), neighbours.end(), [&](int neighbour) {
     if (neighbour < 0) return true;
     const Vector3d arm = motion_.start(neighbour) - foot;
-    return arm.dot(away) >= -nearer_by_rounding * arm.norm();
+    return arm.dot(away) >= -slack * arm.norm();
   });
 }
 
@@ -38,7 +90,8 @@ bool ProximityFilter::is_near(const Contact& contact) const {
 // Whether the foot on the face is a local minimum on the union of faces; what it lies on: a node, two nodes,
 // or the face.
 bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& weights, const Vector3d& foot,
-                                         const Vector3d& normal, std::array<int, 2>& support) const {
+                                         const Vector3d& normal, double slack,
+                                         std::array<int, 2>& support) const {
   const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
   std::array<std::size_t, 4> on{};
   std::size_t count = 0;
@@ -47,13 +100,51 @@ bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& wei
     if (weights[k] > no_weight) on[count++] = k;
   if (count == 1) {
     support = {corner[on[0]], -1};
-    return look_away(features_.ring.of(corner[on[0]]), foot, -normal);
+    return look_away(features_.ring.of(corner[on[0]]), foot, -normal, slack);
   }
   support = {-2 - f, -1};
   if (count != 2 || (corners == 4 && on[1] == on[0] + 2)) return true;
   const std::size_t side = on[1] == on[0] + 1 ? on[0] : on[1];
   support = {std::min(corner[on[0]], corner[on[1]]), std::max(corner[on[0]], corner[on[1]])};
-  return look_away(edge(features_.edge_of_face[static_cast<std::size_t>(f)][side]).wing, foot, -normal);
+  return look_away(edge(features_.edge_of_face[static_cast<std::size_t>(f)][side]).wing, foot, -normal,
+                   slack);
+}
+
+// Both faces at a side of a face.
+std::array<int, 2> ProximityFilter::faces_of_side(int f, const std::array<int, 2>& ends) const {
+  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+  for (std::size_t k = 0; k < 4; ++k) {
+    const int from = corner[k], to = corner[(k + 1) % 4];
+    if (std::min(from, to) == ends[0] && std::max(from, to) == ends[1])
+      return edge(features_.edge_of_face[static_cast<std::size_t>(f)][k]).face;
+  }
+  return {f, -1};
+}
+
+// Whether the motion of the step leads past without coming nearer than `reach`: what would be stopped along
+// the direction that it has at the start. What goes through is found by the guard against crossings.
+bool ProximityFilter::passes_by(int slave, int f, bool as_hull, double reach) const {
+  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+  for (const double share : looked_at_shares) {
+    const auto at = [&](int node) {
+      return Vector3d(motion_.start(node) + share * motion_.displacement(node));
+    };
+    const HullPoint seen =
+        closest_on_face(at(slave), {at(corner[0]), at(corner[1]), at(corner[2]), at(corner[3])}, as_hull);
+    if (seen.squared_distance < reach * reach) return false;
+  }
+  return true;
+}
+bool ProximityFilter::passes_by(const EdgeFeature& a, const EdgeFeature& b, double reach) const {
+  for (const double share : looked_at_shares) {
+    const auto at = [&](int node) {
+      return Vector3d(motion_.start(node) + share * motion_.displacement(node));
+    };
+    const ClosestSegments seen =
+        closest_points_of_segments({at(a.node[0]), at(a.node[1])}, {at(b.node[0]), at(b.node[1])});
+    if (seen.squared_distance < reach * reach) return false;
+  }
+  return true;
 }
 
 void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundContact>& found) const {
@@ -74,11 +165,25 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   if (!is_near(contact)) return;
   std::array<int, 2> support{};
   const Vector3d foot = motion_.start(s) - near.distance * near.normal;
-  if (!is_minimum_on_face(f, near.at, foot, near.normal, support)) return;
+  const double slack = slack_of(foot, near.distance);
+  if (!is_minimum_on_face(f, near.at, foot, near.normal, slack, support)) return;
   // Beside a side or a corner the direction is no normal of the face: a node that its own neighbours come
   // nearer than, as one of a flat surface ahead of a rim, is no minimum.
   const bool inside = support[0] < -1;
-  if (!inside && !look_away(features_.ring.of(s), motion_.start(s), near.normal)) return;
+  if (!inside && !look_away(features_.ring.of(s), motion_.start(s), near.normal, slack)) return;
+  if (!inside) {
+    const Edginess of_face = support[1] >= 0 ? edginess(faces_of_side(f, support), near.normal)
+                                             : edginess(surface_.faces_of.of(support[0]), near.normal);
+    const Edginess of_node = edginess(surface_.faces_of.of(s), Vector3d(-near.normal));
+    const double tilt = tilt_of(std::max(of_face.cosine, of_node.cosine));
+    const bool skins = of_face.sharp && of_node.sharp && !face.shell &&
+                       features_.node_radius[static_cast<std::size_t>(s)] <= features_.skin;
+    if (skins) contact.gap += spared_skin(tilt);
+    if (!is_near(contact)) return;
+    if (contact.gap > passing_gap(tilt) && passes_by(s, f, pairs_.node_face.has_radii(pair),
+                                                     near.reach - (skins ? spared_skin(tilted_angle) : 0)))
+      return;
+  }
   contact.friction_coefficient =
       surface_.pairs.friction(surface_.node[static_cast<std::size_t>(s)], face.part, options_.friction);
   found.push_back({contact, support});
@@ -87,26 +192,29 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
 // Whether the foot on an edge is a local minimum on the union of edges and faces. Ends of edges of faces are
 // nodes, which have their own constraints. \param on the number of the edge, or of the end's node below -1
 bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const Vector3d& foot, const Vector3d& away,
-                                         int& on) const {
+                                         double slack, int& on) const {
   const EdgeFeature& own = edge(e);
   on = e;
   if (own.is_point()) return true;
   const bool inside = parameter > no_weight && parameter < 1 - no_weight;
-  if (inside) return own.faces > 2 || look_away(own.wing, foot, away);
+  if (inside) return own.faces > 2 || look_away(own.wing, foot, away, slack);
   if (own.of_face()) return false;
   const int end = own.node[parameter > 0.5 ? 1 : 0];
   on = -2 - end;
-  return look_away(features_.ring.of(end), foot, away);
+  return look_away(features_.ring.of(end), foot, away, slack);
 }
 
-// Whether a face beside the edge lies in the plane at right angles to the direction.
-bool ProximityFilter::lies_flat(const EdgeFeature& own, const Vector3d& foot,
-                                const Vector3d& direction) const {
-  return std::any_of(own.wing.begin(), own.wing.end(), [&](int neighbour) {
-    if (neighbour < 0) return false;
+// How the faces beside the edge lie in the plane at right angles to the direction.
+ProximityFilter::Flatness ProximityFilter::flatness(const EdgeFeature& own, const Vector3d& foot,
+                                                    const Vector3d& direction) const {
+  int flat = 0, steep = 0;
+  for (int neighbour : own.wing) {
+    if (neighbour < 0) continue;
     const Vector3d arm = motion_.start(neighbour) - foot;
-    return std::abs(arm.dot(direction)) <= flat_sine * arm.norm();
-  });
+    (std::abs(arm.dot(direction)) <= flat_sine * arm.norm() ? flat : steep) += 1;
+  }
+  if (flat == 0) return Flatness::none;
+  return steep == 0 && own.faces == 2 ? Flatness::inside : Flatness::rim;
 }
 
 void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundContact>& found) const {
@@ -117,11 +225,14 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
     return Vector3d((1 - parameter) * motion_.start(own.node[0]) + parameter * motion_.start(own.node[1]));
   };
   const Vector3d foot_a = foot(a, near.at[0]), foot_b = foot(b, near.at[1]);
+  const double slack = slack_of(foot_a, near.distance);
   int on_a = 0, on_b = 0;
-  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, on_a) ||
-      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, on_b))
+  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, on_a) ||
+      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, on_b))
     return;
-  if (lies_flat(a, foot_a, near.normal) && lies_flat(b, foot_b, near.normal)) return;
+  const Flatness flat_a = flatness(a, foot_a, near.normal), flat_b = flatness(b, foot_b, near.normal);
+  const bool rims = flat_a == Flatness::rim && flat_b == Flatness::rim;
+  if (flat_a != Flatness::none && flat_b != Flatness::none && !rims) return;
 
   Contact contact;
   contact.slave = first_line_slave + (on_a >= 0 ? on_a : ea);
@@ -132,7 +243,15 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   contact.weight = {1 - near.at[0], near.at[0], near.at[1] - 1, -near.at[1], 0};
   contact.normal = near.normal;
   contact.gap = near.distance - near.reach;
+  const bool of_faces = a.of_face() && b.of_face();
+  const Edginess of_a = edginess(a.face, Vector3d(-near.normal)), of_b = edginess(b.face, near.normal);
+  const double tilt = of_faces ? tilt_of(std::max(of_a.cosine, of_b.cosine)) : 0;
+  const bool skins = of_faces && of_a.sharp && of_b.sharp && !a.shell && !b.shell;
+  if (skins) contact.gap += spared_skin(tilt);
   if (!is_near(contact)) return;
+  if (contact.gap > passing_gap(tilt) &&
+      passes_by(a, b, near.reach - (skins ? spared_skin(tilted_angle) : 0)))
+    return;
   contact.friction_coefficient = surface_.pairs.friction_of_parts(a.part, b.part, options_.friction);
   found.push_back({contact, {on_a, on_b}});
 }

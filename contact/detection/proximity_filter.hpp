@@ -37,13 +37,30 @@ class ProximityFilter {
  private:
   const EdgeFeature& edge(int e) const { return features_.edge[static_cast<std::size_t>(e)]; }
   template <class List>
-  bool look_away(const List& neighbours, const Eigen::Vector3d& foot, const Eigen::Vector3d& away) const;
+  bool look_away(const List& neighbours, const Eigen::Vector3d& foot, const Eigen::Vector3d& away,
+                 double slack) const;
+  static double slack_of(const Eigen::Vector3d& foot, double distance);
   bool is_near(const Contact& contact) const;
   bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const Eigen::Vector3d& foot,
-                          const Eigen::Vector3d& normal, std::array<int, 2>& support) const;
+                          const Eigen::Vector3d& normal, double slack, std::array<int, 2>& support) const;
   bool is_minimum_on_edge(int edge, double parameter, const Eigen::Vector3d& foot,
-                          const Eigen::Vector3d& away, int& on) const;
-  bool lies_flat(const EdgeFeature& own, const Eigen::Vector3d& foot, const Eigen::Vector3d& direction) const;
+                          const Eigen::Vector3d& away, double slack, int& on) const;
+  /// Of the faces at an edge or a node: the largest cosine of a normal and a direction; whether they bend.
+  struct Edginess {
+    double cosine = 0;
+    bool sharp = false;
+  };
+  template <class Faces>
+  Edginess edginess(const Faces& faces, const Eigen::Vector3d& direction) const;
+  static double tilt_of(double cosine);
+  double spared_skin(double tilt) const;
+  double passing_gap(double tilt) const;
+  bool passes_by(int slave, int face, bool as_hull, double reach) const;
+  bool passes_by(const EdgeFeature& a, const EdgeFeature& b, double reach) const;
+  std::array<int, 2> faces_of_side(int face, const std::array<int, 2>& ends) const;
+  enum class Flatness : std::uint8_t { none, rim, inside };
+  Flatness flatness(const EdgeFeature& own, const Eigen::Vector3d& foot,
+                    const Eigen::Vector3d& direction) const;
 
   const SurfaceFeatures& features_;
   const Surface& surface_;

@@ -138,6 +138,27 @@ TEST(ExtremesOverlap, BodiesInOneAnotherAreRefused) {
       }
 }
 
+TEST(ExtremesOverlap, BeamsAndParticlesInOnePlaceAreRefused) {
+  const FloatingPointTraps traps;
+  for (const Kind kind : {Kind::beam, Kind::particles})
+    for (const double aside : {0.0, 1e-9}) {
+      Deck deck;
+      deck.materials = {{"material", elastic(0.3)}};
+      deck.parts = {body(kind, "one"), body(kind, "two")};
+      deck.parts[1].placement.translate = {aside, 0.5 * aside, 0.3 * aside};
+      deck.contact.emplace().options.rule = DetectionRule::distance;
+      deck.time.end = 1e-3;
+      std::string text;
+      try {
+        build_model(deck);
+      } catch (const BuildError& fault) {
+        text = fault.what();
+      }
+      EXPECT_NE(text.find("contact: part 'one' overlaps part 'two' by"), std::string::npos)
+          << name_of_kind(kind) << ' ' << aside << ": " << text;
+    }
+}
+
 // A small body in the middle of an element of a large one.
 TEST(ExtremesOverlap, ABodyWhollyInsideAnotherIsRefused) {
   const FloatingPointTraps traps;
@@ -193,6 +214,27 @@ TEST(ExtremesGap, ZeroAndOneUlpAndMoreAreTheSameImpact) {
 
 // Its underside passes over the top of the other at a height of `clearance`: no touch, or one that slows
 // nothing.
+// By distances solids touch at a gap: what passes at less than it is let past, and then lifted.
+TEST(ExtremesGrazing, ABlockThatPassesWithinTheGapIsNotHeldUp) {
+  const FloatingPointTraps traps;
+  const double gap = 2 * skin_share * 0.2 / 3;  // over the smallest edge
+  for (const double clearance : {2 * gap, gap, gap + 1e-9, 0.8 * gap, 0.5 * gap}) {
+    SCOPED_TRACE(clearance);
+    Deck deck;
+    deck.materials = {{"material", elastic(0.3)}};
+    deck.parts = {box("lower", {0.4, 0.4, 0.4}, {4, 4, 4}, {0, 0, -0.2}, hex8()),
+                  box("upper", {0.2, 0.2, 0.2}, {3, 3, 3}, {-0.45, 0.017, 0.1 + clearance}, hex8())};
+    deck.initial_conditions = {moving("upper", {100, 0, 0})};
+    deck.contact.emplace().options.rule = DetectionRule::distance;
+    deck.time.end = 9e-3;
+    const Watched watched(deck, 20);
+    EXPECT_NEAR(mean_velocity(watched.model, 1, 0), 100, 1e-5);
+    EXPECT_NEAR(mean_velocity(watched.model, 1, 2), 0, clearance < gap ? 0.05 : 1e-6);
+    EXPECT_EQ(watched.missed, 0);
+    EXPECT_LE(watched.added(), 1e-7);
+  }
+}
+
 TEST(ExtremesGrazing, ABlockThatPassesByIsNotHeldUp) {
   const FloatingPointTraps traps;
   for (const double clearance : {1e-9, std::numeric_limits<double>::epsilon(), 0.0, -1e-9}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+
 #include "contact/closest_segments.hpp"
 #include "contact/detection/hull_point.hpp"
 #include "contact/edge_check.hpp"
@@ -124,6 +125,7 @@ void CrossingCheck::set_hit(Hit& hit, Contact contact, Vector3d normal, bool wit
   for (std::size_t k = 0; k < 5; ++k) offset += contact.weight[k] * motion_.start(contact.node[k]);
   if (without_side && hit.at_start.normal.dot(normal) < 0) normal = -normal;
   contact.normal = normal;
+  contact.along_meeting = true;
   const double gap = normal.dot(offset);
   if (gap <= 0) return;
   contact.gap = gap - separation_;

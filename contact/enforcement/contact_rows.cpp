@@ -20,6 +20,8 @@ constexpr double least_share = 1e-9;
 constexpr double standing = 0.01;
 /// A weight below this is rounding: the closest point does not lie on that corner's side.
 constexpr double no_weight = 1e-9;
+/// What turns with the nodes sees at least this share of the relative velocity, squared, or is not asked.
+constexpr double least_share_left = 0.1;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 Vector to_vector(const Vector3d& a) { return {a[0], a[1], a[2]}; }
@@ -68,6 +70,7 @@ class Builder {
     const auto own = index(contact.own);
     const SidePoint first = side_of(contact, 0, own), second = side_of(contact, own, 5);
     normal_ = contact.normal;
+    if (contact.along_meeting && add_without_spin(contact, first, second)) return;
     const bool rubs = contact.friction_coefficient > 0 && divide(contact, first, second);
     ConstraintRow& row =
         rows_.add_row(to_vector(normal_), contact.gap, rubs ? contact.friction_coefficient : 0);
@@ -158,6 +161,46 @@ class Builder {
   bool can_take(const SidePoint& side, double height) {
     if (height == 0 || side.couple == Couple::rigid || side.couple == Couple::rotations) return true;
     return side.couple == Couple::faces && weigh_faces(side) > standing;
+  }
+
+  // The points do not lie one behind the other along the normal: equal and opposite impulses at them would
+  // turn the bodies. Their couple is taken by the nodes of both sides as by one rigid body: the row then asks
+  // for the relative velocity as seen by who turns with them. \returns whether much of it is left
+  bool add_without_spin(const Contact& contact, const SidePoint& first, const SidePoint& second) {
+    Vector3d middle = Vector3d::Zero();
+    const auto count = static_cast<double>(first.count + second.count);
+    for_nodes(first, second, [&](int node, double) { middle += position(nodes_, node) / count; });
+    Matrix3d inertia = Matrix3d::Zero();
+    double size = 0;
+    for_nodes(first, second, [&](int node, double weight) {
+      const Vector3d arm = position(nodes_, node) - middle;
+      inertia += arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose();
+      size += weight * weight;
+    });
+    const Vector3d spin = solve_semidefinite(inertia, (first.point - second.point).cross(normal_));
+    const double left = size - spin.dot(inertia * spin);
+    if (!(left > least_share_left * size)) return false;
+    rows_.add_row(to_vector(normal_), contact.gap, 0).impulse = contact.impulse;
+    for_nodes(first, second, [&](int node, double weight) {
+      const Vector3d turned = spin.cross(position(nodes_, node) - middle);
+      add_mapped(node, weight * Matrix3d::Identity() - normal_ * turned.transpose());
+    });
+    return true;
+  }
+  template <class Visit>
+  static void for_nodes(const SidePoint& first, const SidePoint& second, const Visit& visit) {
+    for (std::size_t k = 0; k < first.count; ++k) visit(first.node[k], first.weight[k]);
+    for (std::size_t k = 0; k < second.count; ++k) visit(second.node[k], -second.weight[k]);
+  }
+  // Of nodes in a line one eigenvalue is none, and the couple has no part along it.
+  static Vector3d solve_semidefinite(const Matrix3d& matrix, const Vector3d& right) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(matrix);
+    const double least = no_weight * eigen.eigenvalues()[2];
+    Vector3d solution = Vector3d::Zero();
+    for (int i = 0; i < 3; ++i)
+      if (const double value = eigen.eigenvalues()[i]; value > least)
+        solution += eigen.eigenvectors().col(i).dot(right) / value * eigen.eigenvectors().col(i);
+    return solution;
   }
 
   void add_side(const SidePoint& side, double sign, double height, const Vector3d& contact_point) {

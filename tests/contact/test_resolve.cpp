@@ -111,6 +111,30 @@ TEST(Momentum, IsKeptToRoundingInRandomScenes) {
   }
 }
 
+// Constraints in the direction of a meeting are asked for as seen by who turns with what meets.
+TEST(Momentum, IsKeptToRoundingByDistances) {
+  for (const unsigned seed : {1U, 2U, 3U})
+    for (const double friction : {0.0, 0.3}) {
+      SpringModel model;
+      ContactOptions options;
+      options.rule = DetectionRule::distance;
+      options.friction = friction;
+      throw_things(model, seed, options, Vector3d::Zero(), {0.3, 0, 0});
+      const Vector3d linear = model.momentum(), angular = model.angular_momentum();
+      double size = 0;
+      for (int n = 0; n < model.count(); ++n) size += model.mass(n) * model.v(n).norm();
+      std::uint64_t active = 0;
+      for (int i = 0; i < 800; ++i) {
+        model.step(1e-3);
+        active += static_cast<std::uint64_t>(model.scene.step.active);
+      }
+      EXPECT_GT(active, 1000U);
+      EXPECT_GT(model.scene.distance->steps_with_hits, 0U);
+      EXPECT_LT((model.momentum() - linear).norm(), 1e-12 * size);
+      EXPECT_LT((model.angular_momentum() - angular).norm(), 1e-12 * size * 5) << seed;
+    }
+}
+
 TEST(Momentum, IsKeptWithFriction) {
   SpringModel model;
   ContactOptions options;

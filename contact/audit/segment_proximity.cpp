@@ -36,6 +36,7 @@ class SegmentProximity {
     add_rounds();
     if (audited.has_shells || has_beams_) add_edges();
     sort();
+    collect_waiting();
   }
 
   std::size_t size() const { return segment_.size(); }
@@ -157,6 +158,11 @@ class SegmentProximity {
 
   // Pairs that overlap as drawn, lie in the tightest fold of a shell, or were left so by a tear.
   bool lie_so_by_the_mesh(const AuditedSegment& first, const AuditedSegment& second) const {
+    if (scene_.distance) {
+      if (!first.is_edge() && !second.is_edge() && first.body == second.body) return true;
+      return is_excluded(first, second) || is_excluded(second, first) ||
+             std::binary_search(waiting_.begin(), waiting_.end(), nodes_of_pair(first, second));
+    }
     if (!scene_.lines) return false;
     const LineCandidates& known = scene_.lines->candidates;
     const auto has = [](const auto& pairs, const std::array<int, 4>& pair) {
@@ -169,9 +175,42 @@ class SegmentProximity {
     return false;
   }
 
+  using NodesOfPair = std::array<int, 4>;
+  static NodesOfPair nodes_of_pair(const AuditedSegment& first, const AuditedSegment& second) {
+    std::array<int, 2> a{std::min(first.node[0], first.node[1]), std::max(first.node[0], first.node[1])};
+    std::array<int, 2> b{std::min(second.node[0], second.node[1]), std::max(second.node[0], second.node[1])};
+    if (b < a) std::swap(a, b);
+    return {a[0], a[1], b[0], b[1]};
+  }
+  // Whether a node of one is not held apart from a face of the other.
+  bool is_excluded(const AuditedSegment& first, const AuditedSegment& second) const {
+    for (int node : first.node)
+      for (int f : scene_.excluded.of(surface_.slave(node)))
+        if (const Face& face = surface_.face[static_cast<std::size_t>(f)];
+            face.has(second.node[0]) && face.has(second.node[1]))
+          return true;
+    return false;
+  }
+  // Pairs that were nearer than their radii when they were laid bare, and have not been apart since.
+  void collect_waiting() {
+    if (!scene_.distance) return;
+    const PairList& list = scene_.distance->pairs.edge_edge;
+    const auto segment = [&](int e) {
+      const auto& node = scene_.distance->features.edge[static_cast<std::size_t>(e)].node;
+      AuditedSegment result;
+      for (std::size_t k = 0; k < 2; ++k) result.node[k] = surface_.node[static_cast<std::size_t>(node[k])];
+      return result;
+    };
+    for (std::size_t p = 0; p < list.size(); ++p)
+      if (list.spacing[p] == Spacing::waiting)
+        waiting_.push_back(nodes_of_pair(segment(list.first[p]), segment(list.second[p])));
+    std::sort(waiting_.begin(), waiting_.end());
+  }
+
   const ContactScene& scene_;
   const Surface& surface_;
   const AuditedSurface& audited_;
+  std::vector<NodesOfPair> waiting_;
   std::vector<AuditedSegment> segment_;  ///< along the curve
   BoxTree tree_;                         ///< of their boxes, grown by their radii
   bool has_beams_ = false;

@@ -275,7 +275,7 @@ TEST(Resolution, KeepsTheSymmetryOfMirrorImages) {
     model.step(1e-3);
     rubbed -= model.scene.step.friction_work();
     SCOPED_TRACE(step);
-    expect_mirrored(model, 1e-9);
+    expect_mirrored(model, 1e-8);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(rubbed, 0);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 #include "contact/closest_segments.hpp"
 #include "contact/detection/hull_point.hpp"
 #include "contact/edge_check.hpp"

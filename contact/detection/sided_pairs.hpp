@@ -24,7 +24,7 @@
 namespace brio {
 
 struct SidedPair {
-  double distance = 0;   ///< of the middle surfaces; negative: inside
+  double distance = 0;  ///< of the middle surfaces; negative: inside
   /// Gap: distance over the radii, or two skins; negative where that is missing. No normal: in one place.
   Contact contact;
   double skin = 0;       ///< what of the radii is skin

@@ -372,8 +372,9 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
       meshes, (deck.contact ? deck.contact->options : ContactOptions{}).initial_overlap_limit, model);
   make_ties(deck, meshes, connectivity, model);
   lump_masses(deck, meshes, model);
+  const std::size_t of_walls = model.initial_overlaps.size();
   make_contact(deck, meshes, connectivity, model);
-  if (!model.initial_overlaps.empty()) follow_moved_nodes(deck, meshes, model);
+  if (model.initial_overlaps.size() > of_walls) follow_moved_nodes(deck, meshes, model);
   if (!model.ties.empty()) condense(model.ties, model.nodes);
   expect_nothing_behind_walls(meshes, model);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)

@@ -170,8 +170,8 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   // Beside a side or a corner the direction is no normal of the face: a node that its own neighbours come
   // nearer than, as one of a flat surface ahead of a rim, is no minimum.
   const bool inside = support[0] < -1;
-  if (!inside && !look_away(features_.ring.of(s), motion_.start(s), near.normal, slack)) return;
   if (!inside) {
+    if (!look_away(features_.ring.of(s), motion_.start(s), near.normal, slack)) return;
     const Edginess of_face = support[1] >= 0 ? edginess(faces_of_side(f, support), near.normal)
                                              : edginess(surface_.faces_of.of(support[0]), near.normal);
     const Edginess of_node = edginess(surface_.faces_of.of(s), Vector3d(-near.normal));

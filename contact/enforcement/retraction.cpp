@@ -91,13 +91,15 @@ class Retraction {
         return;
     const double distance = std::sqrt(closest_points_of_segments(sa, sb).squared_distance);
     if (distance >= 2 * features_.skin) return;
+    bool opposed = false;
     for (int f : a.face)
       for (int g : b.face) {
         if (f < 0 || g < 0 || normal(f).dot(normal(g)) >= opposed_cosine) continue;
         set_back(f, b.body, distance);
         set_back(g, a.body, distance);
+        opposed = true;
       }
-    touching_.push_back({{a.part, b.part}, a.node[0], 0});
+    if (opposed) touching_.push_back({{a.part, b.part}, a.node[0], 0});
   }
 
   // Bodies of which a node of one lies in the other, deeper than the gap, have to be moved apart instead.

@@ -20,7 +20,7 @@ struct ContactOptions {
   /// below 1e-3 of an edge, ten verify.
   int passes = 5;
   SearchStrategy search = SearchStrategy::automatic;
-  DetectionRule rule = DetectionRule::sides;
+  DetectionRule rule = DetectionRule::distance;
   /// Length by which capture boxes are grown so that the search can be skipped, over the mean edge of the
   /// surface.
   double reach_buffer = 0.2;

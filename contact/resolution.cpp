@@ -130,15 +130,13 @@ class Resolution {
     for (std::size_t i = first; i < scene_.contacts.size(); ++i)
       distance_.row_of_contact.push_back(known + i - first);
     add_rows(rows_, sources(), std::span<const Contact>(scene_.contacts).subspan(first));
-    set_targets(known);
+    for (std::size_t i = first; i < scene_.contacts.size(); ++i)
+      set_target(rows_.rows.row[known + i - first], scene_.contacts[i].sunk);
   }
   void add_wall_rows_from(std::size_t first) {
     const std::size_t known = rows_.rows.size();
     add_rows(rows_, sources(), walls_, std::span<const NodeAtWall>(distance_.walls.touch).subspan(first));
-    set_targets(known);
-  }
-  void set_targets(std::size_t first) {
-    for (std::size_t i = first; i < rows_.rows.size(); ++i) set_target(rows_.rows.row[i]);
+    for (std::size_t i = known; i < rows_.rows.size(); ++i) set_target(rows_.rows.row[i], 0);
   }
   ConstraintRow& row_of(std::size_t contact) { return rows_.rows.row[distance_.row_of_contact[contact]]; }
 
@@ -153,14 +151,14 @@ class Resolution {
     return true;
   }
 
-  void set_target(ConstraintRow& row) const {
+  void set_target(ConstraintRow& row, double sunk) const {
     const Recovery recovery = recovery_of(scene_.options, distance_.features.smallest_edge);
     double mass = 0;
     if (row.gap < 0 && row.impulse > 0) {
       const double inverse = RowMap(rows_.rows, row).inverse_mass(row.normal, rows_.block);
       mass = inverse > 0 ? 1 / inverse : 0;
     }
-    row.target_velocity = target_velocity(recovery, row.gap, row.impulse, mass, dt_);
+    row.target_velocity = target_velocity(recovery, row.gap, row.impulse, mass, sunk, dt_);
   }
 
   void solve(bool anew) {
@@ -229,7 +227,7 @@ class Resolution {
       ConstraintRow& row = row_of(i);
       if (row.gap == scene_.contacts[i].gap) continue;
       row.gap = scene_.contacts[i].gap;
-      set_target(row);
+      set_target(row, 0);
     }
     add_rows_from(known);
   }

@@ -87,7 +87,7 @@ class Look {
       const Pairs pack = pack_of(kind_, uncertain.pair[Spaced ? 1 : 0].data(), i,
                                  std::min<std::size_t>(count, i + pack_size));
       const Points start = points_of(pack, start_rows_), end = points_of(pack, end_rows_);
-      const auto at_start = Kind::closest(start, Spaced), at_end = Kind::closest(end, Spaced);
+      const auto at_start = kind_.closest(start, Spaced), at_end = kind_.closest(end, Spaced);
       unsigned lanes = pack.lanes();
       const Pack floor = min(floor_of(pack, lanes), Pack(floor_at_start) * sqrt(at_start.squared_distance));
       const Vector3<Pack> first = normalized(at_start.offset), second = normalized(at_end.offset);

@@ -88,9 +88,9 @@ BRIO_INLINE PackOfPoints<First, Second> points_of(const PackOfPairs<First, Secon
 }
 
 struct ClosestNodeFace {
-  Vector3<Pack> offset;         ///< node minus closest point
+  Vector3<Pack> offset;         ///< node minus the point of these weights
   std::array<Pack, 4> weights;  ///< of the corners
-  Pack squared_distance;
+  Pack squared_distance;        ///< to the closest point
 };
 
 /// Nodes and faces: what the passes ask of a kind of pairs.
@@ -111,12 +111,15 @@ struct NodesAndFaces {
     pack.node[0][lane] = node;
     for (std::size_t k = 0; k < 4; ++k) pack.node[k + 1][lane] = corners[k];
   }
-  /// Of the hull of the face, or among neighbours of one piece of its two triangles (hull_point.hpp).
-  static BRIO_INLINE Closest closest(const Points& at, bool as_hull) {
+  /// Of the hull of the face, or among neighbours of one piece of its two triangles (hull_point.hpp). A face
+  /// that bends by a tenth of a skin counts as flat, so that weights do not leap as what rests on it quivers.
+  BRIO_INLINE Closest closest(const Points& at, bool as_hull) const {
     const std::array<Vector3<Pack>, 4>& v = at.second;
     if (as_hull) {
-      const ClosestOnHull<Pack> found = closest_on_hull<Pack>(at.first[0], v);
-      return {found.offset, found.weights, found.squared_distance};
+      const ClosestOnHull<Pack> found = closest_on_hull<Pack>(at.first[0], v, Pack(0.1 * features.skin));
+      Vector3<Pack> offset = found.weights[0] * (at.first[0] - v[0]);
+      for (std::size_t k = 1; k < 4; ++k) offset = offset + found.weights[k] * (at.first[0] - v[k]);
+      return {offset, found.weights, found.squared_distance};
     }
     const ClosestOnTriangle<Pack> p = closest_on_triangle(at.first[0], v[0], v[1], v[2]);
     const ClosestOnTriangle<Pack> q = closest_on_triangle(at.first[0], v[0], v[2], v[3]);
@@ -149,7 +152,7 @@ struct EdgesAndEdges {
       pack.node[k + 2][lane] = features.edge_node[static_cast<std::size_t>(b)][k];
     }
   }
-  static BRIO_INLINE Closest closest(const Points& at, bool /*as_hull*/) {
+  BRIO_INLINE Closest closest(const Points& at, bool /*as_hull*/) const {
     return closest_on_segments(at.first[0], at.first[1], at.second[0], at.second[1]);
   }
 };

@@ -85,7 +85,7 @@ class Finder {
       const auto pack =
           pack_of(kind_, near.pair[Spaced ? 1 : 0].data(), i, std::min<std::size_t>(count, i + pack_size));
       PackOfWays ways = ways_of(kind_, pack);
-      const auto closest = Kind::closest(points_of(pack, rows_), Spaced);
+      const auto closest = kind_.closest(points_of(pack, rows_), Spaced);
       const Pack distance = sqrt(closest.squared_distance);
       const Pack wake = ways.path + distance - reach_to_wake(ways) - Pack(band_);
       if (!Spaced) {
@@ -95,12 +95,13 @@ class Finder {
       }
       store_wakes(kind_.list, pack, pack.lanes(), wake);
       const MaskOf<Pack> has_direction = closest.squared_distance > Pack(least_square_);
-      const Vector3<Pack> normal = (Pack(1.0) / where(has_direction, distance, Pack(1.0))) * closest.offset;
+      const Pack length = sqrt(dot(closest.offset, closest.offset));
+      const Vector3<Pack> normal = (Pack(1.0) / where(has_direction, length, Pack(1.0))) * closest.offset;
       const unsigned lanes = lane_bits(has_direction) & pack.lanes();
       store_directions(kind_.list, pack, lanes, normal);
       for_lanes(lane_bits(!(wake > ways.ahead)) & lanes & candidates(closest), [&](int lane) {
         filter(closest, lane, pack.pair[lane], {normal.x[lane], normal.y[lane], normal.z[lane]},
-               distance[lane], ways.reach[lane], found);
+               length[lane], ways.reach[lane], found);
       });
     }
   }

@@ -217,6 +217,15 @@ ProximityFilter::Flatness ProximityFilter::flatness(const EdgeFeature& own, cons
   return steep == 0 && own.faces == 2 ? Flatness::inside : Flatness::rim;
 }
 
+// Sides of faces along each other: the ends of what they share are nodes at a side, whose constraints hold
+// what is between.
+bool ProximityFilter::are_parallel(const EdgeFeature& a, const EdgeFeature& b, double sine) const {
+  if (!a.of_face() || !b.of_face()) return false;
+  const Vector3d along_a = motion_.start(a.node[1]) - motion_.start(a.node[0]);
+  const Vector3d along_b = motion_.start(b.node[1]) - motion_.start(b.node[0]);
+  return along_a.cross(along_b).squaredNorm() <= sine * sine * along_a.squaredNorm() * along_b.squaredNorm();
+}
+
 void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundContact>& found) const {
   const auto pair = static_cast<std::size_t>(near.pair);
   const int ea = pairs_.edge_edge.first[pair], eb = pairs_.edge_edge.second[pair];
@@ -226,6 +235,7 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   };
   const Vector3d foot_a = foot(a, near.at[0]), foot_b = foot(b, near.at[1]);
   const double slack = slack_of(foot_a, near.distance);
+  if (are_parallel(a, b, slack)) return;
   int on_a = 0, on_b = 0;
   if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, on_a) ||
       !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, on_b))

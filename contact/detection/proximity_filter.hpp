@@ -58,6 +58,7 @@ class ProximityFilter {
   bool passes_by(int slave, int face, bool as_hull, double reach) const;
   bool passes_by(const EdgeFeature& a, const EdgeFeature& b, double reach) const;
   std::array<int, 2> faces_of_side(int face, const std::array<int, 2>& ends) const;
+  bool are_parallel(const EdgeFeature& a, const EdgeFeature& b, double sine) const;
   enum class Flatness : std::uint8_t { none, rim, inside };
   Flatness flatness(const EdgeFeature& own, const Eigen::Vector3d& foot,
                     const Eigen::Vector3d& direction) const;

@@ -23,16 +23,20 @@ inline Recovery recovery_of(const ContactOptions& options, double smallest_edge,
 /// have yet to find, opening in proportion to depth integrates the overlap, which feeds slow vibrations of
 /// what rests. A contact under load is opened the slower the more it carries beyond what a node gains by its
 /// recovery: it would otherwise be opened with any force, and so give energy to what is pressed together; one
-/// that has carried nothing is not opened, since what it will carry is not known.
+/// that has carried nothing is not opened, since what it will carry is not known. What a loaded contact has
+/// sunk in the last step, as its direction turned, is given back in this one: at nearly the same load that
+/// returns the work that was lost.
 /// \param impulse carried over from the step before. \param mass effective mass along the normal; 0
-/// where nothing can move.
-inline double target_velocity(const Recovery& recovery, double gap, double impulse, double mass, double dt) {
+/// where nothing can move. \param sunk  growth of the overlap in the step before, under load.
+inline double target_velocity(const Recovery& recovery, double gap, double impulse, double mass, double sunk,
+                              double dt) {
   if (gap >= 0) return -gap / dt;
   if (!(impulse > 0)) return 0;
   const double share = recovery.share * (-gap < recovery.deep ? -gap / recovery.deep : 1);
   const double unloaded = std::min(share * -gap, recovery.cap) / dt;
   const double gain = mass * unloaded;
-  return impulse > gain ? unloaded * (gain / impulse) : unloaded;
+  const double opened = impulse > gain ? unloaded * (gain / impulse) : unloaded;
+  return std::max(opened, std::min({sunk, -gap, recovery.cap}) / dt);
 }
 
 }  // namespace brio

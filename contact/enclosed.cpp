@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <sstream>
 #include <stdexcept>
-#include <utility>
 #include <vector>
 
 #include "contact/face_geometry.hpp"
@@ -25,35 +23,10 @@ constexpr double probe_share = 0.2;
 class Enclosures {
  public:
   Enclosures(const ContactScene& scene, const Nodes& nodes)
-      : scene_(scene),
-        surface_(scene.surface),
-        nodes_(nodes),
-        faces_(static_cast<std::size_t>(surface_.body_count)) {
+      : surface_(scene.surface), nodes_(nodes), faces_(static_cast<std::size_t>(surface_.body_count)) {
     for (std::size_t f = 0; f < surface_.face.size(); ++f)
       if (const Face& face = surface_.face[f]; face.alive() && !face.shell)
         faces_[static_cast<std::size_t>(face.body)].push_back(static_cast<int>(f));
-  }
-
-  // Of each body the closest of the faces that are candidates decides.
-  void expect_outside(int slave) {
-    closest_.clear();
-    const Vector3d x = position(nodes_, surface_.node[static_cast<std::size_t>(slave)]);
-    for (const int f : scene_.candidates.faces_of.of(slave)) {
-      const Face& face = surface_.face[static_cast<std::size_t>(f)];
-      if (face.shell || face.body == surface_.body[static_cast<std::size_t>(slave)]) continue;
-      if (surface_.never_touch(slave, face)) continue;
-      const ClosestPoint point = closest_point_on_quad(x, vertices(nodes_, face));
-      const auto [known, is_new] = closest_.try_emplace(face.body, f, point);
-      if (!is_new && point.squared_distance < known->second.second.squared_distance)
-        known->second = {f, point};
-    }
-    for (const auto& [body, near] : closest_) {
-      const auto& [f, point] = near;
-      const double depth = std::sqrt(point.squared_distance);
-      if (depth <= deep_share * shortest_edge(nodes_, surface_.face[static_cast<std::size_t>(f)])) continue;
-      if (!is_outside(surface_, nodes_, f, point) && winding(body, x) > 0.5)
-        refuse(part_of(slave), surface_.face[static_cast<std::size_t>(f)].part, depth, x);
-    }
   }
 
   // A point just inside of each closed body, in no other.
@@ -126,15 +99,6 @@ class Enclosures {
     if (depth > deep_share * edge && winding(other, probe) > 0.5) refuse(own.part, theirs.part, depth, probe);
   }
 
-  int part_of(int slave) const {
-    const auto faces = surface_.faces_of.of(slave);
-    if (!faces.empty()) return face(faces.front()).part;
-    const int node = surface_.node[static_cast<std::size_t>(slave)];
-    for (const RoundElement& element : surface_.round)
-      if (element.node[0] == node || element.node[1] == node) return element.part;
-    return 0;
-  }
-
   [[noreturn]] void refuse(int part, int other, double depth, const Vector3d& x) const {
     std::ostringstream text;
     text << "contact: part '" << surface_.part_name[static_cast<std::size_t>(part)] << "' lies in part '"
@@ -143,21 +107,12 @@ class Enclosures {
     throw std::invalid_argument(text.str());
   }
 
-  const ContactScene& scene_;
   const Surface& surface_;
   const Nodes& nodes_;
   std::vector<std::vector<int>> faces_;  ///< of each body
-  std::map<int, std::pair<int, ClosestPoint>> closest_;
 };
 
 }  // namespace
-
-void expect_nothing_enclosed(const ContactScene& scene, const Nodes& nodes) {
-  Enclosures enclosures(scene, nodes);
-  for (int slave = 0; slave < static_cast<int>(scene.surface.slaves()); ++slave)
-    enclosures.expect_outside(slave);
-  enclosures.expect_bodies_apart();
-}
 
 void expect_bodies_apart(const ContactScene& scene, const Nodes& nodes) {
   Enclosures(scene, nodes).expect_bodies_apart();

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "contact/exclusion.hpp"
-#include "contact/local_candidates.hpp"
 #include "contact/surface_topology.hpp"
 
 namespace brio {
@@ -18,9 +17,7 @@ struct ContactScene;
 struct ContactErosion {
   SurfaceTopology topology;
   ErodingExclusion exclusion;
-  LocalCandidates local;
   SurfaceChange change;        ///< by the last deletion
-  std::vector<int> growing;    ///< slave nodes that are debris and do not have their full radius yet
   std::uint64_t search = 0;    ///< number of the last search when numbers were retired
   bool keeps_numbers = false;  ///< numbers of faces are not taken over: initial overlaps are excluded by them
 };
@@ -30,14 +27,6 @@ void make_erodible(ContactScene& scene, std::span<const SurfacePart> parts, cons
 
 /// Delete elements, in any order, between two steps: their faces end their contacts, sides laid bare and
 /// their nodes may be touched from the next call of `resolve` on, and all other contacts go on.
-void erode(ContactScene& scene, std::span<const SurfaceElement> deleted, const Nodes& nodes,
-           ThreadTeam& team);
-
-/// What is torn and has been apart may touch from now on; once a step, before candidates are refreshed.
-void release_torn_pairs(ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
-
-/// Debris takes as much of its radius as there is room for, so that it pushes nothing when it is freed in
-/// contact; once a step, when candidates are up to date.
-void grow_debris(ContactScene& scene, const Nodes& nodes);
+void erode(ContactScene& scene, std::span<const SurfaceElement> deleted);
 
 }  // namespace brio

@@ -173,17 +173,12 @@ void ErodingExclusion::mend_slave(Lists& excluded, const Surface& surface, const
                  [&](int side) { found_.push_back(side); });
   if (!reference_.empty()) walk_.add_fold(surface, PositionKept{reference_}, slave, found_);
   sort_out(found_);
-  const int node = surface.node[static_cast<std::size_t>(slave)];
+  // What overlapped as drawn stays excluded; what a tear has parted does not.
   kept_.clear();
   for (int f : excluded.of(slave)) {
-    if (!surface.face[static_cast<std::size_t>(f)].alive()) continue;
-    if (std::binary_search(found_.begin(), found_.end(), f)) continue;
-    if (!keeps_torn && surface.face[static_cast<std::size_t>(f)].shell) continue;
-    kept_.push_back(f);
-    if (!surface.face[static_cast<std::size_t>(f)].shell) continue;  // overlapped as drawn
-    const std::pair pair(node, f);
-    const auto at = std::lower_bound(torn.begin(), torn.end(), pair);
-    if (at == torn.end() || *at != pair) torn.insert(at, pair);
+    const Face& face = surface.face[static_cast<std::size_t>(f)];
+    if (face.alive() && !face.shell && !std::binary_search(found_.begin(), found_.end(), f))
+      kept_.push_back(f);
   }
   found_.insert(found_.end(), kept_.begin(), kept_.end());
   std::sort(found_.begin(), found_.end());

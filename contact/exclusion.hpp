@@ -2,7 +2,6 @@
 /// Pairs that are never tested: they touch because they are one piece, not because they met.
 
 #include <Eigen/Dense>
-#include <utility>
 #include <vector>
 
 #include "contact/surface.hpp"
@@ -45,8 +44,8 @@ class ShellWalk {
 };
 
 /// Keeps the exclusions of an eroding surface. What is left of a shell torn along excluded faces begins as
-/// close to the other side of the tear as it was: such pairs stay excluded until they have been apart, so
-/// that tearing pushes nothing.
+/// close to the other side of the tear as it was: such pairs wait until they have been apart
+/// (feature_pairs.hpp).
 class ErodingExclusion {
  public:
   ErodingExclusion(const Surface& surface, const Nodes& reference);
@@ -54,10 +53,6 @@ class ErodingExclusion {
   /// \returns the slave nodes whose lists may have changed, ascending
   const std::vector<int>& mend(Lists& excluded, const Surface& surface, const SurfaceTopology& topology,
                                const SurfaceChange& change);
-
-  bool keeps_torn = true;
-  /// Pairs (global node, face) that are no longer connected but excluded until they have been apart.
-  std::vector<std::pair<int, int>> torn;
 
  private:
   void mend_slave(Lists& excluded, const Surface& surface, const SurfaceTopology& topology, int slave);

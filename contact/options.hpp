@@ -6,29 +6,18 @@
 
 namespace brio {
 
-/// How constraints are found: by the sides of faces that nodes are on, or by the least distances of features,
-/// which nothing crosses.
-enum class DetectionRule { sides, distance };
-constexpr std::array<NamedValue<DetectionRule>, 2> named_values(DetectionRule) {
-  return {{{"sides", DetectionRule::sides}, {"distance", DetectionRule::distance}}};
-}
-
 struct ContactOptions {
   /// Coulomb coefficient; none unless asked for.
   double friction = 0;
-  /// Sweeps back over the constraints of a step, and as many forth: one is usable, five leave a residual
-  /// below 1e-3 of an edge, ten verify.
+  /// Tens of iterations over the constraints of a step at most; what has converged takes fewer.
   int passes = 5;
   SearchStrategy search = SearchStrategy::automatic;
-  DetectionRule rule = DetectionRule::distance;
-  /// Length by which capture boxes are grown so that the search can be skipped, over the mean edge of the
-  /// surface.
+  /// Length by which boxes are grown so that the search can be skipped, over the mean edge of the surface.
   double reach_buffer = 0.2;
-  /// Find first touches along the motion of the step as well; without it a fast node can pass through a thin
-  /// body.
+  /// Look along the motion of each step for what would cross, and prevent it; without it what is fast passes
+  /// through what is thin.
   bool velocity_check = true;
-  /// Let sharp edges of solids and free edges of shells meet each other; without it crossed edges sink in as
-  /// far as their nodes are apart.
+  /// Let edges of faces meet each other; without it crossed edges sink in as far as their nodes are apart.
   bool edges = true;
   /// Share of an old overlap of a tenth of the smallest edge that a step may remove, of shallower ones the
   /// less the shallower they are, ...
@@ -50,17 +39,16 @@ struct ContactOptions {
     return field_table(
         optional("friction", &ContactOptions::friction, non_negative, "Coulomb coefficient, -"),
         optional("passes", &ContactOptions::passes, Range{.lower = 1, .upper = 1000},
-                 "sweeps back over the contact constraints of a step, and as many forth, -"),
+                 "tens of iterations over the contact constraints of a step at most, -"),
         optional("search", &ContactOptions::search, any_number,
-                 "how candidates are found; the pairs are the same"),
-        optional("rule", &ContactOptions::rule, any_number, "how constraints are found"),
+                 "how surfaces that cross at the start are searched; what is found is the same"),
         optional("reach_buffer", &ContactOptions::reach_buffer,
                  Range{.lower = 0, .upper = 10, .lower_open = true},
-                 "growth of capture boxes that lets the search be skipped, in mean edges, -"),
+                 "growth of boxes that lets the search be skipped, in mean edges, -"),
         optional("velocity_check", &ContactOptions::velocity_check, any_number,
-                 "find first touches along the motion of a step"),
+                 "look along the motion of each step for what would cross, and prevent it"),
         optional("edges", &ContactOptions::edges, any_number,
-                 "let sharp edges of solids and free edges of shells meet each other"),
+                 "let edges of solids and shells meet each other"),
         optional("overlap_recovery", &ContactOptions::overlap_recovery, fraction,
                  "share of an old overlap of a tenth of the smallest edge removed in a step, in proportion "
                  "less of shallower ones, -"),

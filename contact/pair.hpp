@@ -1,20 +1,20 @@
 #pragma once
-/// A slave node that touches, or may touch within the step, one place of the surface, or a line another line
-/// (lines.hpp): one constraint.
+/// A slave node that touches, or may touch within the step, one place of the surface, or an edge another
+/// edge: one constraint.
 
 #include <Eigen/Dense>
 #include <array>
 
 namespace brio {
 
-/// Of contacts of lines: Contact::slave is this plus the number of the first line.
+/// Of contacts of edges: Contact::slave is this plus the number of the first edge.
 inline constexpr int first_line_slave = 1 << 30;
 
 struct Contact {
   int slave = 0;              ///< index among the slave nodes
-  int face = 0;               ///< -1: of two lines
-  int body = 0;               ///< of the face, or of the second line
-  int own = 1;                ///< how many of the nodes are of the first side: the node, or both of a line
+  int face = 0;               ///< -1: of two edges
+  int body = 0;               ///< of the face, or of the second edge
+  int own = 1;                ///< how many of the nodes are of the first side: the node, or both of an edge
   std::array<int, 5> node{};  ///< slave indices: the node, then the corners of the face
   std::array<double, 5> weight{};  ///< 1, then minus the weights of the corners; their sum is 0
   Eigen::Vector3d normal =

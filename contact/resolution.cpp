@@ -1,12 +1,14 @@
-#include "contact/resolution.hpp"
+// `resolve`: the stages of a step, on one page.
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 
 #include "contact/enforcement/impact_zone.hpp"
 #include "contact/enforcement/inherited_impulses.hpp"
 #include "contact/enforcement/target_velocity.hpp"
-#include "contact/face_geometry.hpp"
+#include "contact/scene.hpp"
+#include "contact/step_totals.hpp"
 
 namespace brio {
 
@@ -32,8 +34,7 @@ class Resolution {
   Resolution(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies,
              const Ties& ties, std::span<const ContactWall> walls)
       : scene_(scene),
-        distance_(*scene.distance),
-        rows_(scene.distance->rows),
+        rows_(scene.rows),
         nodes_(nodes),
         dt_(dt),
         team_(team),
@@ -49,14 +50,15 @@ class Resolution {
     for (int round = 0;; ++round) {
       follow();
       look_again();
-      find_hits(distance_.guard, distance_.proximity, distance_.features, scene_.surface, scene_.options,
-                distance_.pairs, distance_.motion, team_);
+      if (!scene_.options.velocity_check) break;
+      find_hits(scene_.guard, scene_.proximity, scene_.features, scene_.surface, scene_.options, scene_.pairs,
+                scene_.motion, team_);
       const bool behind_walls = find_missed_at_walls(round);
-      if (distance_.guard.hits.empty() && !behind_walls) break;
-      if (round == 0) ++distance_.steps_with_hits;
-      ++distance_.rounds;
+      if (scene_.guard.hits.empty() && !behind_walls) break;
+      if (round == 0) ++scene_.steps_with_hits;
+      ++scene_.rounds;
       if (round >= most_rounds + most_zone_rounds) {
-        ++distance_.unresolved;
+        ++scene_.unresolved;
         break;
       }
       if (round >= most_rounds) {
@@ -80,79 +82,76 @@ class Resolution {
   static constexpr int iterations_a_pass = 10;
 
   void find_constraints() {
-    distance_.motion.begin(distance_.features, scene_.surface, nodes_, team_);
-    distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
-    if (distance_.pairs.is_due(scene_.surface, distance_.motion)) search();
+    scene_.motion.begin(scene_.features, scene_.surface, nodes_, team_);
+    scene_.motion.end_by_velocity(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
+    if (scene_.pairs.is_due(scene_.surface, scene_.motion)) search();
     select();
-    distance_.motion.set_limits(2, allowed_surplus(distance_.features));
+    scene_.motion.set_limits(2, allowed_surplus(scene_.features));
     scene_.last.swap(scene_.contacts);
-    find_proximities(distance_.proximity, distance_.features, scene_.surface, scene_.options, distance_.pairs,
-                     distance_.motion, team_, scene_.contacts);
+    find_proximities(scene_.proximity, scene_.features, scene_.surface, scene_.options, scene_.pairs,
+                     scene_.motion, team_, scene_.contacts);
     inherit_impulses(scene_.last, step_ratio(), scene_.contacts, rows_.taken);
   }
 
   void search() {
     const Clock::time_point start = Clock::now();
-    distance_.pairs.find(distance_.features, scene_.surface, scene_.excluded, scene_.options,
-                         distance_.motion, team_);
+    scene_.pairs.find(scene_.features, scene_.surface, scene_.excluded, scene_.options, scene_.motion, team_);
     scene_.step.searched = true;
     scene_.step.search_seconds += seconds_since(start);
   }
-  void select() {
-    select_awake(distance_.proximity, distance_.features, distance_.pairs, distance_.motion, team_);
-  }
+  void select() { select_awake(scene_.proximity, scene_.features, scene_.pairs, scene_.motion, team_); }
   // Of pairs that were surely apart in the predicted motion.
   void look_again() {
-    if (distance_.pairs.is_due(scene_.surface, distance_.motion)) {
+    if (scene_.pairs.is_due(scene_.surface, scene_.motion)) {
       search();
       select();
-    } else if (distance_.motion.exceeds_limits()) {
+    } else if (scene_.motion.exceeds_limits()) {
       select();
     }
   }
 
   void begin_solution() {
     scene_.in_contact.clear();
-    distance_.zone_impulse.clear();
+    scene_.zone_impulse.clear();
     rows_.clear();
-    distance_.row_of_contact.clear();
+    scene_.row_of_contact.clear();
     add_rows_from(0);
     if (walls_.empty()) return;
-    const double band = proximity_band * distance_.features.smallest_edge;
-    distance_.walls.find(walls_, scene_.surface, distance_.motion, dt_, band, step_ratio());
+    const double band = proximity_band * scene_.features.smallest_edge;
+    scene_.walls.find(walls_, scene_.surface, scene_.motion, dt_, band, step_ratio());
     add_wall_rows_from(0);
   }
   double step_ratio() const { return scene_.last_dt > 0 ? dt_ / scene_.last_dt : 1; }
-  RowSources sources() const { return {scene_.surface, distance_.features, nodes_, ties_, bodies_}; }
+  RowSources sources() const { return {scene_.surface, scene_.features, nodes_, ties_, bodies_}; }
 
   void add_rows_from(std::size_t first) {
     const std::size_t known = rows_.rows.size();
     for (std::size_t i = first; i < scene_.contacts.size(); ++i)
-      distance_.row_of_contact.push_back(known + i - first);
+      scene_.row_of_contact.push_back(known + i - first);
     add_rows(rows_, sources(), std::span<const Contact>(scene_.contacts).subspan(first));
     for (std::size_t i = first; i < scene_.contacts.size(); ++i)
       set_target(rows_.rows.row[known + i - first], scene_.contacts[i].sunk);
   }
   void add_wall_rows_from(std::size_t first) {
     const std::size_t known = rows_.rows.size();
-    add_rows(rows_, sources(), walls_, std::span<const NodeAtWall>(distance_.walls.touch).subspan(first));
+    add_rows(rows_, sources(), walls_, std::span<const NodeAtWall>(scene_.walls.touch).subspan(first));
     for (std::size_t i = known; i < rows_.rows.size(); ++i) set_target(rows_.rows.row[i], 0);
   }
-  ConstraintRow& row_of(std::size_t contact) { return rows_.rows.row[distance_.row_of_contact[contact]]; }
+  ConstraintRow& row_of(std::size_t contact) { return rows_.rows.row[scene_.row_of_contact[contact]]; }
 
   // Rows for nodes that others push behind a wall.
   bool find_missed_at_walls(int round) {
     if (walls_.empty() || round >= most_rounds) return false;
-    const std::size_t known = distance_.walls.touch.size();
-    if (!distance_.walls.find_missed(walls_, scene_.surface, distance_.motion, dt_,
-                                     behind_wall * distance_.features.smallest_edge))
+    const std::size_t known = scene_.walls.touch.size();
+    if (!scene_.walls.find_missed(walls_, scene_.surface, scene_.motion, dt_,
+                                  behind_wall * scene_.features.smallest_edge))
       return false;
     add_wall_rows_from(known);
     return true;
   }
 
   void set_target(ConstraintRow& row, double sunk) const {
-    const Recovery recovery = recovery_of(scene_.options, distance_.features.smallest_edge);
+    const Recovery recovery = recovery_of(scene_.options, scene_.features.smallest_edge);
     double mass = 0;
     if (row.gap < 0 && row.impulse > 0) {
       const double inverse = RowMap(rows_.rows, row).inverse_mass(row.normal, rows_.block);
@@ -163,8 +162,8 @@ class Resolution {
 
   void solve(bool anew) {
     const SolveOptions options{.max_iterations = iterations_a_pass * scene_.options.passes};
-    const SolveReport report = anew ? distance_.solver.solve(options, rows_.rows, rows_.block, team_)
-                                    : distance_.solver.solve_further(options, rows_.rows, rows_.block, team_);
+    const SolveReport report = anew ? scene_.solver.solve(options, rows_.rows, rows_.block, team_)
+                                    : scene_.solver.solve_further(options, rows_.rows, rows_.block, team_);
     scene_.step.passes += report.iterations;
     scene_.step.residual = report.residual;
     store();
@@ -180,7 +179,7 @@ class Resolution {
           set(nodes_.record[index(owner.index)].velocity, velocity);
           if (const int slave = scene_.surface.slave(owner.index); slave >= 0) {
             scene_.in_contact.insert(slave);
-            set(scene_.motion[index(slave)].velocity, velocity);
+            scene_.velocity[index(slave)] = to_eigen(velocity);
           }
           break;
         case BlockOwner::Kind::rotation_of_node:
@@ -199,18 +198,18 @@ class Resolution {
 
   // Where the solution takes the nodes.
   void follow() {
-    if (!distance_.zone_impulse.empty()) store_zones();
+    if (!scene_.zone_impulse.empty()) store_zones();
     if (ties_.empty())
-      distance_.motion.end_by_solution(distance_.features, scene_.surface, scene_.in_contact, scene_.motion,
-                                       dt_, bodies_, team_);
+      scene_.motion.end_by_solution(scene_.features, scene_.surface, scene_.in_contact, scene_.velocity, dt_,
+                                    bodies_, team_);
     else
-      distance_.motion.end_by_velocity(distance_.features, scene_.surface, nodes_, dt_, bodies_, team_);
+      scene_.motion.end_by_velocity(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
   }
   void store_zones() {
-    for (std::size_t s = 0; s < distance_.zone_impulse.size(); ++s) {
-      if (distance_.zone_impulse[s].isZero(0)) continue;
+    for (std::size_t s = 0; s < scene_.zone_impulse.size(); ++s) {
+      if (scene_.zone_impulse[s].isZero(0)) continue;
       double* velocity = nodes_.record[index(scene_.surface.node[s])].velocity;
-      std::copy(scene_.motion[s].velocity, scene_.motion[s].velocity + 3, velocity);
+      std::copy(scene_.velocity[s].data(), scene_.velocity[s].data() + 3, velocity);
     }
     if (!ties_.empty()) carry_velocities(ties_, nodes_, dt_);
   }
@@ -219,7 +218,7 @@ class Resolution {
   // direction in which they meet as well.
   void add_constraints(std::size_t ordinary) {
     const std::size_t known = scene_.contacts.size();
-    for (const Hit& hit : distance_.guard.hits) {
+    for (const Hit& hit : scene_.guard.hits) {
       const bool again = add(hit.at_start, ordinary);
       if (hit.at_hit && (again || hit.at_start.normal.isZero(0))) add(*hit.at_hit, ordinary);
     }
@@ -258,17 +257,16 @@ class Resolution {
     const bool at_walls = take_over_walls();
     sum_impulses(scene_);
     count_contacts(scene_);
-    if (!distance_.zone_impulse.empty()) book_zones();
+    if (!scene_.zone_impulse.empty()) book_zones();
     if (scene_.step.active > 0 || at_walls) book_rows();
     add_to_totals(scene_);
     scene_.contacts.resize(ordinary);
-    if (bodies_.size() > 1) scene_.rigid.find(scene_.surface, nodes_, scene_.contacts, bodies_);
   }
 
   // \returns whether a wall pushes
   bool take_over_walls() {
     bool pushes = false;
-    auto touch = distance_.walls.touch.begin();
+    auto touch = scene_.walls.touch.begin();
     for (const ConstraintRow& row : rows_.rows.row) {
       if (row.wall < 0) continue;
       touch->impulse = row.impulse;
@@ -282,8 +280,8 @@ class Resolution {
   // Before the impulses of rows are given to the bodies, which hold those of zones.
   void book_zones() {
     ContactStep& step = scene_.step;
-    for (std::size_t s = 0; s < distance_.zone_impulse.size(); ++s) {
-      const Vector3d& impulse = distance_.zone_impulse[s];
+    for (std::size_t s = 0; s < scene_.zone_impulse.size(); ++s) {
+      const Vector3d& impulse = scene_.zone_impulse[s];
       if (impulse.isZero(0)) continue;
       scene_.pushed.insert(static_cast<int>(s));
       scene_.normal_impulse[s] += impulse;
@@ -315,7 +313,7 @@ class Resolution {
   }
 
   void book_rows() {
-    std::vector<PushOnWall>& pushes = distance_.walls.push;
+    std::vector<PushOnWall>& pushes = scene_.walls.push;
     pushes.assign(walls_.size(), {});
     const RowWork work = book(rows_.rows, rows_.before, rows_.block, rows_.place, pushes);
     ContactStep& step = scene_.step;
@@ -344,7 +342,6 @@ class Resolution {
   }
 
   ContactScene& scene_;
-  DistanceContact& distance_;
   ContactRows& rows_;
   Nodes& nodes_;
   double dt_;
@@ -356,10 +353,13 @@ class Resolution {
 
 }  // namespace
 
-void resolve_by_distances(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
-                          std::span<RigidMotion> bodies, const Ties& ties,
-                          std::span<const ContactWall> walls) {
+void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std::span<RigidMotion> bodies,
+             const Ties& ties, std::span<const ContactWall> walls) {
+  assert(nodes.velocity_before.size() == nodes.size());
+  scene.step = ContactStep{};
+  if (scene.surface.node.empty()) return;
   Resolution(scene, nodes, dt, team, bodies, ties, walls).run();
+  scene.last_dt = dt;
 }
 
 }  // namespace brio

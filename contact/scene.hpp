@@ -12,19 +12,18 @@
 #include <span>
 #include <vector>
 
-#include "contact/candidates.hpp"
-#include "contact/detect.hpp"
 #include "contact/detection/crossing_guard.hpp"
+#include "contact/detection/feature_motion.hpp"
+#include "contact/detection/feature_pairs.hpp"
+#include "contact/detection/features.hpp"
+#include "contact/detection/proximity.hpp"
 #include "contact/enforcement/contact_rows.hpp"
 #include "contact/enforcement/impulse_solver.hpp"
+#include "contact/enforcement/nodes_at_walls.hpp"
 #include "contact/erosion.hpp"
-#include "contact/held_contact.hpp"
-#include "contact/line_detect.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
-#include "contact/rigid_contact.hpp"
 #include "contact/slave_set.hpp"
-#include "contact/solve.hpp"
 #include "contact/surface.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
@@ -46,7 +45,6 @@ struct ContactStep {
   double residual = 0;  ///< relative velocity changed in the last pass
   bool searched = false;
   double search_seconds = 0;  ///< wall time
-  double line_seconds = 0;    ///< wall time of all that concerns lines
   /// Reactions of the supports: what they do to keep prescribed components of motion as they are.
   double support_work_before = 0;
   double support_work_after = 0;
@@ -67,17 +65,26 @@ struct ContactTotals {
   double friction_work = 0;        ///< not positive but for rounding and the supports' share
   double deepest_overlap = 0;
   std::uint64_t steps = 0;
-  std::uint64_t contacts = 0;  ///< sum over the steps
+  std::uint64_t contacts = 0;  ///< sum over the steps, as are passes
+  std::uint64_t passes = 0;
   int most_contacts = 0;
 };
 
-/// What contact by distances keeps between steps.
-struct DistanceContact {
+struct ContactScene {
+  ContactOptions options;
+  Surface surface;
+  Lists excluded;
+  std::optional<ContactErosion> erosion;  ///< of scenes whose elements may be deleted
+
   SurfaceFeatures features;
   FeatureMotion motion;
   FeaturePairs pairs;
   Proximity proximity;
   CrossingGuard guard;
+  std::vector<Contact> contacts;  ///< of the last step, by Contact::slave
+  std::vector<Contact> last;      ///< of the step before, while one is resolved
+  double last_dt = 0;
+
   ContactRows rows;  ///< of this step
   std::vector<std::size_t> row_of_contact;
   NodesAtWalls walls;
@@ -85,30 +92,12 @@ struct DistanceContact {
   std::vector<Eigen::Vector3d> zone_impulse;  ///< of each slave node, in this step; empty: no zone
   std::vector<int> zone_of;                   ///< of each slave node and body
   std::uint64_t steps_with_hits = 0, rounds = 0, zones = 0, unresolved = 0;
-};
 
-struct ContactScene {
-  ContactOptions options;
-  Surface surface;
-  Lists excluded;
-  Travel travel;
-  Candidates candidates;
-  Detection detection;
-  Solver solver;
-  std::vector<Contact> contacts;  ///< of the last step, by Contact::slave
-  std::vector<Contact> last;      ///< of the step before, while one is resolved
-  double last_dt = 0;
-  std::optional<ContactErosion> erosion;    ///< of scenes whose elements may be deleted
-  std::optional<LineContacts> lines;        ///< of scenes with edges that may meet, beams or particles
-  std::optional<DistanceContact> distance;  ///< of scenes in which constraints are found by distances
-
-  SlaveSet in_contact;                          ///< nodes that any of the contacts joins
+  SlaveSet in_contact;                          ///< nodes that rows have moved in this step
+  std::vector<Eigen::Vector3d> velocity;        ///< of each slave node; up to date for those in contact
   SlaveSet pushed;                              ///< nodes with an impulse in the last step
-  std::vector<ContactMotion> motion;            ///< of each slave node; up to date for those in contact
   std::vector<Eigen::Vector3d> normal_impulse;  ///< of each slave node, in the last step
   std::vector<Eigen::Vector3d> friction_impulse;
-  RigidContacts rigid;
-  HeldContacts held;
 
   ContactStep step;
   ContactTotals totals;
@@ -117,10 +106,6 @@ struct ContactScene {
 /// \throws std::invalid_argument for elements without surface.
 ContactScene make_contact_scene(const ContactOptions& options, std::span<const SurfacePart> parts,
                                 const Nodes& nodes);
-
-/// Replace the contacts by those of this step, and Scene::last by those before. `travel` has followed the
-/// nodes.
-void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
 
 /// Correct the predicted velocities of all surface nodes so that nothing passes through anything in this
 /// step.
@@ -133,12 +118,6 @@ void find_contacts(ContactScene& scene, const Nodes& nodes, ThreadTeam& team);
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
              std::span<RigidMotion> bodies = {}, const Ties& ties = {},
              std::span<const ContactWall> walls = {});
-
-/// The parts of `resolve`: impulses of nodes from those of the contacts; contacts, active ones and the
-/// deepest overlap into the step; the step into the totals.
-void sum_impulses(ContactScene& scene);
-void count_contacts(ContactScene& scene);
-void add_to_totals(ContactScene& scene);
 
 /// Let held nodes and what holds them never meet. \param part_of_surface of each part of the ties: its number
 /// in the surface, or -1

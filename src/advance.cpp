@@ -207,8 +207,7 @@ void resolve_contact(Model& model, ThreadTeam& team) {
     settle(model.rigid);
     const ContactStep& step = scene.step;
     model.stages[Stage::contact_search] += step.search_seconds;
-    model.stages[Stage::contact_lines] += step.line_seconds;
-    model.stages[Stage::contact] -= step.search_seconds + step.line_seconds;
+    model.stages[Stage::contact] -= step.search_seconds;
     model.energy.contact.before += step.normal_work_before;
     model.energy.contact.after += step.normal_work_after;
     model.energy.friction.before += step.friction_work_before;
@@ -303,8 +302,7 @@ void erode_elements(Model& model, ThreadTeam& team) {
   erode(erosion, model.schedule, model.sweep_results, model.blocks, model.parts, model.energy);
   if (erosion.deleted.empty()) return;
   for (ActiveLoad& load : model.loads) drop_sides(load, erosion.deleted);
-  for (ContactScene& scene : model.contacts)
-    erode(scene, *model.surface_numbers, erosion.deleted, model.nodes, team);
+  for (ContactScene& scene : model.contacts) erode(scene, *model.surface_numbers, erosion.deleted);
   if (release_ties(model.ties, erosion, model.nodes, model.energy, model.momentum))
     for (ContactScene& scene : model.contacts) let_go(scene, model.ties);
   if (!is_sparse(model.schedule, model.blocks)) return;

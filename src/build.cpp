@@ -316,7 +316,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     if (!model.ties.empty()) hold(model.contacts.back(), model.ties, part_of_surface);
     if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
     ThreadTeam team(1);
-    for (InitialOverlap& overlap : remove_initial_overlap(model.contacts.back(), model.nodes, team))
+    for (InitialOverlap& overlap : make_initial_gap(model.contacts.back(), model.nodes, team))
       model.initial_overlaps.push_back(std::move(overlap));
   } catch (const std::invalid_argument& fault) {
     throw BuildError(fault.what(), deck.contact->place);

@@ -171,9 +171,6 @@ void add_contact(const Deck& deck, const Model& model, Features& features) {
              counted(surface.node.size(), "node") + ", " +
              (surface.body_count == 1 ? "1 body" : std::to_string(surface.body_count) + " bodies"),
          bytes_held(scene)});
-    if (scene.lines && !scene.lines->candidates.line.empty())
-      features.push_back({"contact of lines", "contact.edges",
-                          counted(scene.lines->candidates.line.size(), "line"), bytes_held(scene.lines)});
     if (deck.contact->options.friction > 0) features.push_back({"friction", "contact.friction", "", 0});
     if (!deck.contact->pairs.empty())
       features.push_back({"pairs", "contact.pairs", counted(deck.contact->pairs.size(), "pair"), 0});

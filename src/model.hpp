@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contact/audit/audit.hpp"
-#include "contact/overlap.hpp"
+#include "contact/enforcement/initial_gap.hpp"
 #include "contact/scene.hpp"
 #include "contact/ties.hpp"
 #include "src/constraints.hpp"

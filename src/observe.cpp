@@ -302,8 +302,6 @@ std::vector<std::string> active_features(const Model& model) {
   if (!model.prescribed.empty()) features.insert("prescribed_motion");
   if (!model.walls.empty()) features.insert("rigid_wall");
   if (!model.contacts.empty()) features.insert("contact");
-  for (const ContactScene& scene : model.contacts)
-    if (scene.lines && !scene.lines->candidates.line.empty()) features.insert("line_contact");
   if (can_be_damaged(model)) features.insert("failure");
   if (model.erosion) features.insert("deletion");
   if (model.added_mass) features.insert("mass_scaling");
@@ -384,20 +382,26 @@ Summary observe_end(Model& model) {
     summary.hourglass_ratio_max = {ratio, model.parts[part].name, model.part_energy[part].time_of_largest};
   summary.momentum = {model.momentum.now.linear, model.momentum.now.angular};
   for (const ContactScene& scene : model.contacts) {
-    const SearchCounts& counts = scene.candidates.counts;
-    summary.contact = {.searches = static_cast<std::int64_t>(counts.searches),
+    const SearchCounts& counts = scene.pairs.counts;
+    const ContactTotals& totals = scene.totals;
+    const std::uint64_t settled = scene.guard.certified + scene.guard.renewed;
+    const std::uint64_t looks = settled + scene.guard.checked;
+    const auto share = [](std::uint64_t count, std::uint64_t whole) {
+      return whole > 0 ? static_cast<double>(count) / static_cast<double>(whole) : 0;
+    };
+    summary.contact = {.searches = static_cast<std::int64_t>(scene.pairs.searches()),
                        .comparisons = static_cast<std::int64_t>(counts.comparisons),
                        .candidate_pairs = static_cast<std::int64_t>(counts.candidate_pairs),
-                       .active_max = scene.totals.most_contacts,
-                       .penetration_max = scene.totals.deepest_overlap,
+                       .active_max = totals.most_contacts,
+                       .penetration_max = totals.deepest_overlap,
                        .missed = 0,
                        .audits = {},
-                       .bodies = scene.surface.body_count};
-    if (!scene.lines) continue;
-    const LineCandidates& lines = scene.lines->candidates;
-    summary.contact.lines = static_cast<std::int64_t>(lines.line.size());
-    summary.contact.line_comparisons = static_cast<std::int64_t>(lines.counts.comparisons);
-    summary.contact.line_candidate_pairs = static_cast<std::int64_t>(lines.counts.candidate_pairs);
+                       .bodies = scene.surface.body_count,
+                       .constraints_total = static_cast<std::int64_t>(totals.contacts),
+                       .passes_mean = share(totals.passes, totals.steps),
+                       .certified_share = share(settled, looks),
+                       .last_resort_uses = static_cast<std::int64_t>(scene.zones),
+                       .unresolved = static_cast<std::int64_t>(scene.unresolved)};
   }
   if (model.contact_audits) {
     summary.contact.missed = model.contact_audits->found.missed();

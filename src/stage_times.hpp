@@ -17,13 +17,12 @@ enum class Stage {
   ties,
   contact_search,
   contact,
-  contact_lines,
   audit,
   output
 };
-inline constexpr std::array<std::string_view, 12> stage_names{
-    "loads", "elements",       "erosion", "nodes",         "rigid", "constraints",
-    "ties",  "contact_search", "contact", "contact_lines", "audit", "output"};
+inline constexpr std::array<std::string_view, 11> stage_names{
+    "loads", "elements",       "erosion", "nodes", "rigid", "constraints",
+    "ties",  "contact_search", "contact", "audit", "output"};
 
 struct StageTimes {
   std::array<double, stage_names.size()> seconds{};

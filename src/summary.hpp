@@ -54,8 +54,11 @@ struct Summary {
     std::int64_t missed = 0;              ///< all that audits found
     std::optional<ContactAudits> audits;  ///< where the deck asks for them
     std::int64_t bodies = 0;              ///< that the surface consists of
-    std::int64_t lines = 0;               ///< edges, beams and particles that may meet each other
-    std::int64_t line_comparisons = 0, line_candidate_pairs = 0;
+    std::int64_t constraints_total = 0;   ///< sum over steps
+    double passes_mean = 0;               ///< iterations of the solver a step
+    double certified_share = 0;           ///< of looks along a step: those that a direction settled
+    std::int64_t last_resort_uses = 0;    ///< zones that moved as one for a step
+    std::int64_t unresolved = 0;          ///< steps that ended with something about to cross
   };
   struct HourglassRatio {
     double value = 0;  ///< hourglass energy of a part over its largest internal energy until then

@@ -2,15 +2,14 @@
 
 namespace brio {
 
-void erode(ContactScene& scene, SurfaceNumbers& numbers, std::span<const DeletedElement> deleted,
-           const Nodes& nodes, ThreadTeam& team) {
+void erode(ContactScene& scene, SurfaceNumbers& numbers, std::span<const DeletedElement> deleted) {
   numbers.deleted.clear();
   for (const DeletedElement& entry : deleted) {
     const auto p = static_cast<std::size_t>(entry.part);
     if (numbers.part[p] < 0) continue;
     numbers.deleted.push_back({numbers.part[p], numbers.element[p][static_cast<std::size_t>(entry.element)]});
   }
-  erode(scene, numbers.deleted, nodes, team);
+  erode(scene, numbers.deleted);
 }
 
 }  // namespace brio

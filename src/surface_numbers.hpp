@@ -16,7 +16,6 @@ struct SurfaceNumbers {
 };
 
 /// Take deleted elements out of the contact surface.
-void erode(ContactScene& scene, SurfaceNumbers& numbers, std::span<const DeletedElement> deleted,
-           const Nodes& nodes, ThreadTeam& team);
+void erode(ContactScene& scene, SurfaceNumbers& numbers, std::span<const DeletedElement> deleted);
 
 }  // namespace brio

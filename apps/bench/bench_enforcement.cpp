@@ -1,7 +1,6 @@
 // Measures enforcement on a plane of contact between two bodies of bricks whose meshes do not match, every
 // node on a face of the other: nanoseconds a row for a solve of one iteration, for each further iteration,
-// and how many iterations an impact with uneven velocities takes; beside it sequential impulses
-// (contact/solve.hpp).
+// and how many iterations an impact with uneven velocities takes.
 //
 //     bench_enforcement [REPETITIONS [THREADS [NODES ALONG AN EDGE]]]
 
@@ -16,7 +15,6 @@
 #include <vector>
 
 #include "contact/enforcement/impulse_solver.hpp"
-#include "contact/solve.hpp"
 
 namespace brio {
 namespace {
@@ -24,9 +22,7 @@ namespace {
 /// Two square grids of n x n nodes, the second turned a little and finer by a few per cent.
 struct Plane {
   std::vector<VelocityBlock> blocks;
-  std::vector<ContactMotion> motion;
   ConstraintRows rows;
-  std::vector<Contact> contacts;
 
   Plane(int n, double friction, double height) : n_(n), friction_(friction), height_(height) {
     std::mt19937_64 engine(5);
@@ -38,7 +34,6 @@ struct Plane {
         const double y = 0.1 * uneven(engine);
         const double z = (side == 0 ? -1 : 0) + 0.3 * uneven(engine);
         blocks.push_back({{x, y, z}, isotropic(1 / mass)});
-        motion.push_back({{x, y, z}, {1 / mass, 1 / mass, 1 / mass}});
       }
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
@@ -75,11 +70,6 @@ struct Plane {
     rows.add_row(normal, 0, friction_);
     rows.add_point(own, Side::first);
     rows.add_face(foot, height_, Side::second);
-    Contact& contact = contacts.emplace_back();
-    contact.normal = {normal.x, normal.y, normal.z};
-    contact.friction_coefficient = friction_;
-    contact.node = {own, corner[0], corner[1], corner[2], corner[3]};
-    contact.weight = {1, -weight[0], -weight[1], -weight[2], -weight[3]};
   }
 
   int n_;
@@ -117,20 +107,6 @@ void measure(int n, double friction, double height, int repetitions, int threads
   };
   const double once = seconds({1, 0});
   const double often = seconds({21, 0});
-  const auto sequential = [&](int passes) {
-    Solver old;
-    ContactOptions options;
-    options.passes = passes;
-    return best_seconds(
-        repetitions,
-        [&] {
-          trial.contacts = plane.contacts;
-          trial.motion = plane.motion;
-        },
-        [&] { solve(old, options, 1, 1, trial.contacts, trial.motion); });
-  };
-  const double passes_one = sequential(1);
-  const double passes_three = sequential(3);
   const auto iterations = [&](double tolerance) {
     trial.rows.row = plane.rows.row;
     trial.blocks = plane.blocks;
@@ -138,15 +114,8 @@ void measure(int n, double friction, double height, int repetitions, int threads
   };
   const int coarse = iterations(1e-4);
   const int fine = iterations(1e-8);
-  Solver old;
-  ContactOptions options;
-  options.passes = 1000;
-  trial.contacts = plane.contacts;
-  trial.motion = plane.motion;
-  solve(old, options, 1, 1, trial.contacts, trial.motion);
-  fmt::print("{:>8} {:>8.1f} {:>7.2f} {:>10.1f} {:>10.1f} {:>11} {:>11} {:>12.1f} {:>12.1f} {:>10}\n", rows,
-             friction, height, 1e9 * once / rows, 1e9 * (often - once) / 20 / rows, coarse, fine,
-             1e9 * passes_one / rows, 1e9 * (passes_three - passes_one) / 2 / rows, old.passes_done);
+  fmt::print("{:>8} {:>8.1f} {:>7.2f} {:>10.1f} {:>10.1f} {:>11} {:>11}\n", rows, friction, height,
+             1e9 * once / rows, 1e9 * (often - once) / 20 / rows, coarse, fine);
   std::fflush(stdout);
 }
 
@@ -160,9 +129,8 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "bench_enforcement: REPETITIONS and THREADS are numbers above zero\n");
     return 2;
   }
-  fmt::print("{:>8} {:>8} {:>7} {:>10} {:>10} {:>11} {:>11} {:>12} {:>12} {:>10}\n", "rows", "friction",
-             "height", "one check", "iteration", "its to 1e-4", "its to 1e-8", "seq. 1 pass", "pass there",
-             "passes");
+  fmt::print("{:>8} {:>8} {:>7} {:>10} {:>10} {:>11} {:>11}\n", "rows", "friction", "height", "one check",
+             "iteration", "its to 1e-4", "its to 1e-8");
   std::vector<int> sizes{92, 290};
   if (argc > 3) sizes = {std::atoi(argv[3])};
   for (int n : sizes)

@@ -150,9 +150,7 @@ int main(int argc, char** argv) {
   print(total, model);
   const ContactErosion& erosion = *model.contacts[0].erosion;
   const auto deleted = static_cast<double>(model.erosion->total_deleted());
-  fmt::print("an element deleted: {:.0f} faces, sides and nodes looked at, {:.0f} comparisons; {} searches\n",
-             static_cast<double>(erosion.topology.visits) / deleted,
-             static_cast<double>(erosion.local.comparisons) / deleted,
-             model.contacts[0].candidates.counts.searches);
+  fmt::print("an element deleted: {:.0f} faces, sides and nodes looked at; {} searches\n",
+             static_cast<double>(erosion.topology.visits) / deleted, model.contacts[0].pairs.searches());
   return 0;
 }

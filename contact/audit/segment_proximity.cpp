@@ -158,21 +158,9 @@ class SegmentProximity {
 
   // Pairs that overlap as drawn, lie in the tightest fold of a shell, or were left so by a tear.
   bool lie_so_by_the_mesh(const AuditedSegment& first, const AuditedSegment& second) const {
-    if (scene_.distance) {
-      if (!first.is_edge() && !second.is_edge() && first.body == second.body) return true;
-      return is_excluded(first, second) || is_excluded(second, first) ||
-             std::binary_search(waiting_.begin(), waiting_.end(), nodes_of_pair(first, second));
-    }
-    if (!scene_.lines) return false;
-    const LineCandidates& known = scene_.lines->candidates;
-    const auto has = [](const auto& pairs, const std::array<int, 4>& pair) {
-      return std::binary_search(pairs.begin(), pairs.end(), pair);
-    };
-    for (const auto& [a, b] : {std::pair(first.node, second.node), std::pair(second.node, first.node)}) {
-      const std::array<int, 4> pair{a[0], a[1], b[0], b[1]};
-      if (has(known.drawn, pair) || has(known.torn, pair)) return true;
-    }
-    return false;
+    if (!first.is_edge() && !second.is_edge() && first.body == second.body) return true;
+    return is_excluded(first, second) || is_excluded(second, first) ||
+           std::binary_search(waiting_.begin(), waiting_.end(), nodes_of_pair(first, second));
   }
 
   using NodesOfPair = std::array<int, 4>;
@@ -193,10 +181,9 @@ class SegmentProximity {
   }
   // Pairs that were nearer than their radii when they were laid bare, and have not been apart since.
   void collect_waiting() {
-    if (!scene_.distance) return;
-    const PairList& list = scene_.distance->pairs.edge_edge;
+    const PairList& list = scene_.pairs.edge_edge;
     const auto segment = [&](int e) {
-      const auto& node = scene_.distance->features.edge[static_cast<std::size_t>(e)].node;
+      const auto& node = scene_.features.edge[static_cast<std::size_t>(e)].node;
       AuditedSegment result;
       for (std::size_t k = 0; k < 2; ++k) result.node[k] = surface_.node[static_cast<std::size_t>(node[k])];
       return result;

@@ -232,14 +232,13 @@ void FeatureMotion::finish_raising(const SurfaceFeatures& features, ThreadTeam& 
 }
 
 void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surface& surface,
-                                    const SlaveSet& in_contact, std::span<const ContactMotion> corrected,
+                                    const SlaveSet& in_contact, std::span<const Eigen::Vector3d> corrected,
                                     double dt, std::span<const RigidMotion> bodies, ThreadTeam& team) {
   const std::size_t driven = bodies.empty() ? 0 : driven_.size();
   start_sums(driven + 1);
   bool exceeds = false;
   in_contact.for_each([&](std::size_t s) {
-    for (int axis = 0; axis < 3; ++axis)
-      node[s].end[axis] = node[s].start[axis] + dt * corrected[s].velocity[axis];
+    for (int axis = 0; axis < 3; ++axis) node[s].end[axis] = node[s].start[axis] + dt * corrected[s][axis];
     if (bodies.empty() || surface.rigid_body(surface.node[s]) < 0) exceeds = raise(s) || exceeds;
   });
   team.for_ranges(driven, features_a_range, [&](std::size_t begin, std::size_t end) {

@@ -15,7 +15,6 @@
 #include "contact/detection/features.hpp"
 #include "contact/rigid_motion.hpp"
 #include "contact/slave_set.hpp"
-#include "contact/solve.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 
@@ -53,7 +52,7 @@ class FeatureMotion {
   /// of rigid bodies by their bodies'. Looks ahead are as predicted, but for nodes that exceed their limits
   /// and the features at them, which look farther ahead from then on.
   void end_by_solution(const SurfaceFeatures& features, const Surface& surface, const SlaveSet& in_contact,
-                       std::span<const ContactMotion> corrected, double dt,
+                       std::span<const Eigen::Vector3d> corrected, double dt,
                        std::span<const RigidMotion> bodies, ThreadTeam& team);
   /// By how much nodes may move in this step: a factor times the displacement that is known of them, and a
   /// surplus.

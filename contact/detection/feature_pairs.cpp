@@ -162,8 +162,12 @@ CaptureBox FeaturePairs::edge_box(const Scene& scene, std::size_t edge) const {
 
 void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
                         const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team) {
-  const Scene scene{features, surface, excluded, share_of_buffer * options.reach_buffer * features.mean_edge,
-                    proximity_band * features.smallest_edge};
+  const Scene scene{features,
+                    surface,
+                    excluded,
+                    share_of_buffer * options.reach_buffer * features.mean_edge,
+                    proximity_band * features.smallest_edge,
+                    options.edges};
   ++searches_;
   changed_ = !changes_.empty();
   kept_node_face_.clear();
@@ -381,6 +385,7 @@ void FeaturePairs::add_node_face(const Scene& scene, int slave, int f) {
 void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
   const EdgeFeature& a = scene.features.edge[static_cast<std::size_t>(first)];
   const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
+  if (!scene.edges && a.of_face() && b.of_face()) return;
   if (share_node(a, b) || !kinds_meet(a, b) || on_one_face(a, b) || !may_meet(scene.surface, a, b)) return;
   const bool spaced = !one_piece(scene.surface, scene.excluded, a, b);
   if (!spaced && (a.kind == EdgeKind::cross_diagonal || b.kind == EdgeKind::cross_diagonal ||

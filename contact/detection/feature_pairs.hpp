@@ -95,6 +95,7 @@ class FeaturePairs {
     const Lists& excluded;
     double margin;  ///< of boxes of nodes
     double band;    ///< half of it for either feature
+    bool edges;     ///< whether edges of faces meet
   };
 
   bool is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "contact/candidates.hpp"
 #include "contact/face_geometry.hpp"
 #include "src/base/floating_point.hpp"
 
@@ -49,7 +48,9 @@ class Collector {
   }
 
   void set_node_radius(int slave) {
-    at(features_.node_radius, slave) = std::max(reach_of_node(surface_, options_, slave), features_.skin);
+    const auto s = static_cast<std::size_t>(slave);
+    features_.node_radius[s] = std::max({options_.shell_thickness_scale * surface_.radius[s],
+                                         surface_.radius_of_rounds(slave), features_.skin});
   }
 
   void add_face(int f) {

@@ -100,8 +100,8 @@ class Finder {
       const unsigned lanes = lane_bits(has_direction) & pack.lanes();
       store_directions(kind_.list, pack, lanes, normal);
       for_lanes(lane_bits(!(wake > ways.ahead)) & lanes & candidates(closest), [&](int lane) {
-        filter(closest, lane, pack.pair[lane], {normal.x[lane], normal.y[lane], normal.z[lane]},
-               length[lane], ways.reach[lane], found);
+        filter(closest, lane, pack.pair[lane], {normal.x[lane], normal.y[lane], normal.z[lane]}, length[lane],
+               ways.reach[lane], found);
       });
     }
   }

@@ -27,25 +27,24 @@ class Zones {
  public:
   Zones(ContactScene& scene, const Nodes& nodes, double dt, std::span<RigidMotion> bodies)
       : scene_(scene),
-        distance_(*scene.distance),
         nodes_(nodes),
         dt_(dt),
         bodies_(bodies),
         slaves_(static_cast<int>(scene.surface.slaves())) {
-    if (!distance_.zone_impulse.empty()) return;
-    distance_.zone_impulse.assign(scene.surface.slaves(), Vector3d::Zero());
-    distance_.zone_of.resize(scene.surface.slaves() + bodies.size());
-    for (std::size_t u = 0; u < distance_.zone_of.size(); ++u) distance_.zone_of[u] = static_cast<int>(u);
+    if (!scene_.zone_impulse.empty()) return;
+    scene_.zone_impulse.assign(scene.surface.slaves(), Vector3d::Zero());
+    scene_.zone_of.resize(scene.surface.slaves() + bodies.size());
+    for (std::size_t u = 0; u < scene_.zone_of.size(); ++u) scene_.zone_of[u] = static_cast<int>(u);
   }
 
   void run() {
-    for (const Hit& hit : distance_.guard.hits) {
+    for (const Hit& hit : scene_.guard.hits) {
       const int count = hit.kind == PairKind::node_face ? 5 : 4;
       const auto nodes = nodes_of(hit);
       for (int k = 1; k < count; ++k) join(unit(nodes[0]), unit(nodes[static_cast<std::size_t>(k)]));
     }
     std::vector<std::pair<int, int>> members;  // (zone, unit)
-    for (int u = 0; u < static_cast<int>(distance_.zone_of.size()); ++u)
+    for (int u = 0; u < static_cast<int>(scene_.zone_of.size()); ++u)
       if (const int zone = find(u); zone != u) {
         members.emplace_back(zone, zone);
         members.emplace_back(zone, u);
@@ -64,15 +63,15 @@ class Zones {
 
  private:
   std::array<int, 5> nodes_of(const Hit& hit) const {
-    const FeaturePairs& pairs = distance_.pairs;
+    const FeaturePairs& pairs = scene_.pairs;
     if (hit.kind == PairKind::node_face) {
       const Face& face = scene_.surface.face[static_cast<std::size_t>(pairs.node_face.second[hit.pair])];
       std::array<int, 5> nodes{pairs.node_face.first[hit.pair]};
       for (std::size_t k = 0; k < 4; ++k) nodes[k + 1] = scene_.surface.slave(face.node[k]);
       return nodes;
     }
-    const auto& a = distance_.features.edge[static_cast<std::size_t>(pairs.edge_edge.first[hit.pair])];
-    const auto& b = distance_.features.edge[static_cast<std::size_t>(pairs.edge_edge.second[hit.pair])];
+    const auto& a = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.first[hit.pair])];
+    const auto& b = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.second[hit.pair])];
     return {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
   }
 
@@ -83,14 +82,14 @@ class Zones {
     return body < 0 ? slave : slaves_ + body;
   }
   int find(int u) {
-    int& zone = distance_.zone_of[static_cast<std::size_t>(u)];
+    int& zone = scene_.zone_of[static_cast<std::size_t>(u)];
     if (zone != u) zone = find(zone);
     return zone;
   }
   void join(int a, int b) {
     a = find(a);
     b = find(b);
-    if (a != b) distance_.zone_of[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    if (a != b) scene_.zone_of[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
 
   bool is_body(int u) const { return u >= slaves_; }
@@ -99,14 +98,14 @@ class Zones {
     return static_cast<std::size_t>(scene_.surface.node[static_cast<std::size_t>(u)]);
   }
   bool has_mass(int u) const { return is_body(u) || nodes_.record[global(u)].inverse_mass > 0; }
-  Vector3d velocity_of(int u) const { return distance_.motion.displacement(u) / dt_; }
+  Vector3d velocity_of(int u) const { return scene_.motion.displacement(u) / dt_; }
 
   Member member(int u) const {
     if (is_body(u)) {
       const RigidMotion& motion = body(u);
       return {motion.mass, motion.centre, motion.velocity, motion.inertia, motion.angular_velocity};
     }
-    return {1 / nodes_.record[global(u)].inverse_mass, distance_.motion.start(u), velocity_of(u)};
+    return {1 / nodes_.record[global(u)].inverse_mass, scene_.motion.start(u), velocity_of(u)};
   }
 
   static bool is_given(const RigidMotion& motion) {
@@ -114,7 +113,7 @@ class Zones {
   }
 
   void move(const std::vector<int>& units) {
-    ++distance_.zones;
+    ++scene_.zones;
     const RigidMotion* leader = nullptr;
     std::vector<Member> members;
     Vector3d given = Vector3d::Zero();
@@ -145,7 +144,7 @@ class Zones {
     for (int u : units) set(u, velocity + turning.cross(position(u) - centre), turning);
   }
 
-  Vector3d position(int u) const { return is_body(u) ? body(u).centre : distance_.motion.start(u); }
+  Vector3d position(int u) const { return is_body(u) ? body(u).centre : scene_.motion.start(u); }
 
   static void mean_motion(const std::vector<Member>& members, Vector3d& centre, Vector3d& velocity) {
     double mass = 0;
@@ -185,17 +184,14 @@ class Zones {
     if (!has_mass(u)) return;
     const auto s = static_cast<std::size_t>(u);
     const Vector3d before = velocity_of(u);
-    ContactMotion& motion = scene_.motion[s];
-    for (int axis = 0; axis < 3; ++axis) {
-      motion.inverse_mass[axis] = nodes_.free_inverse_mass(global(u), axis);
-      motion.velocity[axis] = motion.inverse_mass[axis] > 0 ? velocity[axis] : before[axis];
-    }
-    distance_.zone_impulse[s] += (Vector3d(motion.velocity) - before) / nodes_.record[global(u)].inverse_mass;
+    Vector3d& after = scene_.velocity[s];
+    for (int axis = 0; axis < 3; ++axis)
+      after[axis] = nodes_.free_inverse_mass(global(u), axis) > 0 ? velocity[axis] : before[axis];
+    scene_.zone_impulse[s] += (after - before) / nodes_.record[global(u)].inverse_mass;
     scene_.in_contact.insert(u);
   }
 
   ContactScene& scene_;
-  DistanceContact& distance_;
   const Nodes& nodes_;
   double dt_;
   std::span<RigidMotion> bodies_;

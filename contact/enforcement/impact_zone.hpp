@@ -13,7 +13,7 @@ namespace brio {
 struct ContactScene;
 
 /// Join the nodes of the present hits to zones, those of earlier calls in the step included, and move each
-/// zone as one. Node velocities stand in scene.motion, impulses are added to DistanceContact::zone_impulse.
+/// zone as one. Node velocities stand in ContactScene::velocity, impulses are added to its zone_impulse.
 void move_zones_as_one(ContactScene& scene, const Nodes& nodes, double dt, std::span<RigidMotion> bodies);
 
 }  // namespace brio

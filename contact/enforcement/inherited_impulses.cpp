@@ -48,7 +48,8 @@ void inherit_impulses(std::span<const Contact> last, double step_ratio, std::spa
       for (std::size_t j = old_begin; j < old_end && found[i] == 0; ++j) {
         if (taken[j] != 0 || !same_pair(last[j], contacts[i]) || !inherits(contacts[i], last[j])) continue;
         add(last[j], step_ratio, contacts[i]);
-        if (last[j].impulse > 0) contacts[i].sunk = std::max(std::min(last[j].gap, 0.0) - contacts[i].gap, 0.0);
+        if (last[j].impulse > 0)
+          contacts[i].sunk = std::max(std::min(last[j].gap, 0.0) - contacts[i].gap, 0.0);
         taken[j] = found[i] = 1;
       }
     const auto is_heir = [&](std::size_t i, const Contact& ended) {

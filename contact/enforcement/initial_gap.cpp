@@ -66,7 +66,7 @@ class GapMaker {
  public:
   GapMaker(ContactScene& scene, Nodes& nodes, ThreadTeam& team)
       : scene_(scene),
-        features_(scene.distance->features),
+        features_(scene.features),
         surface_(scene.surface),
         nodes_(nodes),
         team_(team),
@@ -393,6 +393,7 @@ class GapMaker {
 }  // namespace
 
 std::vector<InitialOverlap> make_initial_gap(ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
+  if (scene.surface.node.empty()) return {};
   return GapMaker(scene, nodes, team).run();
 }
 

@@ -9,15 +9,32 @@
 /// motion that are prescribed, nodes of rigid bodies, and nodes that a tie holds, which follow what holds
 /// them.
 
-#include "contact/overlap.hpp"
+#include <string>
+#include <vector>
+
+#include "contact/scene.hpp"
 
 namespace brio {
 
-/// Find overlaps and move nodes until every pair is at its radii, as remove_initial_overlap. Where nothing is
-/// wrong but that the gap is missing, and there is no room for it, what is apart stays as it is.
-/// \throws std::invalid_argument naming parts and place where an overlap is deeper than the limit of the
-/// options, cannot be removed, or surfaces cross.
-/// \pre scene.distance
+/// What was found between two parts.
+struct InitialOverlap {
+  std::string node_part;  ///< the part whose nodes lie too deep ...
+  std::string face_part;  ///< ... in, or too close to, this one
+  double depth = 0;       ///< the deepest; 0: nothing was missing but the gap of contact
+  int nodes = 0;
+  double moved = 0;  ///< how far the nodes of both were moved at most
+  double gap = 0;    ///< that is kept between them beyond their thickness
+
+  bool is_overlap() const { return depth > 0; }
+};
+
+/// Find overlaps and move nodes until every pair is at its radii, so that they cost neither strain nor
+/// energy: everything formed from the mesh (masses, reference lengths) must be formed afterwards. Nodes
+/// prescribed along an axis are not moved along it. Where nothing is wrong but that the gap is missing, and
+/// there is no room for it, what is apart stays as it is. Shells that begin closer to their own part than
+/// their thickness keep doing so: they are excluded from testing each other. \returns one entry for each pair
+/// of parts, empty where the mesh is clean \throws std::invalid_argument naming parts and place where an
+/// overlap is deeper than the limit of the options, cannot be removed, or surfaces cross.
 std::vector<InitialOverlap> make_initial_gap(ContactScene& scene, Nodes& nodes, ThreadTeam& team);
 
 }  // namespace brio

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "contact/enforcement/initial_gap.hpp"
 #include "contact/erosion.hpp"
-#include "contact/overlap.hpp"
 #include "contact/scene.hpp"
 #include "contact/surface.hpp"
 #include "src/base/nodes.hpp"
@@ -126,7 +126,7 @@ class SpringModel {
     make_erodible(scene, erodible, nodes);
   }
   /// Delete elements with their springs; mass stays on the nodes.
-  void erode(std::span<const SurfaceElement> deleted, ThreadTeam& team) {
+  void erode(std::span<const SurfaceElement> deleted) {
     for (const auto& [part, element] : deleted) {
       const Piece& piece = pieces_[static_cast<std::size_t>(part)];
       const int springs = piece.shell ? 6 : 28;
@@ -140,9 +140,8 @@ class SpringModel {
       for (std::size_t i = piece.first_bending; i < piece.end; ++i)
         if (is_corner(springs_[i].a) || is_corner(springs_[i].b)) springs_[i].broken = true;
     }
-    brio::erode(scene, deleted, nodes, team);
+    brio::erode(scene, deleted);
   }
-  void erode(std::span<const SurfaceElement> deleted) { erode(deleted, alone_); }
 
   /// What the contact surface is made of.
   std::vector<SurfacePart> parts() const {
@@ -155,13 +154,13 @@ class SpringModel {
     return parts;
   }
   ThreadTeam& alone() { return alone_; }
-  /// Take the present positions as those without strain.
   /// Bodies that touch are moved apart by the gap of contact, at rest.
   void make_gap() {
     ThreadTeam team(1);
-    remove_initial_overlap(scene, nodes, team);
+    make_initial_gap(scene, nodes, team);
     rest();
   }
+  /// Take the present positions as those without strain.
   void rest() {
     for (Spring& spring : springs_) spring.length = (x(spring.a) - x(spring.b)).norm();
   }

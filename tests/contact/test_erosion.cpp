@@ -11,73 +11,6 @@
 namespace brio::test {
 namespace {
 
-// Pairs of slave nodes and faces that are not excluded.
-template <class Visit>
-void for_pairs(const ContactScene& scene, const Visit& visit) {
-  const Surface& surface = scene.surface;
-  for (int s = 0; s < static_cast<int>(surface.slaves()); ++s)
-    for (int f = 0; f < static_cast<int>(surface.face.size()); ++f)
-      if (surface.node[static_cast<std::size_t>(s)] >= 0 &&
-          surface.face[static_cast<std::size_t>(f)].alive() && !is_excluded(scene.excluded, s, f))
-        visit(s, f);
-}
-
-// Whether a node comes within reach of a face, axis by axis, at some time as far ahead as constraints look.
-bool within_reach(const SpringModel& model, int slave, int face, double ahead) {
-  const Surface& surface = model.scene.surface;
-  const Face& f = surface.face[static_cast<std::size_t>(face)];
-  const double reach = influence(surface, model.scene.options, model.scene.candidates, face) +
-                       surface.radius[static_cast<std::size_t>(slave)];
-  const int node = surface.node[static_cast<std::size_t>(slave)];
-  const Vector3d x = model.x(node) + ahead * model.v(node);
-  Vector3d lower = Vector3d::Constant(HUGE_VAL);
-  Vector3d upper = -lower;
-  for (int corner : f.node) {
-    lower = lower.cwiseMin(model.x(corner) + ahead * model.v(corner));
-    upper = upper.cwiseMax(model.x(corner) + ahead * model.v(corner));
-  }
-  return ((x - lower).array() > -reach).all() && ((upper - x).array() > -reach).all();
-}
-
-// Candidates of everything with everything.
-Candidates all_pairs(const ContactScene& scene) {
-  Candidates all = scene.candidates;
-  all.faces_of.start_packed(scene.surface.slaves());
-  all.faces_of.item.clear();
-  all.faces_of.loosen();
-  all.face.clear();
-  for_pairs(scene, [&](int s, int f) { all.faces_of.insert(s, f); });
-  for (int f = 0; f < static_cast<int>(scene.surface.face.size()); ++f)
-    if (scene.surface.face[static_cast<std::size_t>(f)].alive()) all.face.push_back(f);
-  return all;
-}
-
-// The state before `resolve`: do candidates hold all that may meet, and does detection find what it finds
-// among all pairs?
-void expect_complete_candidates(SpringModel& model, double dt) {
-  ContactScene& scene = model.scene;
-  ThreadTeam team(1);
-  scene.travel.follow(scene.surface, model.nodes, scene.candidates.point, dt, team);
-  refresh(scene.candidates, scene.surface, scene.excluded, scene.options, model.nodes, scene.travel, team);
-  for_pairs(scene, [&](int s, int f) {
-    if (!within_reach(model, s, f, 0) && !within_reach(model, s, f, approach_share * dt)) return;
-    const auto known = scene.candidates.faces_of.of(s);
-    ASSERT_TRUE(std::binary_search(known.begin(), known.end(), f)) << "slave " << s << " face " << f;
-  });
-  Detection detection, detection_of_all;
-  std::vector<Contact> found, of_all;
-  detect(detection, scene.surface, scene.candidates, scene.options, model.nodes, scene.travel, scene.contacts,
-         team, found);
-  detect(detection_of_all, scene.surface, all_pairs(scene), scene.options, model.nodes, scene.travel,
-         scene.contacts, team, of_all);
-  ASSERT_EQ(found.size(), of_all.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    ASSERT_EQ(found[i].slave, of_all[i].slave);
-    ASSERT_EQ(found[i].face, of_all[i].face);
-    ASSERT_EQ(found[i].gap, of_all[i].gap);
-  }
-}
-
 std::vector<SurfaceElement> some_of(std::vector<SurfaceElement>& living, std::size_t count,
                                     std::mt19937& random) {
   std::shuffle(living.begin(), living.end(), random);
@@ -107,31 +40,6 @@ void build_impact(SpringModel& model, const ContactOptions& options) {
 }
 constexpr std::initializer_list<int> impact_elements{48, 18, 16};
 
-TEST(Erosion, CandidatesMissNothingBetweenSearches) {
-  ContactOptions options;
-  options.reach_buffer = 0.5;
-  std::mt19937 random(5);
-  for (const int at_once : {1, 5}) {
-    SpringModel model;
-    build_impact(model, options);
-    std::vector<SurfaceElement> living = elements_of_parts(impact_elements);
-    const double dt = 1e-3;
-    int searches = 0;
-    int most_active = 0;
-    for (int i = 0; i < 300; ++i) {
-      model.accelerate(dt);
-      ASSERT_NO_FATAL_FAILURE(expect_complete_candidates(model, dt)) << "step " << i;
-      resolve(model.scene, model.nodes, dt, model.alone());
-      searches = static_cast<int>(model.scene.candidates.counts.searches);
-      most_active = std::max(most_active, model.scene.step.active);
-      model.move(dt);
-      if (i % 5 == 0) model.erode(some_of(living, static_cast<std::size_t>(at_once), random));
-    }
-    EXPECT_LT(searches, 60) << "most steps were made without a search";
-    EXPECT_GT(most_active, 10);
-  }
-}
-
 TEST(Erosion, SameBitsForAnyNumberOfThreads) {
   std::vector<Vector3d> first;
   for (const int threads : {1, 2, 4}) {
@@ -144,7 +52,7 @@ TEST(Erosion, SameBitsForAnyNumberOfThreads) {
     std::vector<SurfaceElement> living = elements_of_parts(impact_elements);
     for (int i = 0; i < 200; ++i) {
       model.step(1e-3, team);
-      if (i % 3 == 0) model.erode(some_of(living, 1, random), team);
+      if (i % 3 == 0) model.erode(some_of(living, 1, random));
     }
     std::vector<Vector3d> end;
     for (int n = 0; n < model.count(); ++n) end.push_back(model.x(n));
@@ -155,7 +63,7 @@ TEST(Erosion, SameBitsForAnyNumberOfThreads) {
 }
 
 // A block whose thin middle layer goes while both halves are pressed together: what is laid bare meets in the
-// very next step, without a search.
+// very next step.
 TEST(Erosion, FacesLaidBareTouchInTheSameStep) {
   for (const bool turned : {false, true}) {
     SpringModel model;
@@ -182,7 +90,6 @@ TEST(Erosion, FacesLaidBareTouchInTheSameStep) {
     for (int i = 0; i < 400; ++i) {
       model.step(dt);
       if (i == 0) {
-        EXPECT_FALSE(model.scene.step.searched);
         EXPECT_GE(model.scene.step.active, 16) << "every node of one side at least";
       }
       if (i % 20 != 0) continue;
@@ -243,7 +150,6 @@ TEST(Erosion, NodesLaidBareCarryWhatComesDown) {
   ThreadTeam team(1);
   for (int i = 0; i < 50; ++i) {
     model.step(2e-3);
-    EXPECT_FALSE(model.scene.step.searched);
     if (i == 0) {
       EXPECT_EQ(model.scene.step.contacts, 16) << "twelve at the rim and four that were inside";
     }

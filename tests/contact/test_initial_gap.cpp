@@ -4,7 +4,6 @@
 
 #include "contact/closest_segments.hpp"
 #include "contact/face_geometry.hpp"
-#include "contact/overlap.hpp"
 #include "tests/contact/spring_model.hpp"
 
 // The start of contact by distances: what touches or overlaps a little is moved apart to its radii.
@@ -31,7 +30,6 @@ class RestingScene {
   /// \param prepare prescribes or makes rigid, after the nodes are there.
   void begin(const std::function<void(std::vector<SurfacePart>&, Nodes&)>& prepare = {}) {
     ContactOptions options;
-    options.rule = DetectionRule::distance;
     model.start(options);
     const auto first = static_cast<std::size_t>(model.count());
     nodes = Nodes(first + extra.size(), false);
@@ -46,7 +44,7 @@ class RestingScene {
     parts.insert(parts.end(), more.begin(), more.end());
     if (prepare) prepare(parts, nodes);
     scene = make_contact_scene(options, parts, nodes);
-    report = remove_initial_overlap(scene, nodes, model.alone());
+    report = make_initial_gap(scene, nodes, model.alone());
   }
 
   Vector3d x(int n) const { return position(nodes, n); }
@@ -56,11 +54,11 @@ class RestingScene {
     for (int n = 0; n < static_cast<int>(nodes.size()); ++n) most = std::max(most, moved(n).norm());
     return most;
   }
-  double skin() const { return scene.distance->features.skin; }
+  double skin() const { return scene.features.skin; }
 
   /// The most that is missing at any pair of features of two bodies, by brute force.
   double missing() const {
-    const SurfaceFeatures& features = scene.distance->features;
+    const SurfaceFeatures& features = scene.features;
     const Surface& surface = scene.surface;
     const auto at = [&](int slave) { return x(surface.node[static_cast<std::size_t>(slave)]); };
     double most = -1;

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "contact/face_geometry.hpp"
-#include "contact/resolution.hpp"
+#include "contact/scene.hpp"
 #include "src/base/floating_point.hpp"
 #include "tests/contact/spring_model.hpp"
 
@@ -188,7 +188,6 @@ class FreePieces {
 
 ContactOptions by_distance(double coefficient = friction) {
   ContactOptions options;
-  options.rule = DetectionRule::distance;
   options.friction = coefficient;
   options.passes = 100;
   return options;

@@ -151,7 +151,7 @@ TEST(ExtremesOverlap, BeamsAndParticlesInOnePlaceAreRefused) {
       deck.materials = {{"material", elastic(0.3)}};
       deck.parts = {body(kind, "one"), body(kind, "two")};
       deck.parts[1].placement.translate = {aside, 0.5 * aside, 0.3 * aside};
-      deck.contact.emplace().options.rule = DetectionRule::distance;
+      deck.contact.emplace();
       deck.time.end = 1e-3;
       const std::string text = refusal(deck);
       EXPECT_NE(text.find("contact: part 'one' overlaps part 'two' by"), std::string::npos)
@@ -225,7 +225,7 @@ TEST(ExtremesGrazing, ABlockThatPassesWithinTheGapIsNotHeldUp) {
     deck.parts = {box("lower", {0.4, 0.4, 0.4}, {4, 4, 4}, {0, 0, -0.2}, hex8()),
                   box("upper", {0.2, 0.2, 0.2}, {3, 3, 3}, {-0.45, 0.017, 0.1 + clearance}, hex8())};
     deck.initial_conditions = {moving("upper", {100, 0, 0})};
-    deck.contact.emplace().options.rule = DetectionRule::distance;
+    deck.contact.emplace();
     deck.time.end = 9e-3;
     const Watched watched(deck, 20);
     EXPECT_NEAR(mean_velocity(watched.model, 1, 0), 100, 1e-5);

@@ -185,17 +185,6 @@ TEST(HertzSlow, TwoBallsOfDifferentMeshes) {
   }
 }
 
-// What is not yet a constraint when surfaces flatten is opened by no force: restitution stays below one.
-TEST(HertzSlow, TwoBallsByDistances) {
-  for (int lower : {20, 24}) {
-    Settings settings{steel(), hex8()};
-    settings.deck.contact.emplace().options.rule = DetectionRule::distance;
-    const Blow blow = on_each_other(20, lower, settings);
-    report("balls by distances", lower, blow, balls);
-    expect_hertz(blow, balls, 0.05);
-  }
-}
-
 double error(double figure, double exact) { return std::abs(figure / exact - 1); }
 
 // Mean over meshes: that of one is a matter of where its nodes lie below the edge of the contact.

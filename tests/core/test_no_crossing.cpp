@@ -15,9 +15,8 @@ using namespace test;
 
 constexpr double wave_speed = 1000;  // of the material of the scenes
 
-ContactSection by_distances(double friction) {
+ContactSection with_friction(double friction) {
   ContactSection contact;
-  contact.options.rule = DetectionRule::distance;
   contact.options.friction = friction;
   return contact;
 }
@@ -52,7 +51,7 @@ Outcome run_looking(Deck& deck, int steps_between_looks = 10, int threads = 1) {
         std::abs(after.total.linear[axis] - before.total.linear[axis] - model.momentum.walls.linear[axis]) /
             std::max(before.linear_size, 1e-300));
   outcome.energy_error = std::abs(model.energy.relative_error());
-  outcome.unresolved = model.contacts[0].distance->unresolved;
+  outcome.unresolved = model.contacts[0].unresolved;
   return outcome;
 }
 
@@ -73,7 +72,7 @@ Deck thrown_cubes(int elements, double speed) {
     deck.parts.push_back(cube);
     deck.initial_conditions.push_back(moving(cube.name, velocity));
   }
-  deck.contact = by_distances(0.1);
+  deck.contact = with_friction(0.1);
   deck.time.end = 3.0 / speed;
   deck.time.step_scale = 0.6;
   return deck;
@@ -138,7 +137,7 @@ Deck block_on_sheet(double thickness, double speed) {
   deck.parts = {block, {"sheet", mesh, {}, element, "material"}};
   deck.boundary_conditions = {fix("sheet.boundary", {0, 1, 2})};
   deck.initial_conditions = {moving("block", {0, 0, -speed})};
-  deck.contact = by_distances(0);
+  deck.contact = with_friction(0);
   deck.time.end = 1.5 / speed;
   return deck;
 }
@@ -169,7 +168,7 @@ TEST(FacetsOfAFloor, DoNotStopABlock) {
   deck.parts = {block, floor};
   deck.boundary_conditions = {fix("floor.all", {0, 1, 2})};
   deck.initial_conditions = {moving("block", {10, 1, 0})};
-  deck.contact = by_distances(0);
+  deck.contact = with_friction(0);
   deck.time.end = 0.3;
   Model model = build_model(deck);
   ThreadTeam team(1);

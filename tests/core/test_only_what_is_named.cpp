@@ -53,7 +53,7 @@ TEST(OnlyWhatIsNamed, HexahedraAloneRunElementsAndNodes) {
   expect_only_hexahedra(ran.model);
 }
 
-TEST(OnlyWhatIsNamed, ContactOfHexahedraWithoutEdgesRunsNoLines) {
+TEST(OnlyWhatIsNamed, ContactOfHexahedraWithoutEdgesPairsNone) {
   Deck deck = blocks();
   deck.contact.emplace();
   deck.contact->options.edges = false;
@@ -62,22 +62,21 @@ TEST(OnlyWhatIsNamed, ContactOfHexahedraWithoutEdgesRunsNoLines) {
   ASSERT_EQ(ran.model.contacts.size(), 1u);
   const ContactScene& scene = ran.model.contacts[0];
   EXPECT_GT(scene.totals.contacts, 0u);
-  EXPECT_FALSE(scene.lines.has_value());
+  EXPECT_GT(scene.pairs.node_face.size(), 0u);
+  EXPECT_EQ(scene.pairs.edge_edge.size(), 0u);
   EXPECT_TRUE(scene.surface.round.empty());
   EXPECT_FALSE(scene.erosion.has_value());
   expect_only_hexahedra(ran.model);
 }
 
-// Edges that may meet are lines; nodes of faces are none of them where there are no beams.
-TEST(OnlyWhatIsNamed, ContactOfHexahedraHoldsTheirSharpEdgesAlone) {
+TEST(OnlyWhatIsNamed, ContactOfHexahedraHoldsNoBeamsNorPoints) {
   Deck deck = blocks();
   deck.contact.emplace();
   const Ran ran = run_through(deck);
-  EXPECT_EQ(ran.stages,
-            (std::set<std::string>{"elements", "nodes", "contact", "contact_search", "contact_lines"}));
+  EXPECT_EQ(ran.stages, (std::set<std::string>{"elements", "nodes", "contact", "contact_search"}));
   const ContactScene& scene = ran.model.contacts[0];
-  EXPECT_EQ(scene.lines->candidates.line.size(), 2u * 12 * 2);
-  for (const Line& line : scene.lines->candidates.line) EXPECT_EQ(line.kind, LineKind::solid_edge);
+  EXPECT_GT(scene.pairs.edge_edge.size(), 0u);
+  for (const EdgeFeature& edge : scene.features.edge) EXPECT_TRUE(edge.of_face());
   EXPECT_TRUE(scene.surface.round.empty());
   expect_only_hexahedra(ran.model);
 }

@@ -222,7 +222,7 @@ TEST(BuiltFeatures, NameTheKeyThatAskedForThem) {
   const Model model = build_model(deck);
   const std::vector<BuiltFeature> features = built_features(deck, model);
   EXPECT_EQ(names_of(features), (std::vector<std::string>{"nodes", "hex8", "elastic", "prescribed motion",
-                                                          "contact", "contact of lines", "friction"}));
+                                                          "contact", "friction"}));
   EXPECT_EQ(features[1].because, "parts.lower.element, parts.upper.element");
   EXPECT_EQ(features[1].detail, "54 elements");
   EXPECT_EQ(features[3].because, "boundary_conditions[0]");

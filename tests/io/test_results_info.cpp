@@ -90,18 +90,20 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
   EXPECT_EQ(keys(json["hourglass_ratio_max"]), (Names{"value", "part", "time"}));
   EXPECT_EQ(keys(json["momentum"]), (Names{"linear", "angular"}));
   EXPECT_EQ(keys(json["contact"]),
-            (Names{"searches", "comparisons", "candidate_pairs", "bodies", "lines", "line_comparisons",
-                   "line_candidate_pairs", "active_max", "penetration_max", "missed"}));
+            (Names{"searches", "comparisons", "candidate_pairs", "bodies", "constraints_total", "passes_mean",
+                   "certified_share", "last_resort_uses", "unresolved", "active_max", "penetration_max",
+                   "missed"}));
   Summary audited = summary();
   audited.contact.audits.emplace();
   audited.contact.audits->crossings = 3;
   const auto clean = nlohmann::ordered_json::parse(summary_json(audited));
   EXPECT_FALSE(json.contains("crossings")) << "nobody looked";
   EXPECT_EQ(clean["crossings"], 3);
-  Names of_audits{
-      "searches",         "comparisons",          "candidate_pairs", "bodies",          "lines",
-      "line_comparisons", "line_candidate_pairs", "active_max",      "penetration_max", "missed",
-      "audited_dumps",    "crossed_dumps",        "deep_crossings",  "too_close",       "swallowed"};
+  Names of_audits{"searches",          "comparisons",   "candidate_pairs", "bodies",
+                  "constraints_total", "passes_mean",   "certified_share", "last_resort_uses",
+                  "unresolved",        "active_max",    "penetration_max", "missed",
+                  "audited_dumps",     "crossed_dumps", "deep_crossings",  "too_close",
+                  "swallowed"};
   EXPECT_EQ(keys(clean["contact"]), of_audits);
   audited.contact.audits->deepest_crossing = {.depth = 0.5, .time = 2, .node = 7, .parts = {"a", "b"}};
   audited.contact.audits->deepest_too_close = {.depth = 0.25, .time = 1, .node = 8, .parts = {"b", "a"}};

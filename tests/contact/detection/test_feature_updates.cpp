@@ -26,7 +26,7 @@ auto content_of(const EdgeFeature& edge) {
 }
 
 void expect_as_collected_anew(const ContactScene& scene) {
-  const SurfaceFeatures& mended = scene.distance->features;
+  const SurfaceFeatures& mended = scene.features;
   SurfaceFeatures anew = mended;
   collect(anew, scene.surface, scene.options);
   std::map<EdgeName, const EdgeFeature*> known;
@@ -71,26 +71,25 @@ std::set<std::pair<int, int>> listed(const PairList& pairs) {
 
 // What is near where the nodes are now is listed; nothing listed is dead.
 void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
-  const DistanceContact& distance = *scene.distance;
   FeatureMotion still;
   FeaturePairs near;
   ThreadTeam team(1);
-  still.begin(distance.features, scene.surface, nodes, team);
-  still.end_by_velocity(distance.features, scene.surface, nodes, 0, {}, team);
+  still.begin(scene.features, scene.surface, nodes, team);
+  still.end_by_velocity(scene.features, scene.surface, nodes, 0, {}, team);
   ContactOptions options = scene.options;
   options.reach_buffer = 1e-6;
-  near.find(distance.features, scene.surface, scene.excluded, options, still, team);
-  const auto all_nodes = listed(distance.pairs.node_face), near_nodes = listed(near.node_face);
+  near.find(scene.features, scene.surface, scene.excluded, options, still, team);
+  const auto all_nodes = listed(scene.pairs.node_face), near_nodes = listed(near.node_face);
   EXPECT_TRUE(std::includes(all_nodes.begin(), all_nodes.end(), near_nodes.begin(), near_nodes.end()));
-  const auto all_edges = listed(distance.pairs.edge_edge), near_edges = listed(near.edge_edge);
+  const auto all_edges = listed(scene.pairs.edge_edge), near_edges = listed(near.edge_edge);
   EXPECT_TRUE(std::includes(all_edges.begin(), all_edges.end(), near_edges.begin(), near_edges.end()));
   for (const auto& [s, f] : all_nodes) {
     ASSERT_GE(scene.surface.node[static_cast<std::size_t>(s)], 0);
     ASSERT_TRUE(scene.surface.face[static_cast<std::size_t>(f)].alive());
   }
   for (const auto& [a, b] : all_edges) {
-    ASSERT_TRUE(distance.features.edge[static_cast<std::size_t>(a)].alive());
-    ASSERT_TRUE(distance.features.edge[static_cast<std::size_t>(b)].alive());
+    ASSERT_TRUE(scene.features.edge[static_cast<std::size_t>(a)].alive());
+    ASSERT_TRUE(scene.features.edge[static_cast<std::size_t>(b)].alive());
   }
 }
 
@@ -107,7 +106,6 @@ TEST(FeatureUpdates, AreAsCollectedAnewButForNumbers) {
                        {0.1, 0, -1});
       model.throw_from(model.add_sheet({4, 4}, {1, 1}, 0.05, 20, shifted({-0.1, -0.1, 1.15})), {0, 0.1, -2});
       ContactOptions options;
-      options.rule = DetectionRule::distance;
       model.start_erodible(options);
       std::vector<SurfaceElement> living;
       for (const auto& [part, count] : {std::pair(0, 48), std::pair(1, 18), std::pair(2, 16)})
@@ -121,7 +119,7 @@ TEST(FeatureUpdates, AreAsCollectedAnewButForNumbers) {
         resolve(model.scene, model.nodes, dt, model.alone());
         ASSERT_NO_FATAL_FAILURE(expect_as_collected_anew(model.scene)) << "step " << i;
         ASSERT_NO_FATAL_FAILURE(expect_no_pair_missing(model.scene, model.nodes)) << "step " << i;
-        most_pairs = std::max(most_pairs, model.scene.distance->pairs.edge_edge.size());
+        most_pairs = std::max(most_pairs, model.scene.pairs.edge_edge.size());
         model.move(dt);
         if (i % 2 == 1) continue;
         const std::size_t count = std::min(at_once, living.size());

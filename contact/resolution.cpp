@@ -58,7 +58,7 @@ class Resolution {
       if (round == 0) ++scene_.steps_with_hits;
       ++scene_.rounds;
       if (round >= most_rounds + most_zone_rounds) {
-        ++scene_.unresolved;
+        if (++scene_.unresolved.steps == 1) name_unresolved();
         break;
       }
       if (round >= most_rounds) {
@@ -80,6 +80,14 @@ class Resolution {
   static constexpr double behind_wall = 1e-9;
   /// Iterations of the solver for one pass of the options.
   static constexpr int iterations_a_pass = 10;
+
+  void name_unresolved() {
+    if (scene_.guard.hits.empty()) return;
+    const Hit& hit = scene_.guard.hits.front();
+    const Contact& contact = hit.at_hit ? *hit.at_hit : hit.at_start;
+    const auto node = [&](int k) { return scene_.surface.node[index(contact.node[index(k)])]; };
+    scene_.unresolved.node = {node(0), node(contact.own)};
+  }
 
   void find_constraints() {
     scene_.motion.begin(scene_.features, scene_.surface, nodes_, team_);
@@ -130,12 +138,13 @@ class Resolution {
       scene_.row_of_contact.push_back(known + i - first);
     add_rows(rows_, sources(), std::span<const Contact>(scene_.contacts).subspan(first));
     for (std::size_t i = first; i < scene_.contacts.size(); ++i)
-      set_target(rows_.rows.row[known + i - first], scene_.contacts[i].sunk);
+      set_target(rows_.rows.row[known + i - first], scene_.contacts[i].found_gap);
   }
   void add_wall_rows_from(std::size_t first) {
     const std::size_t known = rows_.rows.size();
     add_rows(rows_, sources(), walls_, std::span<const NodeAtWall>(scene_.walls.touch).subspan(first));
-    for (std::size_t i = known; i < rows_.rows.size(); ++i) set_target(rows_.rows.row[i], 0);
+    for (std::size_t i = known; i < rows_.rows.size(); ++i)
+      set_target(rows_.rows.row[i], rows_.rows.row[i].gap);
   }
   ConstraintRow& row_of(std::size_t contact) { return rows_.rows.row[scene_.row_of_contact[contact]]; }
 
@@ -150,14 +159,14 @@ class Resolution {
     return true;
   }
 
-  void set_target(ConstraintRow& row, double sunk) const {
+  void set_target(ConstraintRow& row, double found_gap) const {
     const Recovery recovery = recovery_of(scene_.options, scene_.features.smallest_edge);
     double mass = 0;
     if (row.gap < 0 && row.impulse > 0) {
       const double inverse = RowMap(rows_.rows, row).inverse_mass(row.normal, rows_.block);
       mass = inverse > 0 ? 1 / inverse : 0;
     }
-    row.target_velocity = target_velocity(recovery, row.gap, row.impulse, mass, sunk, dt_);
+    row.target_velocity = target_velocity(recovery, row.gap, found_gap, row.impulse, mass, dt_);
   }
 
   void solve(bool anew) {
@@ -226,7 +235,7 @@ class Resolution {
       ConstraintRow& row = row_of(i);
       if (row.gap == scene_.contacts[i].gap) continue;
       row.gap = scene_.contacts[i].gap;
-      set_target(row, 0);
+      set_target(row, row.gap);
     }
     add_rows_from(known);
   }

@@ -7,6 +7,7 @@
 ///
 /// Only velocities are changed. Allocates nothing once as many pairs and contacts have been seen.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -91,7 +92,13 @@ struct ContactScene {
   ImpulseSolver solver;
   std::vector<Eigen::Vector3d> zone_impulse;  ///< of each slave node, in this step; empty: no zone
   std::vector<int> zone_of;                   ///< of each slave node and body
-  std::uint64_t steps_with_hits = 0, rounds = 0, zones = 0, unresolved = 0;
+  std::uint64_t steps_with_hits = 0, rounds = 0, zones = 0;
+  /// Steps that ended with something about to cross, and the first such pair.
+  struct Unresolved {
+    std::uint64_t steps = 0;
+    std::array<int, 2> node{-1, -1};  ///< global, of either side
+    double time = -1;                 ///< kept by the caller
+  } unresolved;
 
   SlaveSet in_contact;                          ///< nodes that rows have moved in this step
   std::vector<Eigen::Vector3d> velocity;        ///< of each slave node; up to date for those in contact

@@ -204,6 +204,7 @@ void resolve_contact(Model& model, ThreadTeam& team) {
   for (ContactScene& scene : model.contacts) {
     resolve(scene, model.nodes, model.times.next, team, model.rigid.motion, model.ties, model.contact_walls);
     expect_driven_bodies_apart(model, scene);
+    if (scene.unresolved.steps == 1 && scene.unresolved.time < 0) scene.unresolved.time = model.times.time;
     settle(model.rigid);
     const ContactStep& step = scene.step;
     model.stages[Stage::contact_search] += step.search_seconds;
@@ -295,7 +296,7 @@ void check_books(Model& model, double energy_error_limit) {
 }  // namespace
 
 // After the sweep, whose order of elements it changes, and before contact, whose surfaces it opens.
-void erode_elements(Model& model, ThreadTeam& team) {
+void erode_elements(Model& model) {
   if (!model.erosion) return;
   const StageTimer timer(model.stages, Stage::erosion);
   Erosion& erosion = *model.erosion;
@@ -321,7 +322,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   apply_loads(model);
   sweep_elements(model, team);
   add_mass(model);
-  erode_elements(model, team);
+  erode_elements(model);
   gather_tied_forces(model);
   choose_step(model);
   energy.external.before += load_work(model);

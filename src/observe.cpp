@@ -401,7 +401,7 @@ Summary observe_end(Model& model) {
                        .passes_mean = share(totals.passes, totals.steps),
                        .certified_share = share(settled, looks),
                        .last_resort_uses = static_cast<std::int64_t>(scene.zones),
-                       .unresolved = static_cast<std::int64_t>(scene.unresolved)};
+                       .unresolved = static_cast<std::int64_t>(scene.unresolved.steps)};
   }
   if (model.contact_audits) {
     summary.contact.missed = model.contact_audits->found.missed();

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "src/diagnosis.hpp"
+#include "src/node_name.hpp"
 
 namespace brio {
 
@@ -32,6 +33,16 @@ std::string warning_of_hourglassing(const Model& model, std::size_t part) {
          " or loads spread over more nodes (limit: numerics.hourglass_warning)";
 }
 
+std::string warning_of_crossing(const Model& model, const ContactScene::Unresolved& unresolved) {
+  const auto name = [&](int node) { return name_of_node(model, static_cast<std::size_t>(node)); };
+  const std::string pair = unresolved.node[0] < 0
+                               ? std::string("what is pushed behind a rigid wall")
+                               : name(unresolved.node[0]) + " and " + name(unresolved.node[1]);
+  return "contact: in " + std::to_string(unresolved.steps) + (unresolved.steps == 1 ? " step" : " steps") +
+         " surfaces were not kept from crossing, first at time " + written(unresolved.time) + ": " + pair +
+         "; look whether prescribed motions drive them into each other; try smaller steps (time.step_scale)";
+}
+
 }  // namespace
 
 void watch(Model& model) {
@@ -49,6 +60,8 @@ std::vector<std::string> run_warnings(const Model& model) {
   for (const ParticleSearch& search : model.particle_searches)
     if (search.paired.largest_share >= PairedParticles::worth_a_warning)
       warnings.push_back(warning_of_pairs(model, search));
+  for (const ContactScene& scene : model.contacts)
+    if (scene.unresolved.steps > 0) warnings.push_back(warning_of_crossing(model, scene.unresolved));
   return warnings;
 }
 

@@ -1,6 +1,7 @@
 #include "contact/audit/segment_proximity.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "contact/audit/distance.hpp"
@@ -24,6 +25,7 @@ struct AuditedSegment {
   int part = 0;
   int body = 0;
   double radius = 0;
+  int round = -1;  ///< of a beam or particle, in Surface::round
 
   bool is_point() const { return node[0] == node[1]; }
   bool is_edge() const { return kind >= SegmentKind::free_edge; }
@@ -74,7 +76,8 @@ class SegmentProximity {
            .x = {},
            .part = round.part,
            .body = round.body,
-           .radius = round.radius});
+           .radius = round.radius,
+           .round = static_cast<int>(&round - surface_.round.data())});
     }
   }
 
@@ -158,9 +161,19 @@ class SegmentProximity {
 
   // Pairs that overlap as drawn, lie in the tightest fold of a shell, or were left so by a tear.
   bool lie_so_by_the_mesh(const AuditedSegment& first, const AuditedSegment& second) const {
-    if (!first.is_edge() && !second.is_edge() && first.body == second.body) return true;
+    if (!first.is_edge() && !second.is_edge() && first.body == second.body && drawn_together(first, second))
+      return true;
     return is_excluded(first, second) || is_excluded(second, first) ||
            std::binary_search(waiting_.begin(), waiting_.end(), nodes_of_pair(first, second));
+  }
+
+  // Within the tightest fold of beams of their radii.
+  bool drawn_together(const AuditedSegment& first, const AuditedSegment& second) const {
+    const auto drawn = [&](const AuditedSegment& beam) {
+      return scene_.features.drawn_beam[static_cast<std::size_t>(beam.round)];
+    };
+    const double fold = 0.5 * std::numbers::pi * (first.radius + second.radius);
+    return distance_of_segments(drawn(first), drawn(second)).distance < fold;
   }
 
   using NodesOfPair = std::array<int, 4>;

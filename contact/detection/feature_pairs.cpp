@@ -1,7 +1,9 @@
 #include "contact/detection/feature_pairs.hpp"
 
 #include <algorithm>
+#include <numbers>
 
+#include "contact/closest_segments.hpp"
 #include "contact/exclusion.hpp"
 
 namespace brio {
@@ -75,8 +77,19 @@ bool may_meet(const Surface& surface, const EdgeFeature& a, const EdgeFeature& b
   return !tied(a, b) && !tied(b, a);
 }
 
+// Beams that were drawn within the tightest fold of each other, as shells are (exclusion.hpp).
+bool drawn_together(const SurfaceFeatures& features, const EdgeFeature& a, const EdgeFeature& b) {
+  if (a.round < 0 || b.round < 0) return true;
+  const auto drawn = [&](const EdgeFeature& edge) -> const Segment& {
+    return features.drawn_beam[static_cast<std::size_t>(edge.round)];
+  };
+  const double fold = 0.5 * std::numbers::pi * (a.radius + b.radius);
+  return closest_points_of_segments(drawn(a), drawn(b)).squared_distance < fold * fold;
+}
+
 // Edges of one piece: a node of one is not held apart from a face of the other.
-bool one_piece(const Surface& surface, const Lists& excluded, const EdgeFeature& a, const EdgeFeature& b) {
+bool one_piece(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
+               const EdgeFeature& a, const EdgeFeature& b) {
   const auto excludes = [&](const EdgeFeature& edge, const EdgeFeature& other) {
     for (int node : edge.node)
       for (int f : other.face)
@@ -84,7 +97,7 @@ bool one_piece(const Surface& surface, const Lists& excluded, const EdgeFeature&
     return false;
   };
   if (!surface.held.one_piece(a.body, b.body)) return false;
-  if (!a.of_face() && !b.of_face()) return a.body == b.body;  // beams that were drawn together
+  if (!a.of_face() && !b.of_face()) return a.body == b.body && drawn_together(features, a, b);
   return excludes(a, b) || excludes(b, a);
 }
 
@@ -387,7 +400,7 @@ void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
   const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
   if (!scene.edges && a.of_face() && b.of_face()) return;
   if (share_node(a, b) || !kinds_meet(a, b) || on_one_face(a, b) || !may_meet(scene.surface, a, b)) return;
-  const bool spaced = !one_piece(scene.surface, scene.excluded, a, b);
+  const bool spaced = !one_piece(scene.features, scene.surface, scene.excluded, a, b);
   if (!spaced && (a.kind == EdgeKind::cross_diagonal || b.kind == EdgeKind::cross_diagonal ||
                   !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b))))
     return;

@@ -325,7 +325,9 @@ void measure(SurfaceFeatures& features, const Surface& surface, const Nodes& nod
   };
   for (const Face& face : surface.face)
     if (face.alive()) add(shortest_edge(nodes, face));
+  features.drawn_beam.clear();
   for (const RoundElement& round : surface.round) {
+    features.drawn_beam.push_back({position(nodes, round.node[0]), position(nodes, round.node[1])});
     if (!round.alive()) continue;
     add(round.is_point() ? 2 * round.radius
                          : (position(nodes, round.node[1]) - position(nodes, round.node[0])).norm());

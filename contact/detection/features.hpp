@@ -9,6 +9,7 @@
 /// Every feature has a radius: half the thickness of a shell, the radius of a beam or a particle, and for
 /// solids a skin, a stated thickness in which they touch without touching the mesh (`skin_share`).
 
+#include <Eigen/Dense>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -49,16 +50,17 @@ struct SurfaceFeatures {
   double mean_edge = 0;      ///< as built
   double skin = 0;           ///< radius of what has no thickness
   std::vector<EdgeFeature> edge;
-  bool all_of_faces = true;                          ///< no edge is a beam or a point
-  std::vector<std::array<int, 4>> edge_of_face;      ///< sides by corner; -1: none
-  std::vector<std::array<int, 2>> diagonal_of_face;  ///< both diagonals; -1: none
-  std::vector<int> edge_of_round;                    ///< of each beam and particle
-  std::vector<int> point_of_node;                    ///< of each slave node, where there are beams; -1: none
-  std::vector<std::array<int, 4>> face_node;         ///< slave indices of the corners; of dead faces node 0
-  std::vector<std::array<int, 2>> edge_node;         ///< EdgeFeature::node side by side
-  std::vector<double> edge_radius;                   ///< EdgeFeature::radius side by side
-  std::vector<double> node_radius;                   ///< of each slave node
-  std::vector<double> face_radius;                   ///< of each face
+  bool all_of_faces = true;                                ///< no edge is a beam or a point
+  std::vector<std::array<int, 4>> edge_of_face;            ///< sides by corner; -1: none
+  std::vector<std::array<int, 2>> diagonal_of_face;        ///< both diagonals; -1: none
+  std::vector<int> edge_of_round;                          ///< of each beam and particle
+  std::vector<std::array<Eigen::Vector3d, 2>> drawn_beam;  ///< ends of each beam and particle as drawn
+  std::vector<int> point_of_node;             ///< of each slave node, where there are beams; -1: none
+  std::vector<std::array<int, 4>> face_node;  ///< slave indices of the corners; of dead faces node 0
+  std::vector<std::array<int, 2>> edge_node;  ///< EdgeFeature::node side by side
+  std::vector<double> edge_radius;            ///< EdgeFeature::radius side by side
+  std::vector<double> node_radius;            ///< of each slave node
+  std::vector<double> face_radius;            ///< of each face
   Lists ring;  ///< of each slave node: those at the other ends of its sides and beams, ascending
   std::vector<int> retired, free;  ///< numbers of edges that are no more: of the last update, and of before
 };

@@ -131,6 +131,7 @@ struct NodesAndFaces {
              where(is_q, q.weights[1], p.weights[2]), where(is_q, q.weights[2], zero)},
             where(is_q, q.squared_distance, p.squared_distance)};
   }
+  BRIO_INLINE Pack path_at_end(const Pairs&, const Points&, const Closest&) const { return Pack(0.0); }
 };
 
 /// Edges and edges.
@@ -154,6 +155,31 @@ struct EdgesAndEdges {
   }
   BRIO_INLINE Closest closest(const Points& at, bool /*as_hull*/) const {
     return closest_on_segments(at.first[0], at.first[1], at.second[0], at.second[1]);
+  }
+  /// Sum of both paths for which sides of faces that are closest at an end stay so: there a node keeps the
+  /// distance. At an end x of one edge with direction u out of it, and y the closest point of the other, that
+  /// is so while (x - y) . u is positive. A path s changes it by no more than 2 s, as closest points of
+  /// segments move no more than what they are closest to, and by |x - y| 2 s / length as u turns.
+  BRIO_INLINE Pack path_at_end(const Pairs& pack, const Points& at, const Closest& closest) const {
+    const Pack distance = sqrt(closest.squared_distance);
+    const auto path = [&](const auto& edge, Pack where_on, Pack sign) {
+      const Vector3<Pack> along = edge[1] - edge[0];
+      const Pack inverse = sqrt(inverse_or_zero(dot(along, along)));
+      const Pack slope = sign * inverse * dot(closest.offset, along);
+      const Pack outward =
+          where(where_on <= Pack(0.0), slope, where(where_on >= Pack(1.0), -slope, Pack(0.0)));
+      return outward / (Pack(2.0) + Pack(2.0) * inverse * distance);
+    };
+    const Pack longest =
+        max(path(at.first, closest.on_a, Pack(1.0)), path(at.second, closest.on_b, Pack(-1.0)));
+    const Pack resolution(1e-9 * features.smallest_edge);
+    Pack sure = max(longest - resolution, Pack(0.0));
+    if (!features.all_of_faces)
+      for (int lane = 0; lane < pack_size; ++lane)
+        if (!features.edge[static_cast<std::size_t>(pack.a[lane])].of_face() ||
+            !features.edge[static_cast<std::size_t>(pack.b[lane])].of_face())
+          sure.set(lane, 0);
+    return sure;
   }
 };
 

@@ -85,9 +85,11 @@ class Finder {
       const auto pack =
           pack_of(kind_, near.pair[Spaced ? 1 : 0].data(), i, std::min<std::size_t>(count, i + pack_size));
       PackOfWays ways = ways_of(kind_, pack);
-      const auto closest = kind_.closest(points_of(pack, rows_), Spaced);
+      const auto points = points_of(pack, rows_);
+      const auto closest = kind_.closest(points, Spaced);
       const Pack distance = sqrt(closest.squared_distance);
-      const Pack wake = ways.path + distance - reach_to_wake(ways) - Pack(band_);
+      const Pack at_end = where(ways.waits, Pack(0.0), kind_.path_at_end(pack, points, closest));
+      const Pack wake = ways.path + max(distance - reach_to_wake(ways) - Pack(band_), at_end);
       if (!Spaced) {
         const MaskOf<Pack> apart = ways.waits & (distance > ways.radii);
         end_wait(pack, apart);

@@ -69,6 +69,12 @@ double ProximityFilter::slack_of(const Vector3d& foot, double distance) {
                   roundings * std::numeric_limits<double>::epsilon() * foot.cwiseAbs().maxCoeff() / distance);
 }
 
+// Of weights and parameters: nearer to a node or a side, the direction differs by less than the sine from
+// that of the node or the side, whose constraint it is.
+double ProximityFilter::rounding_of_foot(double slack, double distance) const {
+  return std::max(no_weight, slack * distance / features_.smallest_edge);
+}
+
 // Whether no neighbour in the list comes nearer than the foot along the direction away from the other side.
 template <class List>
 bool ProximityFilter::look_away(const List& neighbours, const Vector3d& foot, const Vector3d& away,
@@ -90,14 +96,15 @@ bool ProximityFilter::is_near(const Contact& contact) const {
 // Whether the foot on the face is a local minimum on the union of faces; what it lies on: a node, two nodes,
 // or the face.
 bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& weights, const Vector3d& foot,
-                                         const Vector3d& normal, double slack,
+                                         const Vector3d& normal, double slack, double distance,
                                          std::array<int, 2>& support) const {
   const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+  const double at_side = rounding_of_foot(slack, distance);
   std::array<std::size_t, 4> on{};
   std::size_t count = 0;
   const std::size_t corners = corner[3] == corner[2] ? 3 : 4;
   for (std::size_t k = 0; k < corners; ++k)
-    if (weights[k] > no_weight) on[count++] = k;
+    if (weights[k] > at_side) on[count++] = k;
   if (count == 1) {
     support = {corner[on[0]], -1};
     return look_away(features_.ring.of(corner[on[0]]), foot, -normal, slack);
@@ -166,7 +173,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   std::array<int, 2> support{};
   const Vector3d foot = motion_.start(s) - near.distance * near.normal;
   const double slack = slack_of(foot, near.distance);
-  if (!is_minimum_on_face(f, near.at, foot, near.normal, slack, support)) return;
+  if (!is_minimum_on_face(f, near.at, foot, near.normal, slack, near.distance, support)) return;
   // Beside a side or a corner the direction is no normal of the face: a node that its own neighbours come
   // nearer than, as one of a flat surface ahead of a rim, is no minimum.
   const bool inside = support[0] < -1;
@@ -192,11 +199,12 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
 // Whether the foot on an edge is a local minimum on the union of edges and faces. Ends of edges of faces are
 // nodes, which have their own constraints. \param on the number of the edge, or of the end's node below -1
 bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const Vector3d& foot, const Vector3d& away,
-                                         double slack, int& on) const {
+                                         double slack, double distance, int& on) const {
   const EdgeFeature& own = edge(e);
   on = e;
   if (own.is_point()) return true;
-  const bool inside = parameter > no_weight && parameter < 1 - no_weight;
+  const double at_end = rounding_of_foot(slack, distance);
+  const bool inside = parameter > at_end && parameter < 1 - at_end;
   if (inside) return own.faces > 2 || look_away(own.wing, foot, away, slack);
   if (own.of_face()) return false;
   const int end = own.node[parameter > 0.5 ? 1 : 0];
@@ -214,7 +222,8 @@ ProximityFilter::Flatness ProximityFilter::flatness(const EdgeFeature& own, cons
     (std::abs(arm.dot(direction)) <= flat_sine * arm.norm() ? flat : steep) += 1;
   }
   if (flat == 0) return Flatness::none;
-  return steep == 0 && own.faces == 2 ? Flatness::inside : Flatness::rim;
+  const bool surrounded = own.faces == 2 || own.kind != EdgeKind::side;
+  return steep == 0 && surrounded ? Flatness::inside : Flatness::rim;
 }
 
 // Sides of faces along each other: the ends of what they share are nodes at a side, whose constraints hold
@@ -237,8 +246,8 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const double slack = slack_of(foot_a, near.distance);
   if (are_parallel(a, b, slack)) return;
   int on_a = 0, on_b = 0;
-  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, on_a) ||
-      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, on_b))
+  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, on_a) ||
+      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, on_b))
     return;
   const Flatness flat_a = flatness(a, foot_a, near.normal), flat_b = flatness(b, foot_b, near.normal);
   const bool rims = flat_a == Flatness::rim && flat_b == Flatness::rim;

@@ -3,7 +3,6 @@
 #include <random>
 
 #include "contact/audit/audit.hpp"
-#include "contact/solve.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {

@@ -195,7 +195,12 @@ TEST(Lines, AreNotLookedAtWhereTheDeckSaysSo) {
   deck.parts = {block("a", {}), block("b", placed({0, 0, 1.001}, {0, 0, 1}, 45))};
   deck.contact = ContactSection{};
   deck.contact->options.edges = false;
-  EXPECT_FALSE(build_model(deck).contacts[0].lines.has_value());
+  deck.time.end = 1e-5;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  run(model, deck, team);
+  EXPECT_GT(model.contacts[0].pairs.node_face.size(), 0U);
+  EXPECT_EQ(model.contacts[0].pairs.edge_edge.size(), 0U);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ Outcome run_looking(Deck& deck, int steps_between_looks = 10, int threads = 1) {
         std::abs(after.total.linear[axis] - before.total.linear[axis] - model.momentum.walls.linear[axis]) /
             std::max(before.linear_size, 1e-300));
   outcome.energy_error = std::abs(model.energy.relative_error());
-  outcome.unresolved = model.contacts[0].unresolved;
+  outcome.unresolved = model.contacts[0].unresolved.steps;
   return outcome;
 }
 

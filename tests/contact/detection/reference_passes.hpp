@@ -22,6 +22,13 @@ class Reference {
 
   double node_face_distance(std::size_t pair) const { return closest_node_face(pair).distance; }
   double edge_edge_distance(std::size_t pair) const { return closest_edges(pair).distance; }
+  /// Of two edges of faces.
+  bool closest_at_an_end(std::size_t pair) const {
+    const auto is_end = [](double at) { return at <= 0 || at >= 1; };
+    const NearPair<2> near = closest_edges(pair);
+    return edge(all_.edge_edge.first[pair]).of_face() && edge(all_.edge_edge.second[pair]).of_face() &&
+           (is_end(near.at[0]) || is_end(near.at[1]));
+  }
 
   std::vector<Contact> contacts() const {
     std::vector<Contact> contacts;
@@ -91,9 +98,13 @@ class Reference {
     std::array<double, 4> weights{};
     Vector3<double> offset{};
     if (spaced) {
-      const auto found = closest_on_hull<double>(x, {plain(at[0]), plain(at[1]), plain(at[2]), plain(at[3])});
+      const auto found = closest_on_hull<double>(x, {plain(at[0]), plain(at[1]), plain(at[2]), plain(at[3])},
+                                                 0.1 * scene_.features.skin);
       weights = found.weights;
-      offset = found.inside ? Vector3<double>{0, 0, 0} : found.offset;
+      if (!found.inside) {
+        offset = weights[0] * (x - plain(at[0]));
+        for (std::size_t k = 1; k < 4; ++k) offset = offset + weights[k] * (x - plain(at[k]));
+      }
     } else {
       const auto p = closest_on_triangle<double>(x, plain(at[0]), plain(at[1]), plain(at[2]));
       const auto q = closest_on_triangle<double>(x, plain(at[0]), plain(at[2]), plain(at[3]));

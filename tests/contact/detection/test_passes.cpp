@@ -19,7 +19,7 @@ struct Detector {
   Proximity proximity{};
   CrossingGuard guard{};
   std::vector<Contact> contacts{};
-  std::vector<ContactMotion> corrected{};
+  std::vector<Eigen::Vector3d> corrected{};
 
   void begin() {
     motion.begin(scene.features, scene.surface, scene.nodes, team);
@@ -34,13 +34,13 @@ struct Detector {
   // Nodes are pushed, as if by contact, one in ten of them beyond its limit.
   void solve(double speed, Random& random) {
     SlaveSet pushed(scene.surface.slaves());
-    corrected.resize(scene.surface.slaves());
+    corrected.resize(scene.surface.slaves(), Eigen::Vector3d::Zero());
     for (std::size_t s = 0; s < scene.surface.slaves(); ++s) {
       if (random.coin()) continue;
       NodeRecord& node = scene.nodes.record[static_cast<std::size_t>(scene.surface.node[s])];
       const Eigen::Vector3d change = random.vector(random.integer(0, 9) == 0 ? 8 * speed : 0.5 * speed);
       for (int axis = 0; axis < 3; ++axis)
-        corrected[s].velocity[axis] = node.velocity[axis] = node.velocity[axis] + change[axis];
+        corrected[s][axis] = node.velocity[axis] = node.velocity[axis] + change[axis];
       pushed.insert(static_cast<int>(s));
     }
     motion.end_by_solution(scene.features, scene.surface, pushed, corrected, scene.dt, {}, team);
@@ -190,7 +190,7 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
 TEST(Passes, WhatSleepsIsNotNear) {
   Random random(3);
   ThreadTeam team(1);
-  std::size_t asleep = 0, looked_at = 0;
+  std::size_t asleep = 0, asleep_at_ends = 0, looked_at = 0;
   for (int walk = 0; walk < 4; ++walk) {
     RandomScene scene({.room = 2.5}, random);
     Detector detector{scene, team};
@@ -199,7 +199,7 @@ TEST(Passes, WhatSleepsIsNotNear) {
       detector.begin();
       const Reference reference(scene, detector.pairs, detector.motion);
       const auto judge = [&](const PairList& list, const std::vector<int>& awake, const auto& distance,
-                             const auto& reach) {
+                             const auto& reach, const auto& at_end) {
         auto next = awake.begin();
         for (std::size_t i = 0; i < list.size(); ++i) {
           if (next != awake.end() && *next == static_cast<int>(i)) {
@@ -207,8 +207,9 @@ TEST(Passes, WhatSleepsIsNotNear) {
             ++looked_at;
           } else {
             ++asleep;
-            ASSERT_GT(distance(i), reach(i) + proximity_band * scene.features.smallest_edge)
-                << walk << ' ' << step << ' ' << i;
+            const bool near = distance(i) <= reach(i) + proximity_band * scene.features.smallest_edge;
+            ASSERT_TRUE(!near || at_end(i)) << walk << ' ' << step << ' ' << i;
+            asleep_at_ends += near ? 1 : 0;
           }
         }
         ASSERT_EQ(next, awake.end());
@@ -222,19 +223,23 @@ TEST(Passes, WhatSleepsIsNotNear) {
             return !nf.has_radii(i) ? skins
                                     : scene.features.node_radius[static_cast<std::size_t>(nf.first[i])] +
                                           scene.features.face_radius[static_cast<std::size_t>(nf.second[i])];
-          });
+          },
+          [](std::size_t) { return false; });
       judge(
           ee, detector.proximity.edge_edge, [&](std::size_t i) { return reference.edge_edge_distance(i); },
           [&](std::size_t i) {
             return !ee.has_radii(i) ? skins
                                     : scene.features.edge[static_cast<std::size_t>(ee.first[i])].radius +
                                           scene.features.edge[static_cast<std::size_t>(ee.second[i])].radius;
-          });
+          },
+          // Of faces and closest at an end: a node keeps the distance there.
+          [&](std::size_t i) { return reference.closest_at_an_end(i); });
       if (HasFatalFailure()) return;
       scene.move(random);
     }
   }
   EXPECT_GT(asleep, looked_at);
+  EXPECT_GT(asleep_at_ends, 1000U);
   EXPECT_GT(looked_at, 10000U);
 }
 

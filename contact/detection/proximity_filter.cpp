@@ -13,14 +13,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Neighbours that come nearer by less than this sine are rounding; and by less than this many units in the
-/// last place of positions, over the distance.
-constexpr double nearer_by_rounding = 1e-4;
-constexpr double roundings = 8;
-/// A face beside an edge lies in the plane at right angles to the closest distance where it leaves it by less
-/// than this sine. Where that is so at both edges, faces lie on each other, and nodes, and rims where they
-/// cross, keep the distance of inner edges to a quarter of it times their length.
+/// Neighbours that come nearer by less than this sine do not count, so that surfaces that lie on each other
+/// and bend keep their constraints: at distance d what is left out is nearer by less than d sine^2. A face
+/// beside an edge lies in the plane at right angles to the closest distance where it leaves it by less; where
+/// that is so at both edges, faces lie on each other, and nodes, and rims where they cross, keep the distance
+/// of inner edges to a quarter of the sine times their length.
 constexpr double flat_sine = 1e-3;
+/// The same in units in the last place of positions, over the distance.
+constexpr double roundings = 8;
 /// Where the direction leaves the normals of the faces at a sharp edge by this angle or more, solids touch at
 /// what is left of their skins: rounded by whole skins, an edge that stands out by a hundredth of them would
 /// hold up what slides over it.
@@ -65,12 +65,12 @@ double ProximityFilter::spared_skin(double tilt) const {
 
 // The sine by which directions are off where the closest points are as far apart as given.
 double ProximityFilter::slack_of(const Vector3d& foot, double distance) {
-  return std::max(nearer_by_rounding,
+  return std::max(flat_sine,
                   roundings * std::numeric_limits<double>::epsilon() * foot.cwiseAbs().maxCoeff() / distance);
 }
 
 // Of weights and parameters: nearer to a node or a side, the direction differs by less than the sine from
-// that of the node or the side, whose constraint it is.
+// that of the node or the side, which holds where it is a minimum itself.
 double ProximityFilter::rounding_of_foot(double slack, double distance) const {
   return std::max(no_weight, slack * distance / features_.smallest_edge);
 }
@@ -98,13 +98,20 @@ bool ProximityFilter::is_near(const Contact& contact) const {
 bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& weights, const Vector3d& foot,
                                          const Vector3d& normal, double slack, double distance,
                                          std::array<int, 2>& support) const {
-  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
   const double at_side = rounding_of_foot(slack, distance);
+  return is_minimum_by(at_side, f, weights, foot, normal, slack, support) ||
+         (at_side > no_weight && is_minimum_by(no_weight, f, weights, foot, normal, slack, support));
+}
+// The same, with weights up to `least` taken for none.
+bool ProximityFilter::is_minimum_by(double least, int f, const std::array<double, 4>& weights,
+                                    const Vector3d& foot, const Vector3d& normal, double slack,
+                                    std::array<int, 2>& support) const {
+  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
   std::array<std::size_t, 4> on{};
   std::size_t count = 0;
   const std::size_t corners = corner[3] == corner[2] ? 3 : 4;
   for (std::size_t k = 0; k < corners; ++k)
-    if (weights[k] > at_side) on[count++] = k;
+    if (weights[k] > least) on[count++] = k;
   if (count == 1) {
     support = {corner[on[0]], -1};
     return look_away(features_.ring.of(corner[on[0]]), foot, -normal, slack);
@@ -203,11 +210,14 @@ bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const Vector3d
   const EdgeFeature& own = edge(e);
   on = e;
   if (own.is_point()) return true;
-  const double at_end = rounding_of_foot(slack, distance);
-  const bool inside = parameter > at_end && parameter < 1 - at_end;
-  if (inside) return own.faces > 2 || look_away(own.wing, foot, away, slack);
-  if (own.of_face()) return false;
   const int end = own.node[parameter > 0.5 ? 1 : 0];
+  if (parameter > no_weight && parameter < 1 - no_weight) {
+    const bool at_end = std::min(parameter, 1 - parameter) <= rounding_of_foot(slack, distance);
+    if (at_end && own.of_face() && look_away(features_.ring.of(end), motion_.start(end), away, slack))
+      return false;
+    return own.faces > 2 || look_away(own.wing, foot, away, slack);
+  }
+  if (own.of_face()) return false;
   on = -2 - end;
   return look_away(features_.ring.of(end), foot, away, slack);
 }
@@ -244,7 +254,7 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   };
   const Vector3d foot_a = foot(a, near.at[0]), foot_b = foot(b, near.at[1]);
   const double slack = slack_of(foot_a, near.distance);
-  if (are_parallel(a, b, slack)) return;
+  if (are_parallel(a, b, rounding_of_foot(slack, near.distance))) return;
   int on_a = 0, on_b = 0;
   if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, on_a) ||
       !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, on_b))

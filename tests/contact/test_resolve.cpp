@@ -33,55 +33,6 @@ void throw_things(SpringModel& model, unsigned seed, const ContactOptions& optio
   model.start(options);
 }
 
-// A node of mass 2 pressed with `load` a step against a face that cannot move, overlapping by 0.1.
-double opening_velocity(double load) {
-  const double dt = 0.01;
-  ContactOptions options;  // recovery: a tenth of the overlap, at most 1e-3 edges, in a step
-  std::vector<ContactMotion> motion(4, ContactMotion{{0, 0, 0}, {0, 0, 0}});
-  motion[0] = {{0, 0, -load / 2}, {0.5, 0.5, 0.5}};
-  Contact contact;
-  contact.node = {0, 1, 2, 3, 3};
-  contact.weight = {1, -0.5, -0.25, -0.25, 0};
-  contact.normal = Vector3d::UnitZ();
-  contact.gap = -0.1;
-  contact.impulse = load;
-  Solver solver;
-  solve(solver, options, 1.0, dt, {&contact, 1}, motion);
-  return motion[0].velocity[2];
-}
-
-TEST(Recovery, IsSlowerWhereTheContactIsLoaded) {
-  const double fastest = 1e-3 / 0.01;
-  EXPECT_NEAR(opening_velocity(0), fastest, 1e-12);
-  EXPECT_NEAR(opening_velocity(2 * fastest), fastest, 1e-12);
-  EXPECT_NEAR(opening_velocity(2000 * fastest), fastest / 1000, 1e-12);
-}
-
-// The crease of a groove along y that is bent convexly, so that faces meet convexly along y and stand up
-// across the crease: none of them alone leads a node out that has sunk in a little.
-TEST(Crease, OfABentGrooveIsLeftUpwards) {
-  SpringModel model;
-  model.add_box({4, 4, 1}, {0.4, 0.8, 0.2}, 1, [](const Vector3d& x) -> Vector3d {
-    const double across = x.x() - 0.2, along = x.y() - 0.4;
-    return {across, along, x.z() < 0.1 ? -1 : 1.2 * std::abs(across) - 0.8 * along * along};
-  });
-  const int blade = model.count();
-  const double sunk = 1e-4;
-  const double onto_a_corner = std::acos(1 / std::sqrt(3.0));
-  model.add_box({1, 1, 1}, {0.1, 0.1, 0.1}, 1,
-                turned_and_shifted(onto_a_corner, {1, -1, 0}, {0, 0.004, -0.8 * 0.2 * 0.004 - sunk}));
-  model.start({});
-  resolve(model.scene, model.nodes, 1e-6, model.alone());
-  int found = 0;
-  for (const Contact& contact : model.scene.contacts) {
-    if (model.scene.surface.node[static_cast<std::size_t>(contact.slave)] != blade) continue;
-    ++found;
-    EXPECT_LT(std::abs(contact.normal.x()), 1e-3);
-    EXPECT_NEAR(contact.gap, -sunk, 2e-5);
-  }
-  EXPECT_EQ(found, 1);
-}
-
 // Constraints in the direction of a meeting are asked for as seen by who turns with what meets.
 TEST(Momentum, IsKeptToRoundingInRandomScenes) {
   for (const unsigned seed : {1U, 2U, 3U})
@@ -288,7 +239,7 @@ TEST(ShellSides, NodesEndWhereTheyCameFrom) {
 
 TEST(Seams, AHitOnASeamIsOneContact) {
   const int floor_end = 18;
-  // Its lowest corner stands exactly over a node of the floor, then over a seam.
+  // Its lowest corner stands a gap above a node of the floor, then above a seam.
   for (const double x : {1.0, 0.5}) {
     SpringModel single;
     single.add_box({2, 2, 1}, {2, 2, 1}, 1, shifted({0, 0, -1}));
@@ -301,7 +252,7 @@ TEST(Seams, AHitOnASeamIsOneContact) {
     double lowest = 10;
     for (int n = floor_end; n < single.count(); ++n) lowest = std::min(lowest, single.x(n)[2]);
     for (int n = floor_end; n < single.count(); ++n)
-      single.nodes.record[static_cast<std::size_t>(n)].position[2] -= lowest;
+      single.nodes.record[static_cast<std::size_t>(n)].position[2] -= lowest - 2 * single.scene.features.skin;
     single.step(1e-3);
     int of_corner = 0;
     for (const Contact& contact : single.scene.contacts)

@@ -139,7 +139,7 @@ TEST_P(Drop, OfOneKindOnAnother) {
   for (const Outcome& outcome : {smooth, rough}) {
     EXPECT_GT(outcome.most_contacts, 0);
     EXPECT_EQ(outcome.deep, 0);
-    EXPECT_LE(outcome.missed, 30) << "as measured, until detection sees every edge";
+    EXPECT_EQ(outcome.missed, 0);
     EXPECT_GT(outcome.restitution, -0.9) << "slowed down at least";
     EXPECT_LE(outcome.restitution, 1);
     EXPECT_LT(outcome.linear_error, 1e-12);

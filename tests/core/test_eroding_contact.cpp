@@ -103,7 +103,7 @@ TEST(ErodingContact, HalvesOfABarMeetWhereTheMiddleWas) {
   EXPECT_LT(outcome.first_deletion, 0.01);
   EXPECT_GT(outcome.first_contact, outcome.first_deletion);
   EXPECT_EQ(outcome.deep, 0);
-  EXPECT_LE(outcome.missed, 2) << "as measured, until detection sees every edge";
+  EXPECT_EQ(outcome.missed, 0);
   EXPECT_LT(outcome.worst_energy, 0.02);
   EXPECT_LT(outcome.worst_momentum, 1e-12);
   for (const int threads : {2, 4})

@@ -42,7 +42,7 @@ void expect_sound_impact(Kind upper, const Factors& of_upper, Kind lower, const 
               watched.worst_linear, watched.added(), depth, watched.model.energy.error_max, watched.missed);
   EXPECT_GT(watched.touched(), 0);
   EXPECT_EQ(watched.deep, 0);
-  EXPECT_LE(watched.missed, 18) << "as measured, until detection sees every edge";
+  EXPECT_EQ(watched.missed, 0);
   EXPECT_LE(watched.worst_linear, 1e-12);
   EXPECT_LE(watched.added(), 1e-3);
   EXPECT_LE(depth, 1e-2);
@@ -89,11 +89,13 @@ TEST(ExtremesOverlap, OfRoundingOrAThousandthOfAnEdgeLeavesNeitherStrainNorMotio
     SCOPED_TRACE(overlap);
     const Deck deck = two_cubes(overlap);
     const Watched watched(deck, 10);
-    EXPECT_EQ(watched.model.initial_overlaps.empty(), overlap < 1e-9);
-    for (const InitialOverlap& found : watched.model.initial_overlaps)
+    ASSERT_FALSE(watched.model.initial_overlaps.empty()) << "of the gap at least";
+    for (const InitialOverlap& found : watched.model.initial_overlaps) {
       EXPECT_NEAR(found.depth, overlap, 1e-9);
+      EXPECT_LE(found.moved, overlap + 2 * watched.model.contacts[0].features.skin);
+    }
     EXPECT_EQ(watched.deep, 0);
-    EXPECT_LE(watched.missed, 200) << "as measured, until detection sees every edge";
+    EXPECT_EQ(watched.missed, 0);
     double fastest = 0;
     for (const NodeRecord& node : watched.model.nodes.record)
       for (const double speed : node.velocity) fastest = std::max(fastest, std::abs(speed));
@@ -187,7 +189,7 @@ TEST(ExtremesOverlap, OfHalfAnEdgeIsRemovedWhereTheDeckAllowsIt) {
   const Watched watched(deck, 10);
   EXPECT_NEAR(watched.model.initial_overlaps.at(0).depth, 0.05, 1e-9);
   EXPECT_EQ(watched.deep, 0);
-  EXPECT_LE(watched.missed, 115) << "as measured, until detection sees every edge";
+  EXPECT_EQ(watched.missed, 0);
   EXPECT_LE(watched.overlap(), 1e-6);
 }
 
@@ -199,7 +201,7 @@ TEST(ExtremesGap, ZeroAndOneUlpAndMoreAreTheSameImpact) {
     deck.initial_conditions = {moving("upper", {0, 0, -5})};
     const Watched watched(deck, 10);
     EXPECT_EQ(watched.deep, 0) << gap;
-    EXPECT_LE(watched.missed, 49) << "as measured, until detection sees every edge";
+    EXPECT_EQ(watched.missed, 0);
     EXPECT_GT(watched.touched(), 0) << gap;
     EXPECT_LE(watched.worst_linear, 1e-12) << gap;
     return mean_velocity(watched.model, 1, 2);
@@ -235,26 +237,6 @@ TEST(ExtremesGrazing, ABlockThatPassesWithinTheGapIsNotHeldUp) {
   }
 }
 
-TEST(ExtremesGrazing, ABlockThatPassesByIsNotHeldUp) {
-  const FloatingPointTraps traps;
-  for (const double clearance : {1e-9, std::numeric_limits<double>::epsilon(), 0.0, -1e-9}) {
-    SCOPED_TRACE(clearance);
-    Deck deck;
-    deck.materials = {{"material", elastic(0.3)}};
-    deck.parts = {box("lower", {0.4, 0.4, 0.4}, {4, 4, 4}, {0, 0, -0.2}, hex8()),
-                  box("upper", {0.2, 0.2, 0.2}, {3, 3, 3}, {-0.45, 0.017, 0.1 + clearance}, hex8())};
-    deck.initial_conditions = {moving("upper", {100, 0, 0})};
-    deck.contact.emplace();
-    deck.time.end = 9e-3;
-    const Watched watched(deck, 20);
-    EXPECT_NEAR(mean_velocity(watched.model, 1, 0), 100, 1e-6);
-    EXPECT_NEAR(mean_velocity(watched.model, 1, 2), 0, 1e-6);
-    EXPECT_EQ(watched.deep, 0);
-    EXPECT_LE(watched.missed, 144) << "as measured, until detection sees every edge";
-    EXPECT_LE(watched.added(), 1e-9);
-  }
-}
-
 // A corner, an edge and a ball of particles come down exactly on a node, a seam and the common corner of four
 // bodies.
 TEST(ExtremesSeams, HitsOnNodesEdgesAndCornersOfFourBodiesStop) {
@@ -281,7 +263,7 @@ TEST(ExtremesSeams, HitsOnNodesEdgesAndCornersOfFourBodiesStop) {
       const Watched watched(deck, 10);
       EXPECT_GT(watched.touched(), 0);
       EXPECT_LE(watched.deep, 1);
-      EXPECT_LE(watched.missed, 377) << "as measured, until detection sees every edge";
+      EXPECT_EQ(watched.missed, 0);
       EXPECT_LE(watched.worst_linear, 1e-12);
       EXPECT_LE(watched.added(), 1e-3);
       EXPECT_GT(mean_velocity(watched.model, 0, 2), -15);

@@ -98,7 +98,7 @@ class Resolution {
     scene_.last.swap(scene_.contacts);
     find_proximities(scene_.proximity, scene_.features, scene_.surface, scene_.options, scene_.pairs,
                      scene_.motion, team_, scene_.contacts);
-    inherit_impulses(scene_.last, step_ratio(), scene_.contacts, rows_.taken);
+    inherit_impulses(scene_.last, step_ratio(), 2 * scene_.features.skin, scene_.contacts, rows_.taken);
   }
 
   void search() {

@@ -69,8 +69,8 @@ double ProximityFilter::slack_of(const Vector3d& foot, double distance) {
                   roundings * std::numeric_limits<double>::epsilon() * foot.cwiseAbs().maxCoeff() / distance);
 }
 
-// Of weights and parameters: nearer to a node or a side, the direction differs by less than the sine from
-// that of the node or the side, which holds where it is a minimum itself.
+// Of parameters: nearer to a node, the direction differs by less than the sine from that of the node, which
+// holds where it is a minimum itself.
 double ProximityFilter::rounding_of_foot(double slack, double distance) const {
   return std::max(no_weight, slack * distance / features_.smallest_edge);
 }
@@ -96,22 +96,14 @@ bool ProximityFilter::is_near(const Contact& contact) const {
 // Whether the foot on the face is a local minimum on the union of faces; what it lies on: a node, two nodes,
 // or the face.
 bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& weights, const Vector3d& foot,
-                                         const Vector3d& normal, double slack, double distance,
+                                         const Vector3d& normal, double slack,
                                          std::array<int, 2>& support) const {
-  const double at_side = rounding_of_foot(slack, distance);
-  return is_minimum_by(at_side, f, weights, foot, normal, slack, support) ||
-         (at_side > no_weight && is_minimum_by(no_weight, f, weights, foot, normal, slack, support));
-}
-// The same, with weights up to `least` taken for none.
-bool ProximityFilter::is_minimum_by(double least, int f, const std::array<double, 4>& weights,
-                                    const Vector3d& foot, const Vector3d& normal, double slack,
-                                    std::array<int, 2>& support) const {
   const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
   std::array<std::size_t, 4> on{};
   std::size_t count = 0;
   const std::size_t corners = corner[3] == corner[2] ? 3 : 4;
   for (std::size_t k = 0; k < corners; ++k)
-    if (weights[k] > least) on[count++] = k;
+    if (weights[k] > no_weight) on[count++] = k;
   if (count == 1) {
     support = {corner[on[0]], -1};
     return look_away(features_.ring.of(corner[on[0]]), foot, -normal, slack);
@@ -180,7 +172,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   std::array<int, 2> support{};
   const Vector3d foot = motion_.start(s) - near.distance * near.normal;
   const double slack = slack_of(foot, near.distance);
-  if (!is_minimum_on_face(f, near.at, foot, near.normal, slack, near.distance, support)) return;
+  if (!is_minimum_on_face(f, near.at, foot, near.normal, slack, support)) return;
   // Beside a side or a corner the direction is no normal of the face: a node that its own neighbours come
   // nearer than, as one of a flat surface ahead of a rim, is no minimum.
   const bool inside = support[0] < -1;

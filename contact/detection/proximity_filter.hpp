@@ -43,11 +43,7 @@ class ProximityFilter {
   bool is_near(const Contact& contact) const;
   double rounding_of_foot(double slack, double distance) const;
   bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const Eigen::Vector3d& foot,
-                          const Eigen::Vector3d& normal, double slack, double distance,
-                          std::array<int, 2>& support) const;
-  bool is_minimum_by(double least, int face, const std::array<double, 4>& weights,
-                     const Eigen::Vector3d& foot, const Eigen::Vector3d& normal, double slack,
-                     std::array<int, 2>& support) const;
+                          const Eigen::Vector3d& normal, double slack, std::array<int, 2>& support) const;
   bool is_minimum_on_edge(int edge, double parameter, const Eigen::Vector3d& foot,
                           const Eigen::Vector3d& away, double slack, double distance, int& on) const;
   /// Of the faces at an edge or a node: the largest cosine of a normal and a direction; whether they bend.

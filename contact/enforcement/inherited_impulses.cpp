@@ -36,10 +36,10 @@ bool inherits(const Contact& contact, const Contact& last) {
 
 }  // namespace
 
-void inherit_impulses(std::span<const Contact> last, double step_ratio, std::span<Contact> contacts,
-                      std::vector<std::uint8_t>& taken) {
+void inherit_impulses(std::span<const Contact> last, double step_ratio, double most_found,
+                      std::span<Contact> contacts, std::vector<std::uint8_t>& taken) {
   taken.assign(last.size() + contacts.size(), 0);
-  for (Contact& contact : contacts) contact.found_gap = std::min(contact.gap, 0.0);
+  for (Contact& contact : contacts) contact.found_gap = std::clamp(contact.gap, -most_found, 0.0);
   std::uint8_t* found = taken.data() + last.size();
   std::size_t old_begin = 0;
   for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {

@@ -274,7 +274,7 @@ TEST(Resolution, KeepsTheSymmetryOfMirrorImages) {
     model.step(1e-3);
     rubbed -= model.scene.step.friction_work();
     SCOPED_TRACE(step);
-    expect_mirrored(model, 1e-6);
+    expect_mirrored(model, 1e-12);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(rubbed, 0);

@@ -2,6 +2,7 @@
 /// Boxes of features of one kind, and which of them meet given boxes. A tree holds them as they were when it
 /// was built; those that have got another box since are few and are looked at beside it.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,17 +34,23 @@ class FeatureBoxes {
   /// of threads.
   template <class Visit>
   void find(std::span<const CaptureBox> queries, ThreadTeam& team, SearchCounts& counts, const Visit& visit) {
-    tree_.find(queries, team, found_, counts);
-    find_changed(queries, team, counts);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      for (int feature : found_.of_box(i))
-        if (is_changed_[static_cast<std::size_t>(feature)] == 0) visit(i, feature);
-      if (!changed_.empty())
-        for (int k : found_changed_.of_box(i)) visit(i, changed_[static_cast<std::size_t>(k)]);
+    for (std::size_t begin = 0; begin < queries.size(); begin += queries_at_once) {
+      const auto part = queries.subspan(begin, std::min(queries_at_once, queries.size() - begin));
+      tree_.find(part, team, found_, counts);
+      find_changed(part, team, counts);
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        for (int feature : found_.of_box(i))
+          if (is_changed_[static_cast<std::size_t>(feature)] == 0) visit(begin + i, feature);
+        if (!changed_.empty())
+          for (int k : found_changed_.of_box(i)) visit(begin + i, changed_[static_cast<std::size_t>(k)]);
+      }
     }
   }
 
  private:
+  /// What meets more queries is not held at a time: it is far more than what is paired of it.
+  static constexpr std::size_t queries_at_once = 16384;
+
   void find_changed(std::span<const CaptureBox> queries, ThreadTeam& team, SearchCounts& counts);
 
   std::vector<CaptureBox> box_, changed_box_;

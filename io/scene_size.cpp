@@ -20,12 +20,13 @@ struct Count {
   double elements = 0;
   double nodes = 0;
   double faces = 0;  ///< of the surface
+  bool sheet = false;
 };
 
 Count block(double a, double b, double c) {
   return {a * b * c, (a + 1) * (b + 1) * (c + 1), 2 * (a * b + b * c + c * a)};
 }
-Count sheet(double a, double b) { return {a * b, (a + 1) * (b + 1), a * b}; }
+Count sheet(double a, double b) { return {a * b, (a + 1) * (b + 1), a * b, true}; }
 Count lattice(double particles) { return {particles, particles, 0}; }
 
 Count count(const BoxMesh& mesh) { return block(mesh.elements[0], mesh.elements[1], mesh.elements[2]); }
@@ -46,7 +47,7 @@ Count count(const SphereMesh& mesh) {
 }
 Count count(const HollowSphereMesh& mesh) {
   const double shells = 6.0 * mesh.elements * mesh.elements;
-  return {shells, shells, shells};
+  return {shells, shells, shells, true};
 }
 Count count(const LineMesh& mesh) { return {double(mesh.elements), mesh.elements + 1.0, 0}; }
 Count count(const ParticleMesh& mesh) {
@@ -68,7 +69,7 @@ Count count(const Part& part) {
 
 // Bytes at the peak of a run, while meshes and model are there together, as measured with 36,000 to 220,000
 // elements of each kind and a law with hardening.
-constexpr double bytes_of_node = 270, bytes_of_face = 1100;
+constexpr double bytes_of_node = 270, bytes_of_side = 3800, bytes_of_shell_side = 5900;
 double bytes_of_element(const Hex8&) { return 500; }
 double bytes_of_element(const Hex8Full&) { return 1400; }
 double bytes_of_element(const Shell4&) { return 620; }
@@ -78,7 +79,8 @@ double bytes_of_element(const Rigid&) { return 270; }
 
 double bytes_of(const Part& part, const Deck& deck) {
   const Count size = count(part);
-  const double surface = is_in_contact(deck, part.name) ? size.faces * bytes_of_face : 0;
+  const double surface =
+      is_in_contact(deck, part.name) ? size.faces * (size.sheet ? bytes_of_shell_side : bytes_of_side) : 0;
   const double each = std::visit([](const auto& element) { return bytes_of_element(element); }, part.element);
   return size.elements * each + size.nodes * bytes_of_node + surface;
 }

@@ -75,15 +75,22 @@ double ProximityFilter::rounding_of_foot(double slack, double distance) const {
   return std::max(no_weight, slack * distance / features_.smallest_edge);
 }
 
-// Whether no neighbour in the list comes nearer than the foot along the direction away from the other side.
+// Whether no neighbour in the list comes nearer than the foot along the direction away from the other side:
+// at the start of the step, or where the motion leads, so that what carries is not let go for a step.
 template <class List>
-bool ProximityFilter::look_away(const List& neighbours, const Vector3d& foot, const Vector3d& away,
+bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away,
                                 double slack) const {
-  return std::all_of(neighbours.begin(), neighbours.end(), [&](int neighbour) {
-    if (neighbour < 0) return true;
-    const Vector3d arm = motion_.start(neighbour) - foot;
-    return arm.dot(away) >= -slack * arm.norm();
-  });
+  const auto look = [&](const Vector3d& from, double share) {
+    return std::all_of(neighbours.begin(), neighbours.end(), [&](int neighbour) {
+      if (neighbour < 0) return true;
+      const Vector3d arm = motion_.start(neighbour) + share * motion_.displacement(neighbour) - from;
+      return arm.dot(away) >= -slack * arm.norm();
+    });
+  };
+  return look(foot.start, 0) || look(foot.end, 1);
+}
+ProximityFilter::MovingPoint ProximityFilter::point_of(int node) const {
+  return {motion_.start(node), motion_.start(node) + motion_.displacement(node)};
 }
 
 // Whether the step's approach, or twice it, closes the gap.
@@ -95,7 +102,7 @@ bool ProximityFilter::is_near(const Contact& contact) const {
 
 // Whether the foot on the face is a local minimum on the union of faces; what it lies on: a node, two nodes,
 // or the face.
-bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& weights, const Vector3d& foot,
+bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& weights, const MovingPoint& foot,
                                          const Vector3d& normal, double slack,
                                          std::array<int, 2>& support) const {
   const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
@@ -170,14 +177,16 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   contact.gap = near.distance - near.reach;
   if (!is_near(contact)) return;
   std::array<int, 2> support{};
-  const Vector3d foot = motion_.start(s) - near.distance * near.normal;
-  const double slack = slack_of(foot, near.distance);
+  MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d::Zero()};
+  foot.end = foot.start;
+  for (std::size_t k = 0; k < 4; ++k) foot.end += near.at[k] * motion_.displacement(corner[k]);
+  const double slack = slack_of(foot.start, near.distance);
   if (!is_minimum_on_face(f, near.at, foot, near.normal, slack, support)) return;
   // Beside a side or a corner the direction is no normal of the face: a node that its own neighbours come
   // nearer than, as one of a flat surface ahead of a rim, is no minimum.
   const bool inside = support[0] < -1;
   if (!inside) {
-    if (!look_away(features_.ring.of(s), motion_.start(s), near.normal, slack)) return;
+    if (!look_away(features_.ring.of(s), point_of(s), near.normal, slack)) return;
     const Edginess of_face = support[1] >= 0 ? edginess(faces_of_side(f, support), near.normal)
                                              : edginess(surface_.faces_of.of(support[0]), near.normal);
     const Edginess of_node = edginess(surface_.faces_of.of(s), Vector3d(-near.normal));
@@ -197,15 +206,15 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
 
 // Whether the foot on an edge is a local minimum on the union of edges and faces. Ends of edges of faces are
 // nodes, which have their own constraints. \param on the number of the edge, or of the end's node below -1
-bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const Vector3d& foot, const Vector3d& away,
-                                         double slack, double distance, int& on) const {
+bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const MovingPoint& foot,
+                                         const Vector3d& away, double slack, double distance, int& on) const {
   const EdgeFeature& own = edge(e);
   on = e;
   if (own.is_point()) return true;
   const int end = own.node[parameter > 0.5 ? 1 : 0];
   if (parameter > no_weight && parameter < 1 - no_weight) {
     const bool at_end = std::min(parameter, 1 - parameter) <= rounding_of_foot(slack, distance);
-    if (at_end && own.of_face() && look_away(features_.ring.of(end), motion_.start(end), away, slack))
+    if (at_end && own.of_face() && look_away(features_.ring.of(end), point_of(end), away, slack))
       return false;
     return own.faces > 2 || look_away(own.wing, foot, away, slack);
   }
@@ -242,16 +251,19 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const int ea = pairs_.edge_edge.first[pair], eb = pairs_.edge_edge.second[pair];
   const EdgeFeature &a = edge(ea), &b = edge(eb);
   const auto foot = [&](const EdgeFeature& own, double parameter) {
-    return Vector3d((1 - parameter) * motion_.start(own.node[0]) + parameter * motion_.start(own.node[1]));
+    const MovingPoint first = point_of(own.node[0]), second = point_of(own.node[1]);
+    return MovingPoint{(1 - parameter) * first.start + parameter * second.start,
+                       (1 - parameter) * first.end + parameter * second.end};
   };
-  const Vector3d foot_a = foot(a, near.at[0]), foot_b = foot(b, near.at[1]);
-  const double slack = slack_of(foot_a, near.distance);
+  const MovingPoint foot_a = foot(a, near.at[0]), foot_b = foot(b, near.at[1]);
+  const double slack = slack_of(foot_a.start, near.distance);
   if (are_parallel(a, b, rounding_of_foot(slack, near.distance))) return;
   int on_a = 0, on_b = 0;
   if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, on_a) ||
       !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, on_b))
     return;
-  const Flatness flat_a = flatness(a, foot_a, near.normal), flat_b = flatness(b, foot_b, near.normal);
+  const Flatness flat_a = flatness(a, foot_a.start, near.normal),
+                 flat_b = flatness(b, foot_b.start, near.normal);
   const bool rims = flat_a == Flatness::rim && flat_b == Flatness::rim;
   if (flat_a != Flatness::none && flat_b != Flatness::none && !rims) return;
 

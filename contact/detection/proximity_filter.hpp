@@ -36,16 +36,21 @@ class ProximityFilter {
 
  private:
   const EdgeFeature& edge(int e) const { return features_.edge[static_cast<std::size_t>(e)]; }
+  /// At both ends of the step, as predicted.
+  struct MovingPoint {
+    Eigen::Vector3d start, end;
+  };
   template <class List>
-  bool look_away(const List& neighbours, const Eigen::Vector3d& foot, const Eigen::Vector3d& away,
+  bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away,
                  double slack) const;
+  MovingPoint point_of(int node) const;
   static double slack_of(const Eigen::Vector3d& foot, double distance);
   bool is_near(const Contact& contact) const;
   double rounding_of_foot(double slack, double distance) const;
-  bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const Eigen::Vector3d& foot,
+  bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const MovingPoint& foot,
                           const Eigen::Vector3d& normal, double slack, std::array<int, 2>& support) const;
-  bool is_minimum_on_edge(int edge, double parameter, const Eigen::Vector3d& foot,
-                          const Eigen::Vector3d& away, double slack, double distance, int& on) const;
+  bool is_minimum_on_edge(int edge, double parameter, const MovingPoint& foot, const Eigen::Vector3d& away,
+                          double slack, double distance, int& on) const;
   /// Of the faces at an edge or a node: the largest cosine of a normal and a direction; whether they bend.
   struct Edginess {
     double cosine = 0;

@@ -38,8 +38,7 @@ TEST(FoldingStripSlow, NeverPassesThroughItself) {
     }
     EXPECT_GT(most_contacts, 0) << "it has folded onto itself";
     EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
-    // A node that passes a kink may come nearer by what its fold closes in a step.
-    EXPECT_LT(model.scene.totals.deepest_overlap, 2.0 * dt + 2 * model.scene.features.skin);
+    EXPECT_LT(model.scene.totals.deepest_overlap, 0.01 * 0.25);
   }
 }
 

@@ -352,8 +352,7 @@ TEST(ExtremesFold, SheetPinchedFromBothSidesIsPassedByNothing) {
               watched.touched(), watched.overlap() / 0.02, watched.model.energy.error_max, watched.added());
   EXPECT_GT(watched.touched(), 50);
   EXPECT_EQ(watched.missed, 0);
-  // Nodes that pass kinks come nearer by a part of what the plates close in a step, and are opened again.
-  EXPECT_LE(watched.overlap(), 0.03 * 0.02);
+  EXPECT_LE(watched.overlap(), 0.01 * 0.02 + 2 * watched.model.contacts[0].features.skin);
 }
 
 }  // namespace

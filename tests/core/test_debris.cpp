@@ -113,8 +113,8 @@ TEST(Debris, WithARadiusIsCaughtBetweenWhatMeets) {
       freed.insert(freed.end(), m.erosion->freed.begin(), m.erosion->freed.end());
       for (const int node : freed) ASSERT_EQ(scene.surface.slave(node) >= 0, with_radius);
       for (const Contact& contact : scene.contacts)
-        pushed += contact.impulse > 0 && !contact.of_lines() &&
-                  scene.surface.faces_of.of(contact.slave).empty();
+        pushed +=
+            contact.impulse > 0 && !contact.of_lines() && scene.surface.faces_of.of(contact.slave).empty();
       added = scene.totals.largest_normal_work;
     });
     EXPECT_GE(freed.size(), 4u);

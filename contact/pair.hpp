@@ -21,10 +21,8 @@ struct Contact {
       Eigen::Vector3d::Zero();      ///< unit vector from the second side to the first: the way that is pushed
   double gap = 0;                   ///< at the beginning of the step; negative: old overlap
   double friction_coefficient = 0;  ///< Coulomb's
-  /// Of an overlap that was there when the contact was found first: what of it is left. Not positive.
-  double found_gap = 0;
-  bool along_meeting = false;  ///< the normal is that of a meeting later in the step
-  double impulse = 0;          ///< along the normal, on the first side; never negative
+  bool along_meeting = false;       ///< the normal is that of a meeting later in the step
+  double impulse = 0;               ///< along the normal, on the first side; never negative
   Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< tangential impulse on the first side
 
   bool of_lines() const { return face < 0; }

@@ -98,7 +98,7 @@ class Resolution {
     scene_.last.swap(scene_.contacts);
     find_proximities(scene_.proximity, scene_.features, scene_.surface, scene_.options, scene_.pairs,
                      scene_.motion, team_, scene_.contacts);
-    inherit_impulses(scene_.last, step_ratio(), 2 * scene_.features.skin, scene_.contacts, rows_.taken);
+    inherit_impulses(scene_.last, step_ratio(), scene_.contacts, rows_.taken);
   }
 
   void search() {
@@ -137,14 +137,15 @@ class Resolution {
     for (std::size_t i = first; i < scene_.contacts.size(); ++i)
       scene_.row_of_contact.push_back(known + i - first);
     add_rows(rows_, sources(), std::span<const Contact>(scene_.contacts).subspan(first));
-    for (std::size_t i = first; i < scene_.contacts.size(); ++i)
-      set_target(rows_.rows.row[known + i - first], scene_.contacts[i].found_gap);
+    set_targets(known);
   }
   void add_wall_rows_from(std::size_t first) {
     const std::size_t known = rows_.rows.size();
     add_rows(rows_, sources(), walls_, std::span<const NodeAtWall>(scene_.walls.touch).subspan(first));
-    for (std::size_t i = known; i < rows_.rows.size(); ++i)
-      set_target(rows_.rows.row[i], rows_.rows.row[i].gap);
+    set_targets(known);
+  }
+  void set_targets(std::size_t first) {
+    for (std::size_t i = first; i < rows_.rows.size(); ++i) set_target(rows_.rows.row[i]);
   }
   ConstraintRow& row_of(std::size_t contact) { return rows_.rows.row[scene_.row_of_contact[contact]]; }
 
@@ -159,14 +160,14 @@ class Resolution {
     return true;
   }
 
-  void set_target(ConstraintRow& row, double found_gap) const {
+  void set_target(ConstraintRow& row) const {
     const Recovery recovery = recovery_of(scene_.options, scene_.features.smallest_edge);
     double mass = 0;
     if (row.gap < 0 && row.impulse > 0) {
       const double inverse = RowMap(rows_.rows, row).inverse_mass(row.normal, rows_.block);
       mass = inverse > 0 ? 1 / inverse : 0;
     }
-    row.target_velocity = target_velocity(recovery, row.gap, found_gap, row.impulse, mass, dt_);
+    row.target_velocity = target_velocity(recovery, row.gap, row.impulse, mass, dt_);
   }
 
   void solve(bool anew) {
@@ -235,7 +236,7 @@ class Resolution {
       ConstraintRow& row = row_of(i);
       if (row.gap == scene_.contacts[i].gap) continue;
       row.gap = scene_.contacts[i].gap;
-      set_target(row, row.gap);
+      set_target(row);
     }
     add_rows_from(known);
   }

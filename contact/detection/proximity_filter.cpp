@@ -76,7 +76,8 @@ double ProximityFilter::rounding_of_foot(double slack, double distance) const {
 }
 
 // Whether no neighbour in the list comes nearer than the foot along the direction away from the other side:
-// at the start of the step, or where the motion leads, so that what carries is not let go for a step.
+// at the start of the step; of what has a thickness also where the motion leads, so that what carries is not
+// let go for a step in which a neighbour is a little nearer.
 template <class List>
 bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away,
                                 double slack) const {
@@ -87,11 +88,12 @@ bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot,
       return arm.dot(away) >= -slack * arm.norm();
     });
   };
-  return look(foot.start, 0) || look(foot.end, 1);
+  return look(foot.start, 0) || (foot.is_thick && look(foot.end, 1));
 }
-ProximityFilter::MovingPoint ProximityFilter::point_of(int node) const {
-  return {motion_.start(node), motion_.start(node) + motion_.displacement(node)};
+ProximityFilter::MovingPoint ProximityFilter::point_of(int node, bool is_thick) const {
+  return {motion_.start(node), motion_.start(node) + motion_.displacement(node), is_thick};
 }
+bool ProximityFilter::is_thick(double reach) const { return reach > 2.001 * features_.skin; }
 
 // Whether the step's approach, or twice it, closes the gap.
 bool ProximityFilter::is_near(const Contact& contact) const {
@@ -177,7 +179,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   contact.gap = near.distance - near.reach;
   if (!is_near(contact)) return;
   std::array<int, 2> support{};
-  MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d::Zero()};
+  MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d::Zero(), is_thick(near.reach)};
   foot.end = foot.start;
   for (std::size_t k = 0; k < 4; ++k) foot.end += near.at[k] * motion_.displacement(corner[k]);
   const double slack = slack_of(foot.start, near.distance);
@@ -186,7 +188,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   // nearer than, as one of a flat surface ahead of a rim, is no minimum.
   const bool inside = support[0] < -1;
   if (!inside) {
-    if (!look_away(features_.ring.of(s), point_of(s), near.normal, slack)) return;
+    if (!look_away(features_.ring.of(s), point_of(s, foot.is_thick), near.normal, slack)) return;
     const Edginess of_face = support[1] >= 0 ? edginess(faces_of_side(f, support), near.normal)
                                              : edginess(surface_.faces_of.of(support[0]), near.normal);
     const Edginess of_node = edginess(surface_.faces_of.of(s), Vector3d(-near.normal));
@@ -214,7 +216,8 @@ bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const MovingPo
   const int end = own.node[parameter > 0.5 ? 1 : 0];
   if (parameter > no_weight && parameter < 1 - no_weight) {
     const bool at_end = std::min(parameter, 1 - parameter) <= rounding_of_foot(slack, distance);
-    if (at_end && own.of_face() && look_away(features_.ring.of(end), point_of(end), away, slack))
+    if (at_end && own.of_face() &&
+        look_away(features_.ring.of(end), point_of(end, foot.is_thick), away, slack))
       return false;
     return own.faces > 2 || look_away(own.wing, foot, away, slack);
   }
@@ -251,9 +254,10 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const int ea = pairs_.edge_edge.first[pair], eb = pairs_.edge_edge.second[pair];
   const EdgeFeature &a = edge(ea), &b = edge(eb);
   const auto foot = [&](const EdgeFeature& own, double parameter) {
-    const MovingPoint first = point_of(own.node[0]), second = point_of(own.node[1]);
+    const MovingPoint first = point_of(own.node[0], is_thick(near.reach)),
+                      second = point_of(own.node[1], false);
     return MovingPoint{(1 - parameter) * first.start + parameter * second.start,
-                       (1 - parameter) * first.end + parameter * second.end};
+                       (1 - parameter) * first.end + parameter * second.end, first.is_thick};
   };
   const MovingPoint foot_a = foot(a, near.at[0]), foot_b = foot(b, near.at[1]);
   const double slack = slack_of(foot_a.start, near.distance);

@@ -39,11 +39,13 @@ class ProximityFilter {
   /// At both ends of the step, as predicted.
   struct MovingPoint {
     Eigen::Vector3d start, end;
+    bool is_thick = false;  ///< whether the pair touches at more than skins
   };
   template <class List>
   bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away,
                  double slack) const;
-  MovingPoint point_of(int node) const;
+  MovingPoint point_of(int node, bool is_thick) const;
+  bool is_thick(double reach) const;
   static double slack_of(const Eigen::Vector3d& foot, double distance);
   bool is_near(const Contact& contact) const;
   double rounding_of_foot(double slack, double distance) const;

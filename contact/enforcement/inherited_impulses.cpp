@@ -1,6 +1,5 @@
 #include "contact/enforcement/inherited_impulses.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace brio {
@@ -19,9 +18,6 @@ void add(const Contact& last, double share, Contact& contact) {
   const Vector3d friction = share * last.friction;
   contact.friction += friction - contact.normal.dot(friction) * contact.normal;
 }
-void keep_found_gap(const Contact& last, Contact& contact) {
-  contact.found_gap = std::max(contact.found_gap, last.found_gap);
-}
 // Whether closest points lie on the same corners: a foot that leaves an edge for the faces beside it is new
 // on both of them.
 bool same_pair(const Contact& a, const Contact& b) {
@@ -36,10 +32,9 @@ bool inherits(const Contact& contact, const Contact& last) {
 
 }  // namespace
 
-void inherit_impulses(std::span<const Contact> last, double step_ratio, double most_found,
-                      std::span<Contact> contacts, std::vector<std::uint8_t>& taken) {
+void inherit_impulses(std::span<const Contact> last, double step_ratio, std::span<Contact> contacts,
+                      std::vector<std::uint8_t>& taken) {
   taken.assign(last.size() + contacts.size(), 0);
-  for (Contact& contact : contacts) contact.found_gap = std::clamp(contact.gap, -most_found, 0.0);
   std::uint8_t* found = taken.data() + last.size();
   std::size_t old_begin = 0;
   for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
@@ -52,7 +47,6 @@ void inherit_impulses(std::span<const Contact> last, double step_ratio, double m
       for (std::size_t j = old_begin; j < old_end && found[i] == 0; ++j) {
         if (taken[j] != 0 || !same_pair(last[j], contacts[i]) || !inherits(contacts[i], last[j])) continue;
         add(last[j], step_ratio, contacts[i]);
-        keep_found_gap(last[j], contacts[i]);
         taken[j] = found[i] = 1;
       }
     const auto is_heir = [&](std::size_t i, const Contact& ended) {
@@ -63,10 +57,7 @@ void inherit_impulses(std::span<const Contact> last, double step_ratio, double m
       int heirs = 0;
       for (std::size_t i = begin; i < end; ++i) heirs += is_heir(i, last[j]);
       for (std::size_t i = begin; i < end; ++i)
-        if (is_heir(i, last[j])) {
-          add(last[j], step_ratio / heirs, contacts[i]);
-          keep_found_gap(last[j], contacts[i]);
-        }
+        if (is_heir(i, last[j])) add(last[j], step_ratio / heirs, contacts[i]);
     }
     old_begin = old_end;
   }

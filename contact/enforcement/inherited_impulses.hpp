@@ -13,8 +13,7 @@ namespace brio {
 /// contact carried that has ended goes in equal parts to those that are new, of the same node or edge with
 /// the same body, that push about the same way. Both lists are ordered by Contact::slave.
 /// \param taken working space
-/// \param most_found  of an overlap that a contact is found with: deeper, it counts as sunk
-void inherit_impulses(std::span<const Contact> last, double step_ratio, double most_found,
-                      std::span<Contact> contacts, std::vector<std::uint8_t>& taken);
+void inherit_impulses(std::span<const Contact> last, double step_ratio, std::span<Contact> contacts,
+                      std::vector<std::uint8_t>& taken);
 
 }  // namespace brio

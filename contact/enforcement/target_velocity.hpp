@@ -23,22 +23,16 @@ inline Recovery recovery_of(const ContactOptions& options, double smallest_edge,
 /// have yet to find, opening in proportion to depth integrates the overlap, which feeds slow vibrations of
 /// what rests. A contact under load is opened the slower the more it carries beyond what a node gains by its
 /// recovery: it would otherwise be opened with any force, and so give energy to what is pressed together; one
-/// that has carried nothing is not opened, since what it will carry is not known. What a contact has sunk
-/// since it was found is opened under any load: it is work that the sinking has taken. \param impulse carried
-/// over from the step before. \param mass effective mass along the normal; 0 where nothing can move. \param
-/// found_gap  what is left of an overlap with which the contact was found, not positive.
-inline double target_velocity(const Recovery& recovery, double gap, double found_gap, double impulse,
-                              double mass, double dt) {
+/// that has carried nothing is not opened, since what it will carry is not known.
+/// \param impulse carried over from the step before. \param mass effective mass along the normal; 0
+/// where nothing can move.
+inline double target_velocity(const Recovery& recovery, double gap, double impulse, double mass, double dt) {
   if (gap >= 0) return -gap / dt;
   if (!(impulse > 0)) return 0;
-  const auto opening = [&](double depth) {
-    const double share = recovery.share * (depth < recovery.deep ? depth / recovery.deep : 1);
-    return std::min(share * depth, recovery.cap) / dt;
-  };
-  const double unloaded = opening(-gap);
+  const double share = recovery.share * (-gap < recovery.deep ? -gap / recovery.deep : 1);
+  const double unloaded = std::min(share * -gap, recovery.cap) / dt;
   const double gain = mass * unloaded;
-  const double loaded = impulse > gain ? unloaded * (gain / impulse) : unloaded;
-  return std::max(loaded, opening(std::max(found_gap - gap, 0.0)));
+  return impulse > gain ? unloaded * (gain / impulse) : unloaded;
 }
 
 }  // namespace brio

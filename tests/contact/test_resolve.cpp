@@ -149,6 +149,7 @@ struct Slide {
     options.friction = friction;
     model.start(options);
     model.hold(0, block);
+    model.make_gap();
   }
   double travelled() const { return model.centre(block, model.count())[0] - 0.63; }
   Vector3d speed() const { return model.mean_velocity(block, model.count()); }
@@ -185,6 +186,7 @@ TEST(FrictionSlow, DampedStackRestsWithoutDrift) {
   options.friction = 0.3;
   model.start(options);
   model.hold(0, floor_end);
+  model.make_gap();
   for (int i = 0; i < 3000; ++i) model.step(1e-3);
   const Vector3d settled = model.centre(floor_end, model.count());
   for (int i = 0; i < 5000; ++i) model.step(1e-3);

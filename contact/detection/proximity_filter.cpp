@@ -16,8 +16,8 @@ namespace {
 /// Neighbours that come nearer by less than this sine do not count, so that surfaces that lie on each other
 /// and bend keep their constraints: at distance d what is left out is nearer by less than d sine^2. A face
 /// beside an edge lies in the plane at right angles to the closest distance where it leaves it by less; where
-/// that is so at both edges, faces lie on each other, and nodes, and rims where they cross, keep the distance
-/// of inner edges to a quarter of the sine times their length.
+/// that is so at both edges, faces lie on each other, and nodes, and rims and diagonals where they cross,
+/// keep the distance of inner edges to a quarter of the sine times their length.
 constexpr double flat_sine = 1e-3;
 /// The same in units in the last place of positions, over the distance.
 constexpr double roundings = 8;
@@ -236,7 +236,7 @@ ProximityFilter::Flatness ProximityFilter::flatness(const EdgeFeature& own, cons
     (std::abs(arm.dot(direction)) <= flat_sine * arm.norm() ? flat : steep) += 1;
   }
   if (flat == 0) return Flatness::none;
-  const bool surrounded = own.faces == 2 || own.kind != EdgeKind::side;
+  const bool surrounded = own.faces == 2;
   return steep == 0 && surrounded ? Flatness::inside : Flatness::rim;
 }
 

@@ -151,7 +151,9 @@ TEST(Erosion, NodesLaidBareCarryWhatComesDown) {
   for (int i = 0; i < 50; ++i) {
     model.step(2e-3);
     if (i == 0) {
-      EXPECT_EQ(model.scene.step.contacts, 16) << "twelve at the rim and four that were inside";
+      int nodes = 0;
+      for (const Contact& contact : model.scene.contacts) nodes += contact.of_lines() ? 0 : 1;
+      EXPECT_EQ(nodes, 16) << "twelve at the rim and four that were inside";
     }
     ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << i;
   }
@@ -171,7 +173,7 @@ TEST(Erosion, OtherContactsGoOnUnchanged) {
     m.hold(0, 13 * 4 * 2);
     for (int i = 0; i < 300; ++i) m.step(1e-4);
   }
-  ASSERT_GT(model[0].scene.step.active, 3);
+  ASSERT_GT(model[0].scene.step.active, 2);
   model[1].erode(std::vector<SurfaceElement>{{0, 10}, {0, 11}, {0, 22}, {0, 34}});
   for (int i = 0; i < 100; ++i) {
     for (SpringModel& m : model) m.step(1e-4);

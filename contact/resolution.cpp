@@ -50,9 +50,9 @@ class Resolution {
     for (int round = 0;; ++round) {
       follow();
       look_again();
-      if (!scene_.options.velocity_check) break;
-      find_hits(scene_.guard, scene_.proximity, scene_.features, scene_.surface, scene_.options, scene_.pairs,
-                scene_.motion, team_);
+      if (scene_.options.velocity_check)
+        find_hits(scene_.guard, scene_.proximity, scene_.features, scene_.surface, scene_.options,
+                  scene_.pairs, scene_.motion, team_);
       const bool behind_walls = find_missed_at_walls(round);
       if (scene_.guard.hits.empty() && !behind_walls) break;
       if (round == 0) ++scene_.steps_with_hits;

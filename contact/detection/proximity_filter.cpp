@@ -236,8 +236,7 @@ ProximityFilter::Flatness ProximityFilter::flatness(const EdgeFeature& own, cons
     (std::abs(arm.dot(direction)) <= flat_sine * arm.norm() ? flat : steep) += 1;
   }
   if (flat == 0) return Flatness::none;
-  const bool surrounded = own.faces == 2;
-  return steep == 0 && surrounded ? Flatness::inside : Flatness::rim;
+  return steep == 0 && own.faces == 2 ? Flatness::inside : Flatness::rim;
 }
 
 // Sides of faces along each other: the ends of what they share are nodes at a side, whose constraints hold

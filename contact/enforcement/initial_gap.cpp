@@ -259,8 +259,10 @@ class GapMaker {
       if (worst == nullptr) break;
       const bool only_gap = !must_move(*worst);
       missing = -worst->contact.gap;
-      if (!only_gap && (round >= most_rounds || is_held(*worst)))
+      if (!only_gap && (round >= most_rounds || is_held(*worst))) {
+        expect_bodies_apart(scene_, nodes_);
         refuse(*worst, "which moving nodes does not remove");
+      }
       if (round % rounds_to_halve == 0) {
         if (round >= most_rounds || (only_gap && missing > 0.5 * missing_before)) break;
         missing_before = missing;

@@ -10,7 +10,7 @@ struct ContactOptions {
   /// Coulomb coefficient; none unless asked for.
   double friction = 0;
   /// Tens of iterations over the constraints of a step at most; what has converged takes fewer.
-  int passes = 5;
+  int passes = 20;
   SearchStrategy search = SearchStrategy::automatic;
   /// Length by which boxes are grown so that the search can be skipped, over the mean edge of the surface.
   double reach_buffer = 0.2;

@@ -24,7 +24,7 @@ struct PresetValues {
 
 // What they cost and buy is told by the knob `preset` of the studies in inputs/studies.
 constexpr Setting fast_settings[] = {
-    {"numerics.precision", "float"}, {"contact.passes", "2"}, {"time.step_scale", "0.95"}};
+    {"numerics.precision", "float"}, {"contact.passes", "4"}, {"time.step_scale", "0.95"}};
 constexpr ElementSetting fast_elements[] = {{"hex8", "objective_rate", "jaumann"},
                                             {"shell4", "thickness_points", "3"}};
 constexpr Setting accurate_settings[] = {{"time.step_scale", "0.95"}};

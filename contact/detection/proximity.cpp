@@ -144,8 +144,8 @@ void take_over(Proximity& proximity, std::size_t ranges, std::vector<Contact>& c
   }
   std::sort(found.begin(), found.end(), [](const FoundContact* a, const FoundContact* b) {
     if (a->contact.slave != b->contact.slave) return a->contact.slave < b->contact.slave;
-    return std::tuple(a->support, a->contact.face, a->contact.node) <
-           std::tuple(b->support, b->contact.face, b->contact.node);
+    return std::tuple(a->support, !a->in_plane, a->contact.face, a->contact.node) <
+           std::tuple(b->support, !b->in_plane, b->contact.face, b->contact.node);
   });
   const auto last = std::unique(found.begin(), found.end(), [](const FoundContact* a, const FoundContact* b) {
     return a->contact.slave == b->contact.slave && a->support == b->support;

@@ -24,6 +24,7 @@ namespace brio {
 struct FoundContact {
   Contact contact;
   std::array<int, 2> support{};  ///< what the closest points lie on, so that none is counted twice
+  bool in_plane = false;         ///< the foot is at the rim of a face, below the node in its plane
 };
 
 /// What is looked at in a step.

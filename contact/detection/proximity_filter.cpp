@@ -76,8 +76,8 @@ double ProximityFilter::rounding_of_foot(double slack, double distance) const {
 }
 
 // Whether no neighbour in the list comes nearer than the foot along the direction away from the other side:
-// at the start of the step; of what has a thickness also where the motion leads, so that what carries is not
-// let go for a step in which a neighbour is a little nearer.
+// at the start of the step, or where the motion leads, so that what carries is not let go for a step in which
+// a neighbour is a little nearer.
 template <class List>
 bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away,
                                 double slack) const {
@@ -88,12 +88,11 @@ bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot,
       return arm.dot(away) >= -slack * arm.norm();
     });
   };
-  return look(foot.start, 0) || (foot.is_thick && look(foot.end, 1));
+  return look(foot.start, 0) || look(foot.end, 1);
 }
-ProximityFilter::MovingPoint ProximityFilter::point_of(int node, bool is_thick) const {
-  return {motion_.start(node), motion_.start(node) + motion_.displacement(node), is_thick};
+ProximityFilter::MovingPoint ProximityFilter::point_of(int node) const {
+  return {motion_.start(node), motion_.start(node) + motion_.displacement(node)};
 }
-bool ProximityFilter::is_thick(double reach) const { return reach > 2.001 * features_.skin; }
 
 // Whether the step's approach, or twice it, closes the gap.
 bool ProximityFilter::is_near(const Contact& contact) const {
@@ -162,6 +161,34 @@ bool ProximityFilter::passes_by(const EdgeFeature& a, const EdgeFeature& b, doub
   return true;
 }
 
+// Where the direction to the rim of a face leaves its normal by rounding alone: the normal, and as foot the
+// point of the plane of the face below the node. Two rims that are pressed together would otherwise stand on
+// each other as an inverted pendulum of the length of the gap. \returns whether it is so
+bool ProximityFilter::lay_in_plane(const NearPair<4>& near, double slack, Contact& contact) const {
+  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(contact.face)];
+  const std::size_t corners = corner[3] == corner[2] ? 3 : 4;
+  const auto k = static_cast<std::size_t>(std::max_element(near.at.begin(), near.at.begin() + corners) -
+                                          near.at.begin());
+  const std::size_t next = (k + 1) % corners, previous = (k + corners - 1) % corners;
+  const Vector3d along = motion_.start(corner[next]) - motion_.start(corner[k]);
+  const Vector3d across = motion_.start(corner[previous]) - motion_.start(corner[k]);
+  Vector3d normal = unit_or(along.cross(across), Vector3d::Zero());
+  const double cosine = normal.dot(near.normal);
+  const Vector3d aside = near.normal - cosine * normal;
+  if (normal.isZero(0) || aside.squaredNorm() > slack * slack) return false;
+  // The foot moves by first * along + second * across.
+  const double aa = along.squaredNorm(), ab = along.dot(across), bb = across.squaredNorm();
+  const double scale = near.distance / (aa * bb - ab * ab);
+  const double first = scale * (bb * along.dot(aside) - ab * across.dot(aside));
+  const double second = scale * (aa * across.dot(aside) - ab * along.dot(aside));
+  contact.weight[1 + next] -= first;
+  contact.weight[1 + previous] -= second;
+  contact.weight[1 + k] += first + second;
+  contact.normal = std::copysign(1.0, cosine) * normal;
+  contact.gap = near.distance * std::abs(cosine) - near.reach;
+  return true;
+}
+
 void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundContact>& found) const {
   const auto pair = static_cast<std::size_t>(near.pair);
   const int s = pairs_.node_face.first[pair], f = pairs_.node_face.second[pair];
@@ -179,7 +206,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   contact.gap = near.distance - near.reach;
   if (!is_near(contact)) return;
   std::array<int, 2> support{};
-  MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d::Zero(), is_thick(near.reach)};
+  MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d::Zero()};
   foot.end = foot.start;
   for (std::size_t k = 0; k < 4; ++k) foot.end += near.at[k] * motion_.displacement(corner[k]);
   const double slack = slack_of(foot.start, near.distance);
@@ -187,12 +214,16 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   // Beside a side or a corner the direction is no normal of the face: a node that its own neighbours come
   // nearer than, as one of a flat surface ahead of a rim, is no minimum.
   const bool inside = support[0] < -1;
+  bool in_plane = false;
   if (!inside) {
-    if (!look_away(features_.ring.of(s), point_of(s, foot.is_thick), near.normal, slack)) return;
+    if (!look_away(features_.ring.of(s), point_of(s), near.normal, slack)) return;
     const Edginess of_face = support[1] >= 0 ? edginess(faces_of_side(f, support), near.normal)
                                              : edginess(surface_.faces_of.of(support[0]), near.normal);
     const Edginess of_node = edginess(surface_.faces_of.of(s), Vector3d(-near.normal));
-    const double tilt = tilt_of(std::max(of_face.cosine, of_node.cosine));
+    in_plane = lay_in_plane(near, slack, contact);
+    const double tilt = in_plane ? 0 : tilt_of(std::max(of_face.cosine, of_node.cosine));
+    // Two nodes in the plane of a face of the first: the second is the one on a face.
+    if (!in_plane && support[1] < 0 && tilt_of(of_node.cosine) < slack) return;
     const bool skins = of_face.sharp && of_node.sharp && !face.shell &&
                        features_.node_radius[static_cast<std::size_t>(s)] <= features_.skin;
     if (skins) contact.gap += spared_skin(tilt);
@@ -203,7 +234,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   }
   contact.friction_coefficient =
       surface_.pairs.friction(surface_.node[static_cast<std::size_t>(s)], face.part, options_.friction);
-  found.push_back({contact, support});
+  found.push_back({contact, support, in_plane});
 }
 
 // Whether the foot on an edge is a local minimum on the union of edges and faces. Ends of edges of faces are
@@ -216,8 +247,7 @@ bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const MovingPo
   const int end = own.node[parameter > 0.5 ? 1 : 0];
   if (parameter > no_weight && parameter < 1 - no_weight) {
     const bool at_end = std::min(parameter, 1 - parameter) <= rounding_of_foot(slack, distance);
-    if (at_end && own.of_face() &&
-        look_away(features_.ring.of(end), point_of(end, foot.is_thick), away, slack))
+    if (at_end && own.of_face() && look_away(features_.ring.of(end), point_of(end), away, slack))
       return false;
     return own.faces > 2 || look_away(own.wing, foot, away, slack);
   }
@@ -253,10 +283,9 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const int ea = pairs_.edge_edge.first[pair], eb = pairs_.edge_edge.second[pair];
   const EdgeFeature &a = edge(ea), &b = edge(eb);
   const auto foot = [&](const EdgeFeature& own, double parameter) {
-    const MovingPoint first = point_of(own.node[0], is_thick(near.reach)),
-                      second = point_of(own.node[1], false);
+    const MovingPoint first = point_of(own.node[0]), second = point_of(own.node[1]);
     return MovingPoint{(1 - parameter) * first.start + parameter * second.start,
-                       (1 - parameter) * first.end + parameter * second.end, first.is_thick};
+                       (1 - parameter) * first.end + parameter * second.end};
   };
   const MovingPoint foot_a = foot(a, near.at[0]), foot_b = foot(b, near.at[1]);
   const double slack = slack_of(foot_a.start, near.distance);

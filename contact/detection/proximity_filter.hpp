@@ -39,13 +39,11 @@ class ProximityFilter {
   /// At both ends of the step, as predicted.
   struct MovingPoint {
     Eigen::Vector3d start, end;
-    bool is_thick = false;  ///< whether the pair touches at more than skins
   };
   template <class List>
   bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away,
                  double slack) const;
-  MovingPoint point_of(int node, bool is_thick) const;
-  bool is_thick(double reach) const;
+  MovingPoint point_of(int node) const;
   static double slack_of(const Eigen::Vector3d& foot, double distance);
   bool is_near(const Contact& contact) const;
   double rounding_of_foot(double slack, double distance) const;
@@ -53,6 +51,7 @@ class ProximityFilter {
                           const Eigen::Vector3d& normal, double slack, std::array<int, 2>& support) const;
   bool is_minimum_on_edge(int edge, double parameter, const MovingPoint& foot, const Eigen::Vector3d& away,
                           double slack, double distance, int& on) const;
+  bool lay_in_plane(const NearPair<4>& near, double slack, Contact& contact) const;
   /// Of the faces at an edge or a node: the largest cosine of a normal and a direction; whether they bend.
   struct Edginess {
     double cosine = 0;

@@ -104,7 +104,7 @@ class Builder {
     SidePoint side;
     bool turns = true;
     for (std::size_t k = begin; k < end; ++k) {
-      const double weight = std::abs(contact.weight[k]);
+      const double weight = static_cast<int>(k) < contact.own ? contact.weight[k] : -contact.weight[k];
       if (weight == 0) continue;
       const int node = surface_.node[index(contact.node[k])];
       const int body = surface_.rigid_body(node);

@@ -85,15 +85,22 @@ void ImpulseSolver::store_given(const ConstraintRows& rows, Kind kind, std::size
       store_given_of(general_[place_[slot]], rows.row[row_of_slot_[slot]], given_[slot]);
 }
 
+void ImpulseSolver::velocity_of(const ConstraintRows& rows, const ConstraintRow& row,
+                                const std::vector<BlockVelocity>& blocks, double (&velocity)[3]) {
+  const Vector u = RowMap(rows, row).velocity([&](int b) { return vector_of(blocks[index(b)].component); });
+  velocity[0] = dot(row.normal, u);
+  velocity[1] = dot(row.tangent[0], u);
+  velocity[2] = dot(row.tangent[1], u);
+}
+
 ImpulseSolver::Sums ImpulseSolver::change_general(const ConstraintRows& rows, double momentum,
                                                   std::size_t begin, std::size_t end) {
   Sums sums;
   for (std::size_t slot = begin; slot < end; ++slot) {
     if (row_of_slot_[slot] == no_row) continue;
     const ConstraintRow& row = rows.row[row_of_slot_[slot]];
-    const Vector u =
-        RowMap(rows, row).velocity([&](int b) { return vector_of(extrapolated_[index(b)].component); });
-    const double velocity[3] = {dot(row.normal, u), dot(row.tangent[0], u), dot(row.tangent[1], u)};
+    double velocity[3];
+    velocity_of(rows, row, extrapolated_, velocity);
     RowUnknowns<double, true>& unknown = general_[place_[slot]];
     change_impulse(unknown, velocity, momentum, sums);
     store_given_of(unknown, row, given_[slot]);
@@ -133,35 +140,36 @@ ImpulseSolver::Sums ImpulseSolver::change_impulses(const ConstraintRows& rows, c
   return total;
 }
 
+// Impulse that the rows give to a block.
+Row4 ImpulseSolver::given_to(const ConstraintRows& rows, std::size_t b) const {
+  Row4 sum = {};
+  for (const TranslationItem* item = translation_.begin(b); item != translation_.end(b); ++item)
+    sum += item->weight * load_row(given_[item->slot].force);
+  for (const TiltedItem* item = tilted_.begin(b); item != tilted_.end(b); ++item) {
+    const RowImpulse& given = given_[item->slot];
+    sum += item->weight * load_row(given.force);
+    sum += (item->tilt[0] * given.slope_0 + item->tilt[1] * given.slope_1) * load_row(given.normal);
+  }
+  for (const OtherItem* item = rotation_.begin(b); item != rotation_.end(b); ++item) {
+    const Vector add = cross(rows.rotation[item->entry].arm, vector_of(given_[item->slot].force));
+    sum += Row4{add.x, add.y, add.z, 0};
+  }
+  for (const OtherItem* item = matrix_.begin(b); item != matrix_.end(b); ++item) {
+    const Vector add = transposed_times(rows.matrix[item->entry].matrix, vector_of(given_[item->slot].force));
+    sum += Row4{add.x, add.y, add.z, 0};
+  }
+  return sum;
+}
+
 void ImpulseSolver::gather(const ConstraintRows& rows, std::span<const VelocityBlock> blocks,
                            const Island& island, double momentum, ThreadTeam* team) {
-  const auto given_to = [&](std::size_t b) {
-    Row4 sum = {};
-    for (const TranslationItem* item = translation_.begin(b); item != translation_.end(b); ++item)
-      sum += item->weight * load_row(given_[item->slot].force);
-    for (const TiltedItem* item = tilted_.begin(b); item != tilted_.end(b); ++item) {
-      const RowImpulse& given = given_[item->slot];
-      sum += item->weight * load_row(given.force);
-      sum += (item->tilt[0] * given.slope_0 + item->tilt[1] * given.slope_1) * load_row(given.normal);
-    }
-    for (const OtherItem* item = rotation_.begin(b); item != rotation_.end(b); ++item) {
-      const Vector add = cross(rows.rotation[item->entry].arm, vector_of(given_[item->slot].force));
-      sum += Row4{add.x, add.y, add.z, 0};
-    }
-    for (const OtherItem* item = matrix_.begin(b); item != matrix_.end(b); ++item) {
-      const Vector add =
-          transposed_times(rows.matrix[item->entry].matrix, vector_of(given_[item->slot].force));
-      sum += Row4{add.x, add.y, add.z, 0};
-    }
-    return sum;
-  };
   const std::uint32_t* order = block_order_.data() + island.block_begin;
   const std::size_t count = island.block_end - island.block_begin;
   each_of(team, (count + blocks_a_task - 1) / blocks_a_task, [&](std::size_t task) {
     for (std::size_t k = task * blocks_a_task; k < std::min((task + 1) * blocks_a_task, count); ++k) {
       const std::size_t b = order[k];
       const SymmetricTensor<double>& w = blocks[b].inverse_mass;
-      const Row4 sum = given_to(b);
+      const Row4 sum = given_to(rows, b);
       Row4 change = Row4{w.xx, w.yy, w.zz, 0} * sum;
       if (!is_diagonal(w)) {
         const Vector full = w * Vector{sum[0], sum[1], sum[2]};
@@ -250,6 +258,58 @@ SolveReport ImpulseSolver::solve_further(const SolveOptions& options, Constraint
   return total;
 }
 
+// Calls `visit_pack(pack)` and `visit_row(unknown, row)`, for rows that are in no pack.
+template <class VisitPack, class VisitRow>
+void ImpulseSolver::each_row(const ConstraintRows& rows, const Island& island, const VisitPack& visit_pack,
+                             const VisitRow& visit_row) {
+  for (std::size_t p = island.piece_begin; p < island.piece_end; ++p) {
+    const auto& [kind, begin, end] = piece_[p];
+    const auto visit_packs = [&](auto& packs) {
+      each_pack(packs, place_[begin], begin, end, [&](auto& pack, std::size_t) { visit_pack(pack); });
+    };
+    if (kind == normal_only) visit_packs(normal_packs_);
+    if (kind == with_friction) visit_packs(friction_packs_);
+    if (kind == with_tilt) visit_packs(tilt_packs_);
+    if (kind != general) continue;
+    for (std::size_t slot = begin; slot < end; ++slot)
+      if (const std::uint32_t row = row_of_slot_[slot]; row != no_row)
+        visit_row(general_[place_[slot]], rows.row[row]);
+  }
+}
+
+// Of impulses J as iterated: J . (u - offset) > 0 is work that the exact ones do not do. It ends at a share
+// of J, since u is linear in it; smaller impulses are admissible.
+void ImpulseSolver::take_excess(const ConstraintRows& rows, const Island& island) {
+  double work = 0;
+  each_row(
+      rows, island, [&](const auto& pack) { work += work_of(pack, now_.data()->component); },
+      [&](const auto& unknown, const ConstraintRow& row) {
+        double velocity[3];
+        velocity_of(rows, row, now_, velocity);
+        work += work_of(unknown, velocity);
+      });
+  if (!(work > 0)) return;
+  double quadratic = 0;
+  for (std::uint32_t k = island.block_begin; k < island.block_end; ++k) {
+    const std::uint32_t b = block_order_[k];
+    const Row4 change = given_to(rows, b) * (load_row(now_[b].component) - load_row(free_[b].component));
+    quadratic += change[0] + change[1] + change[2];
+  }
+  if (!(quadratic > 0)) return;
+  const double share = std::max(1 - work / quadratic, 0.0);
+  const auto scale = [&](auto& unknown) {
+    for (auto& impulse : unknown.impulse) impulse *= share;
+  };
+  each_row(
+      rows, island, [&](auto& pack) { scale(pack.unknown); },
+      [&](auto& unknown, const ConstraintRow&) { scale(unknown); });
+  for (std::uint32_t k = island.block_begin; k < island.block_end; ++k) {
+    const std::uint32_t b = block_order_[k];
+    const Row4 free = load_row(free_[b].component);
+    store_row(now_[b].component, free + share * (load_row(now_[b].component) - free));
+  }
+}
+
 // \param team of a large island; null: one thread alone.
 SolveReport ImpulseSolver::solve_island(const SolveOptions& options, const ConstraintRows& rows,
                                         std::span<const VelocityBlock> blocks, const Island& island,
@@ -274,6 +334,7 @@ SolveReport ImpulseSolver::solve_island(const SolveOptions& options, const Const
     theta = restart ? 1 : next;
     gather(rows, blocks, island, momentum, team);
   }
+  take_excess(rows, island);
   report.row_iterations = island.rows * static_cast<std::size_t>(report.iterations);
   return report;
 }

@@ -22,7 +22,8 @@
 /// sums of the matrix scaled by s. As scale serves the root of the row's own inverse mass, which makes all
 /// c_e shares of one, so that a row whose block bears others of far more weight is not slowed down by them.
 /// A step is stable whatever the number of rows at a block, and changes impulses by a symmetric matrix times
-/// what is missing: a lag only takes energy.
+/// what is missing: a lag only takes energy. Momentum may overshoot: where the impulses of an island would do
+/// work beyond what is asked for, they are scaled down to where they do none.
 ///
 /// Rows that share no block that can move, nor are joined by others, are islands: each has its own momentum,
 /// restarts and convergence, so what one does is not seen by another, and what rests costs one check. Small
@@ -122,12 +123,19 @@ class ImpulseSolver {
   void fill_general(const ConstraintRows& rows, std::size_t row);
   void store_given(const ConstraintRows& rows, Kind kind, std::size_t begin, std::size_t end);
 
+  static void velocity_of(const ConstraintRows& rows, const ConstraintRow& row,
+                          const std::vector<BlockVelocity>& blocks, double (&velocity)[3]);
   Sums change_general(const ConstraintRows& rows, double momentum, std::size_t begin, std::size_t end);
   Sums change_impulses(const ConstraintRows& rows, const Island& island, double momentum, ThreadTeam* team);
+  Row4 given_to(const ConstraintRows& rows, std::size_t block) const;
   void gather(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, const Island& island,
               double momentum, ThreadTeam* team);
   SolveReport solve_island(const SolveOptions& options, const ConstraintRows& rows,
                            std::span<const VelocityBlock> blocks, const Island& island, ThreadTeam* team);
+  template <class VisitPack, class VisitRow>
+  void each_row(const ConstraintRows& rows, const Island& island, const VisitPack& visit_pack,
+                const VisitRow& visit_row);
+  void take_excess(const ConstraintRows& rows, const Island& island);
   void store(ConstraintRows& rows, std::span<VelocityBlock> blocks, ThreadTeam& team) const;
 
   std::vector<RowPack<false, false>> normal_packs_;

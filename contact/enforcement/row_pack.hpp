@@ -111,11 +111,11 @@ BRIO_INLINE void store_impulses(const RowPack<with_friction, with_tilt>& pack, R
   }
 }
 
-/// \param velocity of each block: rows of four on 32 bytes, at the extrapolated impulses.
-/// \param given of the rows of the pack: gets their new impulses.
+/// Relative velocities of the rows of the pack along their axes.
+/// \param velocity of each block: rows of four on 32 bytes.
 template <bool with_friction, bool with_tilt>
-BRIO_INLINE void change_impulses(RowPack<with_friction, with_tilt>& pack, const double* velocity,
-                                 double momentum, RowSums<Lanes<double>>& sums, RowImpulse* given) {
+BRIO_INLINE void velocities_of(const RowPack<with_friction, with_tilt>& pack, const double* velocity,
+                               Lanes<double> (&in_frame)[with_friction ? 3 : 1]) {
   using Number = Lanes<double>;
   constexpr int entries = RowPack<with_friction, with_tilt>::entries;
   const Number* n = pack.frame;
@@ -132,14 +132,41 @@ BRIO_INLINE void change_impulses(RowPack<with_friction, with_tilt>& pack, const 
       tilted[1] += pack.tilt[2 * k + 1] * along;
     }
   }
-  Number in_frame[with_friction ? 3 : 1];
 #pragma GCC unroll 3
   for (int axis = 0; axis < (with_friction ? 3 : 1); ++axis) {
     in_frame[axis] = n[3 * axis] * u[0] + n[3 * axis + 1] * u[1] + n[3 * axis + 2] * u[2];
     if (axis > 0) in_frame[axis] += tilted[axis - 1];
   }
-  change_impulse(pack.unknown, in_frame, Number(momentum), sums);
+}
+
+/// \param velocity of each block, at the extrapolated impulses.
+/// \param given of the rows of the pack: gets their new impulses.
+template <bool with_friction, bool with_tilt>
+BRIO_INLINE void change_impulses(RowPack<with_friction, with_tilt>& pack, const double* velocity,
+                                 double momentum, RowSums<Lanes<double>>& sums, RowImpulse* given) {
+  Lanes<double> in_frame[with_friction ? 3 : 1];
+  velocities_of(pack, velocity, in_frame);
+  change_impulse(pack.unknown, in_frame, Lanes<double>(momentum), sums);
   store_impulses(pack, given);
+}
+
+/// Work of the impulses at these velocities, over what is asked for.
+template <class T, bool with_friction>
+BRIO_INLINE T work_of(const RowUnknowns<T, with_friction>& row,
+                      const T (&velocity)[RowUnknowns<T, with_friction>::axes]) {
+  T work(0.0);
+  for (int axis = 0; axis < RowUnknowns<T, with_friction>::axes; ++axis)
+    work += row.impulse[axis] * (velocity[axis] - row.offset[axis]);
+  return work;
+}
+template <bool with_friction, bool with_tilt>
+BRIO_INLINE double work_of(const RowPack<with_friction, with_tilt>& pack, const double* velocity) {
+  Lanes<double> in_frame[with_friction ? 3 : 1];
+  velocities_of(pack, velocity, in_frame);
+  const Lanes<double> work = work_of(pack.unknown, in_frame);
+  double sum = 0;
+  for (int lane = 0; lane < lane_count<double>; ++lane) sum += work[lane];
+  return sum;
 }
 
 }  // namespace brio

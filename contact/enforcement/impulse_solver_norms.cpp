@@ -14,8 +14,8 @@ namespace {
 /// Rows and blocks of a task: whatever the number of threads.
 constexpr std::size_t rows_a_task = 512;
 constexpr std::size_t blocks_a_task = 1024;
-/// Nothing can move where only rounding of a weight moves the row: below this share of what its lightest
-/// block alone would move.
+/// Nothing can move where only rounding of a weight, or of an arm along the normal, moves the row: below this
+/// share of what its lightest block alone would move.
 constexpr double held_share = 1e-20;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -69,6 +69,12 @@ bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<con
   double lightest = 0;
   for (const TranslationEntry& entry : map.translations())
     lightest = std::max(lightest, energy(blocks[index(entry.block)].inverse_mass, row.normal));
+  for (const RotationEntry& entry : map.rotations())
+    lightest =
+        std::max(lightest, dot(entry.arm, entry.arm) * norm_bound(blocks[index(entry.block)].inverse_mass));
+  for (const MatrixEntry& entry : map.matrices())
+    lightest = std::max(
+        lightest, frobenius_squared(entry.matrix) * norm_bound(blocks[index(entry.block)].inverse_mass));
   return !(map.inverse_mass(row.normal, blocks) > held_share * lightest);
 }
 

@@ -401,9 +401,7 @@ void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
   if (!scene.edges && a.of_face() && b.of_face()) return;
   if (share_node(a, b) || !kinds_meet(a, b) || on_one_face(a, b) || !may_meet(scene.surface, a, b)) return;
   const bool spaced = !one_piece(scene.features, scene.surface, scene.excluded, a, b);
-  if (!spaced && (a.kind == EdgeKind::cross_diagonal || b.kind == EdgeKind::cross_diagonal ||
-                  !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b))))
-    return;
+  if (!spaced && !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b))) return;
   const bool only_skins = a.radius + b.radius <= 2 * scene.features.skin;
   edge_edge.add(first, second,
                 spaced ? spacing_of_new(kept_edge_edge_, first, second, only_skins) : Spacing::skins);

@@ -42,5 +42,29 @@ TEST(FoldingStripSlow, NeverPassesThroughItself) {
   }
 }
 
+// Of a cell that is warped by far the cross diagonal stands out of both triangles. A side from its fourth
+// corner is led through it from above.
+TEST(WarpedCell, ASideOfANeighbourDoesNotPassTheCrossDiagonal) {
+  ThreadTeam team(1);
+  SpringModel model;
+  model.stiffness = 0;
+  model.damping = 0;
+  const std::array<Vector3d, 9> place{Vector3d{0, 0, -2}, {1, 0, 0}, {0.5, -0.5, 1.5},
+                                      {0, 1, 0},          {1, 1, 0}, {0.2, 0.2, 0.5},
+                                      {0, 2, 0},          {1, 2, 0}, {-0.5, 0.5, 1.5}};
+  model.add_sheet({2, 2}, {2, 2}, 0.01, 1, [&](const Vector3d& x) {
+    return place[static_cast<std::size_t>(std::lround(x[0]) + 3 * std::lround(x[1]))];
+  });
+  model.start({});
+  for (const int held : {0, 2, 4, 5, 6, 7, 8}) model.hold(held, held + 1);
+  model.set_velocity(5, {0, 0, -1});
+  for (int step = 0; step < 80; ++step) {
+    model.step(0.01);
+    ASSERT_EQ(audit(model.scene, model.nodes, team).crossings, 0) << step;
+  }
+  EXPECT_LT(model.x(5)[2], -0.29);
+  EXPECT_LT(model.x(1)[2] + model.x(3)[2], -0.1) << "the diagonal has been taken along";
+}
+
 }  // namespace
 }  // namespace brio::test

@@ -94,7 +94,7 @@ std::string likely_cause(const Model& model, const Fastest& fastest) {
     return "parts start faster than sound; check units and velocities of the deck, else try " +
            smaller_step(model);
   if (energy.contact.at_step() > 0.5 * missing)
-    return "contact has added " + written(energy.contact.at_step()) + "; try contact.passes: 20, or " +
+    return "contact has added " + written(energy.contact.at_step()) + "; try contact.passes: 100, or " +
            smaller_step(model);
   if (std::abs(energy.hourglass) > large_share * energy.reference)
     return "hourglass motion has " + written(energy.hourglass) + "; try hex8_full, more elements, or " +

@@ -161,9 +161,10 @@ bool ProximityFilter::passes_by(const EdgeFeature& a, const EdgeFeature& b, doub
   return true;
 }
 
-// Where the direction to the rim of a face leaves its normal by rounding alone: the normal, and as foot the
-// point of the plane of the face below the node. Two rims that are pressed together would otherwise stand on
-// each other as an inverted pendulum of the length of the gap. \returns whether it is so
+// Where the direction to the rim of a face leaves its normal by no more than the slack, the constraint is
+// along the normal, and its foot is the point of the plane of the face below the node. Two rims that are
+// pressed together would otherwise stand on each other as an inverted pendulum of the length of the gap.
+// \returns whether it is so
 bool ProximityFilter::lay_in_plane(const NearPair<4>& near, double slack, Contact& contact) const {
   const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(contact.face)];
   const std::size_t corners = corner[3] == corner[2] ? 3 : 4;
@@ -172,7 +173,7 @@ bool ProximityFilter::lay_in_plane(const NearPair<4>& near, double slack, Contac
   const std::size_t next = (k + 1) % corners, previous = (k + corners - 1) % corners;
   const Vector3d along = motion_.start(corner[next]) - motion_.start(corner[k]);
   const Vector3d across = motion_.start(corner[previous]) - motion_.start(corner[k]);
-  Vector3d normal = unit_or(along.cross(across), Vector3d::Zero());
+  const Vector3d normal = unit_or(along.cross(across), Vector3d::Zero());
   const double cosine = normal.dot(near.normal);
   const Vector3d aside = near.normal - cosine * normal;
   if (normal.isZero(0) || aside.squaredNorm() > slack * slack) return false;
@@ -222,7 +223,8 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
     const Edginess of_node = edginess(surface_.faces_of.of(s), Vector3d(-near.normal));
     in_plane = lay_in_plane(near, slack, contact);
     const double tilt = in_plane ? 0 : tilt_of(std::max(of_face.cosine, of_node.cosine));
-    // Two nodes in the plane of a face of the first: the second is the one on a face.
+    // Of two nodes of which only the first has a face at right angles to the direction, the second is the one
+    // that is held on a face: that constraint has the normal for its direction.
     if (!in_plane && support[1] < 0 && tilt_of(of_node.cosine) < slack) return;
     const bool skins = of_face.sharp && of_node.sharp && !face.shell &&
                        features_.node_radius[static_cast<std::size_t>(s)] <= features_.skin;

@@ -164,7 +164,11 @@ TEST_F(ProgramStudyFaults, RunsEndWithAStudyThatIsKilledAndTheNextGoesOn) {
   write_long_study();
   for (const int jobs : {1, 2}) {
     const pid_t first = start({"study", "long.yaml", "--jobs", std::to_string(jobs)});
-    ASSERT_TRUE(waited_for([&] { return long_run_has_begun() && processes() == jobs; })) << jobs;
+    // The file may exist before its first dump is in it.
+    ASSERT_TRUE(waited_for([&] {
+      return long_run_has_begun() && processes() == jobs &&
+             brio("info long.study/runs/mesh.fine --verify").exit_code == 0;
+    })) << jobs;
     kill(first, SIGKILL);
     waitpid(first, nullptr, 0);
     EXPECT_TRUE(waited_for([&] { return processes() == 0; }));

@@ -62,7 +62,8 @@ class Resolution {
         break;
       }
       if (round >= most_rounds) {
-        move_zones_as_one(scene_, nodes_, dt_, bodies_);
+        move_zones_as_one(scene_, nodes_, ties_, bodies_);
+        if (!ties_.empty()) carry_velocities(ties_, nodes_, dt_);
         continue;
       }
       add_constraints(ordinary);
@@ -208,22 +209,12 @@ class Resolution {
 
   // Where the solution takes the nodes.
   void follow() {
-    if (!scene_.zone_impulse.empty()) store_zones();
     if (ties_.empty())
       scene_.motion.end_by_solution(scene_.features, scene_.surface, scene_.in_contact, scene_.velocity, dt_,
                                     bodies_, team_);
     else
       scene_.motion.end_by_velocity(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
   }
-  void store_zones() {
-    for (std::size_t s = 0; s < scene_.zone_impulse.size(); ++s) {
-      if (scene_.zone_impulse[s].isZero(0)) continue;
-      double* velocity = nodes_.record[index(scene_.surface.node[s])].velocity;
-      std::copy(scene_.velocity[s].data(), scene_.velocity[s].data() + 3, velocity);
-    }
-    if (!ties_.empty()) carry_velocities(ties_, nodes_, dt_);
-  }
-
   // Along the closest points at the start, which keeps angular momentum; where that did not do, along the
   // direction in which they meet as well.
   void add_constraints(std::size_t ordinary) {
@@ -296,15 +287,31 @@ class Resolution {
       scene_.pushed.insert(static_cast<int>(s));
       scene_.normal_impulse[s] += impulse;
       const auto node = index(scene_.surface.node[s]);
-      step.normal_work_before += impulse.dot(Vector3d(nodes_.velocity_before[node].component));
-      step.normal_work_after += impulse.dot(Vector3d(nodes_.record[node].velocity));
+      const Vector3d before(nodes_.velocity_before[node].component), after(nodes_.record[node].velocity);
+      step.normal_work_before += impulse.dot(before);
+      step.normal_work_after += impulse.dot(after);
+      Vector3d reaction = Vector3d::Zero();
+      for (int axis = 0; axis < 3; ++axis)
+        if (nodes_.free_inverse_mass(node, axis) == 0) reaction[axis] = -impulse[axis];
+      const Vector3d position(nodes_.record[node].position);
+      book_support({reaction, position.cross(reaction), reaction.dot(before), reaction.dot(after)});
     }
     for (const RigidMotion& body : bodies_) {
       step.normal_work_before +=
           body.impulse.dot(body.velocity_before) + body.moment.dot(body.angular_velocity_before);
       step.normal_work_after += body.impulse.dot(body.velocity) + body.moment.dot(body.angular_velocity);
+      RigidSupport support = support_against(body, body.impulse, body.moment);
+      support.moment += body.centre.cross(support.impulse);
+      book_support(support);
     }
     for (std::size_t b = 0; b < rows_.block.size(); ++b) rows_.block[b].velocity = final_velocity(b);
+  }
+  void book_support(const RigidSupport& support) {
+    ContactStep& step = scene_.step;
+    step.support_impulse += support.impulse;
+    step.support_moment += support.moment;
+    step.support_work_before += support.work_before;
+    step.support_work_after += support.work_after;
   }
 
   Vector3<double> final_velocity(std::size_t block) const {

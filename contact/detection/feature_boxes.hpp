@@ -49,7 +49,7 @@ class FeatureBoxes {
 
  private:
   /// What meets more queries is not held at a time: it is far more than what is paired of it.
-  static constexpr std::size_t queries_at_once = 16384;
+  static constexpr std::size_t queries_at_once = 2048;
 
   void find_changed(std::span<const CaptureBox> queries, ThreadTeam& team, SearchCounts& counts);
 

@@ -152,6 +152,19 @@ void FeaturePairs::place(std::size_t slave, const Scene& scene, const FeatureMot
   }
 }
 
+double FeaturePairs::Scene::growth(int slave) const {
+  return node_depth.empty() ? 0 : 0.5 * node_depth[static_cast<std::size_t>(slave)];
+}
+double FeaturePairs::Scene::growth(const EdgeFeature& edge) const {
+  return std::min(growth(edge.node[0]), growth(edge.node[1]));
+}
+double FeaturePairs::Scene::growth(const Face& face) const {
+  if (node_depth.empty()) return 0;
+  double least = infinity;
+  for (int corner : face.node) least = std::min(least, growth(surface.slave(corner)));
+  return least;
+}
+
 CaptureBox FeaturePairs::box_of(const Surface& surface, const Face& face) const {
   CaptureBox box = empty_box;
   for (int corner : face.node) box = joined(box, reach_[static_cast<std::size_t>(surface.slave(corner))]);
@@ -162,25 +175,28 @@ CaptureBox FeaturePairs::box_of(const EdgeFeature& edge) const {
                 reach_[static_cast<std::size_t>(edge.node[1])]);
 }
 CaptureBox FeaturePairs::node_box(const Scene& scene, std::size_t slave) const {
-  return grown(reach_[slave], scene.features.node_radius[slave] + 0.5 * scene.band);
+  return grown(reach_[slave],
+               scene.features.node_radius[slave] + 0.5 * scene.band + scene.growth(static_cast<int>(slave)));
 }
 CaptureBox FeaturePairs::face_box(const Scene& scene, std::size_t face) const {
   return grown(box_of(scene.surface, scene.surface.face[face]),
-               scene.features.face_radius[face] + 0.5 * scene.band);
+               scene.features.face_radius[face] + 0.5 * scene.band + scene.growth(scene.surface.face[face]));
 }
 CaptureBox FeaturePairs::edge_box(const Scene& scene, std::size_t edge) const {
   const EdgeFeature& own = scene.features.edge[edge];
-  return grown(box_of(own), own.radius + 0.5 * scene.band);
+  return grown(box_of(own), own.radius + 0.5 * scene.band + scene.growth(own));
 }
 
 void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
-                        const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team) {
+                        const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
+                        std::span<const double> node_depth) {
   const Scene scene{features,
                     surface,
                     excluded,
                     share_of_buffer * options.reach_buffer * features.mean_edge,
                     proximity_band * features.smallest_edge,
-                    options.edges};
+                    options.edges,
+                    node_depth};
   ++searches_;
   changed_ = !changes_.empty();
   kept_node_face_.clear();
@@ -380,6 +396,9 @@ void FeaturePairs::add_node_face(const Scene& scene, int slave, int f) {
   const Face& face = scene.surface.face[static_cast<std::size_t>(f)];
   if (face.has(scene.surface.node[static_cast<std::size_t>(slave)]) || scene.surface.never_touch(slave, face))
     return;
+  if (face.body == scene.surface.body[static_cast<std::size_t>(slave)] && !scene.node_depth.empty() &&
+      !grown(face_box_.of(f), -scene.growth(face) - scene.growth(slave)).overlaps(node_box_.of(slave)))
+    return;
   const bool spaced = !is_excluded(scene.excluded, slave, f);
   if (!spaced && !grown(box_of(scene.surface, face), 2 * scene.features.skin + scene.band)
                       .overlaps(reach_[static_cast<std::size_t>(slave)]))
@@ -400,6 +419,9 @@ void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
   const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
   if (!scene.edges && a.of_face() && b.of_face()) return;
   if (share_node(a, b) || !kinds_meet(a, b) || on_one_face(a, b) || !may_meet(scene.surface, a, b)) return;
+  if (a.body == b.body && !scene.node_depth.empty() &&
+      !grown(edge_box_.of(first), -scene.growth(a) - scene.growth(b)).overlaps(edge_box_.of(second)))
+    return;
   const bool spaced = !one_piece(scene.features, scene.surface, scene.excluded, a, b);
   if (!spaced && !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b))) return;
   const bool only_skins = a.radius + b.radius <= 2 * scene.features.skin;

@@ -77,9 +77,11 @@ class FeaturePairs {
   /// Whether some node's step ends outside of its box, or there has been no search since `expire`.
   bool is_due(const Surface& surface, const FeatureMotion& motion) const;
   /// Renew the pairs of what has left its boxes, or where that is much, all; then the paths of the motion
-  /// restart.
+  /// restart. \param node_depth of each slave node: features of different bodies are paired when nearer than
+  /// the mean of what is the least at the nodes of either; empty: when their boxes meet
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
-            const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team);
+            const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
+            std::span<const double> node_depth = {});
   /// The surface has changed: features have joined, and what is listed has changed or is no more. Nodes stand
   /// for all features at them. \param grown nodes whose radii have grown
   void change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
@@ -96,6 +98,11 @@ class FeaturePairs {
     double margin;  ///< of boxes of nodes
     double band;    ///< half of it for either feature
     bool edges;     ///< whether edges of faces meet
+    std::span<const double> node_depth;
+    /// Half of the least at the nodes of a feature.
+    double growth(const Face& face) const;
+    double growth(const EdgeFeature& edge) const;
+    double growth(int slave) const;
   };
 
   bool is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const;

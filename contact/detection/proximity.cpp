@@ -158,7 +158,7 @@ void find_of_kind(Proximity& proximity, const Kind& kind, const ProximityFilter&
                   const std::vector<int>& awake, ThreadTeam& team, std::vector<Contact>& contacts) {
   if (awake.empty()) return;
   const std::size_t ranges = (awake.size() + pairs_a_range - 1) / pairs_a_range;
-  while (proximity.range.size() < ranges) proximity.range.emplace_back().found.reserve(pairs_a_range);
+  while (proximity.range.size() < ranges) proximity.range.emplace_back().found.reserve(pairs_a_range / 8);
   const Finder<Kind> finder(kind, filter);
   team.for_ranges(awake.size(), pairs_a_range, [&](std::size_t begin, std::size_t end) {
     finder.find(awake, begin, end, proximity.range[begin / pairs_a_range]);

@@ -75,7 +75,7 @@ class GapMaker {
 
   std::vector<InitialOverlap> run() {
     for (int node : surface_.node) start_.push_back(position(nodes_, node));
-    depth_ = searched_depth();
+    set_depths();
     search();
     expect_uncrossed(true);
     retract();
@@ -105,26 +105,33 @@ class GapMaker {
   }
   const std::string& part_name(int part) const { return surface_.part_name[static_cast<std::size_t>(part)]; }
 
-  double searched_depth() const {
-    double longest = 0;
-    for (const Face& face : surface_.face)
-      if (face.alive()) longest = std::max(longest, shortest_edge(nodes_, face));
-    return std::max(scene_.options.initial_overlap_limit, least_searched_share) *
-           std::max(longest, features_.smallest_edge);
+  // Of each node, by the shortest edge of the faces at it: a thin body is not looked through.
+  void set_depths() {
+    node_depth_.assign(surface_.slaves(), infinity);
+    for (const Face& face : surface_.face) {
+      if (!face.alive()) continue;
+      const double edge = shortest_edge(nodes_, face);
+      for (int corner : face.node) {
+        double& depth = node_depth_[static_cast<std::size_t>(surface_.slave(corner))];
+        depth = std::min(depth, edge);
+      }
+    }
+    const double share = std::max(scene_.options.initial_overlap_limit, least_searched_share);
+    for (double& depth : node_depth_) depth = share * (depth < infinity ? depth : features_.smallest_edge);
   }
 
-  // Boxes of both features of a pair are grown by half of the depth on either side.
+  // Boxes hold moves of nodes by the limit.
   void search() {
     displacements_.clear();
     motion_.forget();
     motion_.begin(features_, surface_, nodes_, team_);
     motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
     ContactOptions grown = scene_.options;
-    grown.reach_buffer = 2.01 * depth_ / features_.mean_edge;
+    grown.reach_buffer = std::max(grown.reach_buffer, 2 * scene_.options.initial_overlap_limit);
     pairs_.expire();
-    pairs_.find(features_, surface_, scene_.excluded, grown, motion_, team_);
+    pairs_.find(features_, surface_, scene_.excluded, grown, motion_, team_, node_depth_);
   }
-  void find(double band) { find_sided_pairs(features_, surface_, nodes_, pairs_, depth_, band, found_); }
+  void find(double band) { find_sided_pairs(features_, surface_, nodes_, pairs_, node_depth_, band, found_); }
 
   // Pairs of one piece that overlap from the start are how the part was drawn: corners, seams, flanges; so
   // are those beside a tie.
@@ -381,8 +388,8 @@ class GapMaker {
   FeatureMotion motion_;
   FeaturePairs pairs_;
   Displacements displacements_;
-  double depth_ = 0;
-  std::vector<Vector3d> start_;  ///< of each slave node
+  std::vector<double> node_depth_;  ///< to which overlaps are looked for
+  std::vector<Vector3d> start_;     ///< of each slave node
   std::vector<SidedPair> found_;
   std::vector<InitialOverlap> report_;
   std::vector<std::set<int>> near_;  ///< nodes of each entry

@@ -33,7 +33,7 @@ class Retraction {
         surface_(surface),
         pairs_(pairs),
         nodes_(nodes),
-        look_(features, surface, nodes, 2 * features.skin),
+        look_(features, surface, nodes, {}),
         set_back_(surface.face.size(), 0.0),
         firmness_(static_cast<std::size_t>(surface.body_count), Firmness::is_free) {
     for (std::size_t s = 0; s < surface.slaves(); ++s) {

@@ -3,6 +3,8 @@
 /// (between all nodes of an element, and for shells between nodes two apart, which resist bending). Central
 /// difference.
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Dense>
 #include <cmath>
 #include <functional>
@@ -198,6 +200,7 @@ class SpringModel {
   void step(double dt, ThreadTeam& team) {
     accelerate(dt);
     resolve(scene, nodes, dt, team);
+    EXPECT_EQ(scene.unresolved.steps, 0) << "surfaces cross";
     for (std::size_t n = 0; n < nodes.size(); ++n)
       for (int axis = 0; axis < 3; ++axis)
         nodes.record[n].position[axis] += dt * nodes.record[n].velocity[axis];

@@ -51,7 +51,7 @@ TEST(WarpedCell, ASideOfANeighbourDoesNotPassTheCrossDiagonal) {
   model.damping = 0;
   const std::array<Vector3d, 9> place{Vector3d{0, 0, -2}, {1, 0, 0}, {0.5, -0.5, 1.5},
                                       {0, 1, 0},          {1, 1, 0}, {0.2, 0.2, 0.5},
-                                      {0, 2, 0},          {1, 2, 0}, {-0.5, 0.5, 1.5}};
+                                      {0, 2, -1},         {1, 2, 0}, {-0.5, 0.5, 1.5}};
   model.add_sheet({2, 2}, {2, 2}, 0.01, 1, [&](const Vector3d& x) {
     return place[static_cast<std::size_t>(std::lround(x[0]) + 3 * std::lround(x[1]))];
   });

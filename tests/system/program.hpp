@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -53,6 +54,25 @@ class Program : public ::testing::Test {
   }
   nlohmann::json summary(const std::string& name) const {
     return nlohmann::json::parse(read(fs::path(name + ".results") / (name + ".summary.json")));
+  }
+
+  // The last row of a history.
+  std::map<std::string, double> last_row(const fs::path& history) const {
+    std::istringstream text(read(history));
+    std::string names, line, last;
+    std::getline(text, names);
+    while (std::getline(text, line)) last = line;
+    std::istringstream columns(names), values(last);
+    std::map<std::string, double> row;
+    for (std::string name, value; std::getline(columns, name, ',') && std::getline(values, value, ',');)
+      row[name] = std::stod(value);
+    return row;
+  }
+  // Of momenta against what supports and walls have given.
+  void expect_momentum_kept(const fs::path& history) const {
+    const auto row = last_row(history);
+    EXPECT_LT(row.at("linear_imbalance"), 1e-12);
+    EXPECT_LT(row.at("angular_imbalance"), 1e-12);
   }
 
   fs::path folder_;

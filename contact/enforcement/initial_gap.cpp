@@ -27,7 +27,7 @@ constexpr double least_searched_share = 0.75;
 constexpr double resolved_share = 1e-9;
 /// Moved is by this much more, over the smallest edge, so that what the solver leaves is none.
 constexpr double surplus_share = 1e-8;
-constexpr int most_rounds = 200;
+constexpr int most_rounds = 50;
 /// Where only the gap is missing, it is made for as long as this many rounds halve what is missing.
 constexpr int rounds_to_halve = 10;
 constexpr SolveOptions solve_options{2000, 1e-7};

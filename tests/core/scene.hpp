@@ -1,6 +1,8 @@
 #pragma once
 /// Small scenes for tests of the whole step, without files.
 
+#include <gtest/gtest.h>
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -64,6 +66,8 @@ inline void run(Model& model, const Deck& deck, ThreadTeam& team,
   while (true) {
     update_velocities(model, deck.numerics.energy_error_limit, team);
     if (look) look(model);
+    for (const ContactScene& scene : model.contacts)
+      EXPECT_EQ(scene.unresolved.steps, 0) << "surfaces cross at step " << model.step;
     if (model.times.time >= deck.time.end) return;
     update_positions(model, team);
   }

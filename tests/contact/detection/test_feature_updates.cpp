@@ -69,7 +69,17 @@ std::set<std::pair<int, int>> listed(const PairList& pairs) {
   return found;
 }
 
-// What is near where the nodes are now is listed; nothing listed is dead.
+bool is_flat(const ContactScene& scene, const FeatureMotion& still, int e) {
+  const EdgeFeature& edge = scene.features.edge[static_cast<std::size_t>(e)];
+  if (edge.kind != EdgeKind::diagonal && edge.kind != EdgeKind::cross_diagonal) return false;
+  const auto f = static_cast<std::size_t>(edge.face[0]);
+  const std::array<int, 4>& corner = scene.features.face_node[f];
+  return flat_slack(
+             {still.start(corner[0]), still.start(corner[1]), still.start(corner[2]), still.start(corner[3])},
+             flat_thickness(scene.features, f, Flatness::radii)) > 0;
+}
+
+// What is near where the nodes are now is listed, but for diagonals of flat faces; nothing listed is dead.
 void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
   FeatureMotion still;
   FeaturePairs near;
@@ -82,7 +92,8 @@ void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
   const auto all_nodes = listed(scene.pairs.node_face), near_nodes = listed(near.node_face);
   EXPECT_TRUE(std::includes(all_nodes.begin(), all_nodes.end(), near_nodes.begin(), near_nodes.end()));
   const auto all_edges = listed(scene.pairs.edge_edge), near_edges = listed(near.edge_edge);
-  EXPECT_TRUE(std::includes(all_edges.begin(), all_edges.end(), near_edges.begin(), near_edges.end()));
+  for (const auto& [a, b] : near_edges)
+    EXPECT_TRUE(all_edges.count({a, b}) == 1 || is_flat(scene, still, a) || is_flat(scene, still, b));
   for (const auto& [s, f] : all_nodes) {
     ASSERT_GE(scene.surface.node[static_cast<std::size_t>(s)], 0);
     ASSERT_TRUE(scene.surface.face[static_cast<std::size_t>(f)].alive());

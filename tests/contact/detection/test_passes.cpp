@@ -24,7 +24,7 @@ struct Detector {
   void begin() {
     motion.begin(scene.features, scene.surface, scene.nodes, team);
     motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
-    if (pairs.is_due(scene.surface, motion)) search();
+    if (pairs.is_due(scene.features, scene.surface, motion)) search();
     select_awake(proximity, scene.features, pairs, motion, team);
     motion.set_limits(2, allowed_surplus(scene.features));
     find_proximities(proximity, scene.features, scene.surface, scene.options, pairs, motion, team, contacts);
@@ -44,7 +44,7 @@ struct Detector {
       pushed.insert(static_cast<int>(s));
     }
     motion.end_by_solution(scene.features, scene.surface, pushed, corrected, scene.dt, {}, team);
-    if (pairs.is_due(scene.surface, motion))
+    if (pairs.is_due(scene.features, scene.surface, motion))
       search();
     else if (!motion.exceeds_limits())
       return;

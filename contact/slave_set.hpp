@@ -19,6 +19,11 @@ class SlaveSet {
     word_[s / bits] |= std::uint64_t{1} << s % bits;
   }
 
+  bool contains(int slave) const {
+    const auto s = static_cast<std::size_t>(slave);
+    return (word_[s / bits] >> s % bits & 1) != 0;
+  }
+
   template <class Visit>
   void for_each(Visit&& visit) const {
     for (std::size_t w = 0; w < word_.size(); ++w)

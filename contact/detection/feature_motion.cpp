@@ -160,6 +160,8 @@ void FeatureMotion::end_by_velocity(const SurfaceFeatures& features, const Surfa
   });
   magnitude_ = 0;
   for (const Sum& sum : sum_) magnitude_ = std::max(magnitude_, sum.magnitude);
+  is_solution_ = predicted_;
+  corrected_ = nullptr;
   if (predicted_) {
     finish_raising(features, team);
     return;
@@ -237,6 +239,8 @@ void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surfa
   const std::size_t driven = bodies.empty() ? 0 : driven_.size();
   start_sums(driven + 1);
   bool exceeds = false;
+  is_solution_ = true;
+  corrected_ = &in_contact;
   in_contact.for_each([&](std::size_t s) {
     for (int axis = 0; axis < 3; ++axis) node[s].end[axis] = node[s].start[axis] + dt * corrected[s][axis];
     if (bodies.empty() || surface.rigid_body(surface.node[s]) < 0) exceeds = raise(s) || exceeds;

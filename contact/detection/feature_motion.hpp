@@ -50,7 +50,8 @@ class FeatureMotion {
 
   /// Positions at the end of the step of what contact has moved: nodes by their corrected velocities, those
   /// of rigid bodies by their bodies'. Looks ahead are as predicted, but for nodes that exceed their limits
-  /// and the features at them, which look farther ahead from then on.
+  /// and the features at them, which look farther ahead from then on. \param in_contact is kept until the
+  /// next prediction
   void end_by_solution(const SurfaceFeatures& features, const Surface& surface, const SlaveSet& in_contact,
                        std::span<const Eigen::Vector3d> corrected, double dt,
                        std::span<const RigidMotion> bodies, ThreadTeam& team);
@@ -59,6 +60,11 @@ class FeatureMotion {
   void set_limits(double factor, double surplus);
   /// Whether the last positions at the end of the step were beyond the limits of any node.
   bool exceeds_limits() const { return exceeds_; }
+
+  /// Whether the end of a node is that of a solution, and not the predicted one.
+  bool is_corrected(int slave) const {
+    return is_solution_ && (corrected_ == nullptr || corrected_->contains(slave));
+  }
 
   /// Nothing is known of the last step.
   void forget() { known_ = false; }
@@ -122,6 +128,8 @@ class FeatureMotion {
   bool known_ = false;      ///< whether the nodes' last positions are those of the step before
   bool predicted_ = false;  ///< whether the steps are known
   bool exceeds_ = false;
+  bool is_solution_ = false;             ///< whether the ends are those of a solution
+  const SlaveSet* corrected_ = nullptr;  ///< nodes that it has moved; null: any
 };
 
 }  // namespace brio

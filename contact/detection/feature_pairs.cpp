@@ -21,8 +21,6 @@ constexpr double steps_of_notice = 4;
 constexpr double most_leaving = 0.2;
 /// Of ContactOptions::reach_buffer: both features of a pair have a box that is larger on both sides.
 constexpr double share_of_buffer = 0.25;
-/// Of the thickness up to which a face stays flat, so that it does not change at every search.
-constexpr double share_to_become_flat = 0.5;
 
 CaptureBox joined(const CaptureBox& a, const CaptureBox& b) {
   CaptureBox box{};
@@ -139,74 +137,7 @@ bool FeaturePairs::is_due(const SurfaceFeatures& features, const Surface& surfac
   if (reach_.size() != surface.slaves() || !changes_.empty()) return true;
   for (std::size_t s = 0; s < reach_.size(); ++s)
     if (surface.node[s] >= 0 && !is_inside(s, motion, 1)) return true;
-  return any_bends(features, motion);
-}
-
-namespace {
-
-std::array<Eigen::Vector3d, 4> at_start(const SurfaceFeatures& features, std::size_t face,
-                                        const FeatureMotion& motion) {
-  const std::array<int, 4>& corner = features.face_node[face];
-  return {motion.start(corner[0]), motion.start(corner[1]), motion.start(corner[2]), motion.start(corner[3])};
-}
-std::array<Eigen::Vector3d, 4> at_end(const SurfaceFeatures& features, std::size_t face,
-                                      const FeatureMotion& motion) {
-  const std::array<int, 4>& corner = features.face_node[face];
-  return {motion.end(corner[0]), motion.end(corner[1]), motion.end(corner[2]), motion.end(corner[3])};
-}
-
-// By less than the thickness up to which it stays so.
-Flatness flatness_of(const SurfaceFeatures& features, std::size_t face, const FeatureMotion& motion) {
-  const auto &start = at_start(features, face, motion), &end = at_end(features, face, motion);
-  for (const Flatness flatness : {Flatness::all, Flatness::radii}) {
-    const double thickness = share_to_become_flat * flat_thickness(features, face, flatness);
-    if (flat_slack(start, thickness) > 0 && flat_slack(end, thickness) > 0) return flatness;
-  }
-  return Flatness::none;
-}
-
-bool is_diagonal(const EdgeFeature& edge) {
-  return edge.kind == EdgeKind::diagonal || edge.kind == EdgeKind::cross_diagonal;
-}
-
-}  // namespace
-
-bool FeaturePairs::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion) {
-  for (std::size_t f = 0; f < flat_.size(); ++f) {
-    if (flat_[f] == Flatness::none || motion.of_face.ahead[f] <= flat_until_[f]) continue;
-    const double thickness = flat_thickness(features, f, flat_[f]);
-    flat_until_[f] = motion.of_face.path[f] + flat_slack(at_start(features, f, motion), thickness);
-    if (motion.of_face.ahead[f] <= flat_until_[f]) continue;
-    if (!(flat_slack(at_end(features, f, motion), thickness) >= 0)) return true;
-  }
-  return false;
-}
-
-void FeaturePairs::measure_flatness(const Scene& scene, const FeatureMotion& motion) {
-  flat_.assign(scene.surface.face.size(), Flatness::none);
-  flat_until_.assign(scene.surface.face.size(), 0);
-  for (std::size_t f = 0; f < flat_.size(); ++f) {
-    if (scene.features.diagonal_of_face[f][0] < 0 || !scene.node_depth.empty()) continue;
-    flat_[f] = flatness_of(scene.features, f, motion);
-  }
-}
-
-// Their diagonals are looked for like what has left its box.
-void FeaturePairs::collect_bent(const Scene& scene, const FeatureMotion& motion) {
-  for (std::size_t f = 0; f < flat_.size(); ++f) {
-    if (flat_[f] == Flatness::none || motion.of_face.ahead[f] <= flat_until_[f]) continue;
-    const Flatness now = flatness_of(scene.features, f, motion);
-    if (now <= flat_[f]) continue;
-    flat_[f] = now;
-    for (int e : scene.features.diagonal_of_face[f])
-      if (e >= 0) edge_leaves_[static_cast<std::size_t>(e)] = 1;
-  }
-}
-
-bool FeaturePairs::is_paired(const EdgeFeature& edge, Spacing spacing) const {
-  if (!is_diagonal(edge)) return true;
-  const Flatness flatness = flat_[static_cast<std::size_t>(edge.face[0])];
-  return flatness == Flatness::none || (flatness == Flatness::radii && spacing != Spacing::radii);
+  return flat_.any_bends(features, motion);
 }
 
 void FeaturePairs::place(std::size_t slave, const Scene& scene, const FeatureMotion& motion) {
@@ -222,19 +153,6 @@ void FeaturePairs::place(std::size_t slave, const Scene& scene, const FeatureMot
   }
 }
 
-double FeaturePairs::Scene::growth(int slave) const {
-  return node_depth.empty() ? 0 : 0.5 * node_depth[static_cast<std::size_t>(slave)];
-}
-double FeaturePairs::Scene::growth(const EdgeFeature& edge) const {
-  return std::min(growth(edge.node[0]), growth(edge.node[1]));
-}
-double FeaturePairs::Scene::growth(const Face& face) const {
-  if (node_depth.empty()) return 0;
-  double least = infinity;
-  for (int corner : face.node) least = std::min(least, growth(surface.slave(corner)));
-  return least;
-}
-
 CaptureBox FeaturePairs::box_of(const Surface& surface, const Face& face) const {
   CaptureBox box = empty_box;
   for (int corner : face.node) box = joined(box, reach_[static_cast<std::size_t>(surface.slave(corner))]);
@@ -245,29 +163,30 @@ CaptureBox FeaturePairs::box_of(const EdgeFeature& edge) const {
                 reach_[static_cast<std::size_t>(edge.node[1])]);
 }
 CaptureBox FeaturePairs::node_box(const Scene& scene, std::size_t slave) const {
-  return grown(reach_[slave],
-               scene.features.node_radius[slave] + 0.5 * scene.band + scene.growth(static_cast<int>(slave)));
+  return grown(reach_[slave], scene.features.node_radius[slave] +
+                                  0.5 * (scene.band + scene.depth.of(static_cast<int>(slave))));
 }
 CaptureBox FeaturePairs::face_box(const Scene& scene, std::size_t face) const {
   return grown(box_of(scene.surface, scene.surface.face[face]),
-               scene.features.face_radius[face] + 0.5 * scene.band + scene.growth(scene.surface.face[face]));
+               scene.features.face_radius[face] +
+                   0.5 * (scene.band + scene.depth.of(scene.surface, scene.surface.face[face])));
 }
 CaptureBox FeaturePairs::edge_box(const Scene& scene, std::size_t edge) const {
   const EdgeFeature& own = scene.features.edge[edge];
-  if (!is_paired(own, Spacing::skins)) return empty_box;
-  return grown(box_of(own), own.radius + 0.5 * scene.band + scene.growth(own));
+  if (!flat_.pairs(own, false)) return empty_box;
+  return grown(box_of(own), own.radius + 0.5 * (scene.band + scene.depth.of(own)));
 }
 
 void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
                         const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
-                        std::span<const double> node_depth) {
+                        const SearchedDepth& depth) {
   const Scene scene{features,
                     surface,
                     excluded,
                     share_of_buffer * options.reach_buffer * features.mean_edge,
                     proximity_band * features.smallest_edge,
                     options.edges,
-                    node_depth};
+                    depth};
   ++searches_;
   changed_ = !changes_.empty();
   kept_node_face_.clear();
@@ -309,9 +228,7 @@ void FeaturePairs::change(std::span<const int> nodes, std::span<const int> faces
 
 void FeaturePairs::take_in_changes(const Scene& scene) {
   reach_.resize(scene.surface.slaves(), empty_box);
-  flat_.resize(scene.surface.face.size(), Flatness::none);
-  flat_until_.resize(flat_.size(), 0);
-  for (int f : changes_.face) flat_[static_cast<std::size_t>(f)] = Flatness::none;
+  flat_.change(scene.surface.face.size(), changes_.face);
   node_box_.grow(reach_.size());
   face_box_.grow(scene.surface.face.size());
   edge_box_.grow(scene.features.edge.size());
@@ -341,7 +258,10 @@ Spacing FeaturePairs::spacing_of_new(const std::vector<std::uint64_t>& kept, int
 
 void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
   motion.restart(scene.features, scene.surface);
-  measure_flatness(scene, motion);
+  if (scene.depth.empty())
+    flat_.measure(scene.features, motion);
+  else
+    flat_.forget(scene.surface.face.size());
   const Surface& surface = scene.surface;
   reach_.assign(surface.slaves(), empty_box);
   node_box_.start(surface.slaves());
@@ -407,9 +327,9 @@ bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& moti
       face_leaves_[f] |= node_leaves_[static_cast<std::size_t>(surface.slave(corner))];
     if (face_leaves_[f] != 0) face_.push_back(static_cast<int>(f));
   }
-  collect_bent(scene, motion);
+  flat_.take_over(scene.features, motion, edge_leaves_);
   for (std::size_t e = 0; e < scene.features.edge.size(); ++e) {
-    if (!scene.features.edge[e].alive()) continue;
+    if (!scene.features.edge[e].alive() || !flat_.pairs(scene.features.edge[e], false)) continue;
     for (int node : scene.features.edge[e].node)
       edge_leaves_[e] |= node_leaves_[static_cast<std::size_t>(node)];
     if (edge_leaves_[e] != 0) edge_.push_back(static_cast<int>(e));
@@ -450,11 +370,6 @@ void FeaturePairs::find_leaving(const Scene& scene, const FeatureMotion& motion,
     return out;
   });
   std::sort(kept_edge_edge_.begin(), kept_edge_edge_.end());
-  std::erase_if(edge_, [&](int e) {
-    if (is_paired(scene.features.edge[static_cast<std::size_t>(e)], Spacing::skins)) return false;
-    edge_leaves_[static_cast<std::size_t>(e)] = 0;
-    return true;
-  });
   gather(edge_box_, edge_);
   edge_box_.find(query_, team, counts, [&](std::size_t i, int other) {
     const int own = edge_[i];
@@ -477,8 +392,9 @@ void FeaturePairs::add_node_face(const Scene& scene, int slave, int f) {
   const Face& face = scene.surface.face[static_cast<std::size_t>(f)];
   if (face.has(scene.surface.node[static_cast<std::size_t>(slave)]) || scene.surface.never_touch(slave, face))
     return;
-  if (face.body == scene.surface.body[static_cast<std::size_t>(slave)] && !scene.node_depth.empty() &&
-      !grown(face_box_.of(f), -scene.growth(face) - scene.growth(slave)).overlaps(node_box_.of(slave)))
+  if (face.body == scene.surface.body[static_cast<std::size_t>(slave)] && !scene.depth.empty() &&
+      !grown(face_box_.of(f), -0.5 * (scene.depth.of(scene.surface, face) + scene.depth.of(slave)))
+           .overlaps(node_box_.of(slave)))
     return;
   const bool spaced = !is_excluded(scene.excluded, slave, f);
   if (!spaced && !grown(box_of(scene.surface, face), 2 * scene.features.skin + scene.band)
@@ -500,15 +416,17 @@ void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
   const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
   if (!scene.edges && a.of_face() && b.of_face()) return;
   if (share_node(a, b) || !kinds_meet(a, b) || on_one_face(a, b) || !may_meet(scene.surface, a, b)) return;
-  if (a.body == b.body && !scene.node_depth.empty() &&
-      !grown(edge_box_.of(first), -scene.growth(a) - scene.growth(b)).overlaps(edge_box_.of(second)))
+  if (a.body == b.body && !scene.depth.empty() &&
+      !grown(edge_box_.of(first), -0.5 * (scene.depth.of(a) + scene.depth.of(b)))
+           .overlaps(edge_box_.of(second)))
     return;
   const bool spaced = !one_piece(scene.features, scene.surface, scene.excluded, a, b);
   if (!spaced && !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b))) return;
   const bool only_skins = a.radius + b.radius <= 2 * scene.features.skin;
   const Spacing spacing =
       spaced ? spacing_of_new(kept_edge_edge_, first, second, only_skins) : Spacing::skins;
-  if (is_paired(a, spacing) && is_paired(b, spacing)) edge_edge.add(first, second, spacing);
+  const bool radii = spacing == Spacing::radii;
+  if (flat_.pairs(a, radii) && flat_.pairs(b, radii)) edge_edge.add(first, second, spacing);
 }
 
 }  // namespace brio

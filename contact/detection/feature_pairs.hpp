@@ -9,18 +9,17 @@
 /// not their radii, which overlap as drawn, but two skins are kept between them. What a deletion pairs anew
 /// begins as near as it was: such a pair waits with two skins until it has been apart by its radii.
 ///
-/// Diagonals of a flat face are not paired: what passes through a flat polygon meets its corners, its sides,
-/// or with its own corner the face. A face counts as flat where its hull is thinner than a tenth of the
-/// skin, or for what keeps its radius, than 0.03 of that.
+/// Diagonals of a flat face are not paired (face_flatness.hpp).
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "contact/detection/face_flatness.hpp"
 #include "contact/detection/feature_boxes.hpp"
 #include "contact/detection/feature_motion.hpp"
 #include "contact/detection/features.hpp"
-#include "contact/detection/flatness.hpp"
+#include "contact/detection/searched_depth.hpp"
 #include "contact/options.hpp"
 
 namespace brio {
@@ -83,11 +82,10 @@ class FeaturePairs {
   /// search since `expire`.
   bool is_due(const SurfaceFeatures& features, const Surface& surface, const FeatureMotion& motion);
   /// Renew the pairs of what has left its boxes, or where that is much, all; then the paths of the motion
-  /// restart. \param node_depth of each slave node: features of different bodies are paired when nearer than
-  /// the mean of what is the least at the nodes of either, and no face is flat; empty: when their boxes meet
+  /// restart. \param depth to which features of different bodies are paired; not empty: no face is flat
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
             const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
-            std::span<const double> node_depth = {});
+            const SearchedDepth& depth = {});
   /// The surface has changed: features have joined, and what is listed has changed or is no more. Nodes stand
   /// for all features at them. \param grown nodes whose radii have grown
   void change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
@@ -104,17 +102,9 @@ class FeaturePairs {
     double margin;  ///< of boxes of nodes
     double band;    ///< half of it for either feature
     bool edges;     ///< whether edges of faces meet
-    std::span<const double> node_depth;
-    /// Half of the least at the nodes of a feature.
-    double growth(const Face& face) const;
-    double growth(const EdgeFeature& edge) const;
-    double growth(int slave) const;
+    SearchedDepth depth;
   };
 
-  bool any_bends(const SurfaceFeatures& features, const FeatureMotion& motion);
-  bool is_paired(const EdgeFeature& edge, Spacing spacing) const;
-  void measure_flatness(const Scene& scene, const FeatureMotion& motion);
-  void collect_bent(const Scene& scene, const FeatureMotion& motion);
   bool is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const;
   void place(std::size_t slave, const Scene& scene, const FeatureMotion& motion);
   CaptureBox box_of(const Surface& surface, const Face& face) const;
@@ -134,9 +124,8 @@ class FeaturePairs {
   void add_node_face(const Scene& scene, int slave, int face);
   void add_edge_edge(const Scene& scene, int first, int second);
 
-  std::vector<CaptureBox> reach_;   ///< of each slave node: where it may be until the next search
-  std::vector<Flatness> flat_;      ///< of each face, for its diagonals
-  std::vector<double> flat_until_;  ///< path of each face until which it is surely so
+  std::vector<CaptureBox> reach_;  ///< of each slave node: where it may be until the next search
+  FaceFlatness flat_;
   FeatureBoxes node_box_, face_box_, edge_box_;
   std::vector<int> node_, face_, edge_;  ///< what has left its boxes, ascending
   std::vector<std::uint8_t> node_leaves_, face_leaves_, edge_leaves_;

@@ -42,6 +42,7 @@ struct EdgeFeature {
 
   bool is_point() const { return node[0] == node[1]; }
   bool of_face() const { return kind <= EdgeKind::cross_diagonal; }
+  bool is_diagonal() const { return kind == EdgeKind::diagonal || kind == EdgeKind::cross_diagonal; }
   bool alive() const { return kind != EdgeKind::none; }
 };
 

@@ -46,7 +46,8 @@ class EdgesAndEdges {
     const Segment sa = segment(a), sb = segment(b);
     const bool solids = of_solid(a) && of_solid(b) && a.body != b.body;
     const double reach = reach_of(pair);
-    const double limit = solids ? std::max(reach + band_, look_.depth_of(a, b)) : reach + band_;
+    const double limit =
+        solids ? std::max(reach + band_, 0.5 * (look_.depth.of(a) + look_.depth.of(b))) : reach + band_;
     for (int axis = 0; axis < 3; ++axis)
       if (std::min(sa[0][axis], sa[1][axis]) > std::max(sb[0][axis], sb[1][axis]) + limit ||
           std::min(sb[0][axis], sb[1][axis]) > std::max(sa[0][axis], sa[1][axis]) + limit)

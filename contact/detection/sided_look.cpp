@@ -14,11 +14,11 @@ void Directions::add(const Vector3d& direction) {
 }
 
 SidedLook::SidedLook(const SurfaceFeatures& surface_features, const Surface& of, const Nodes& at_rest,
-                     std::span<const double> depth_of_nodes)
+                     const SearchedDepth& searched_depth)
     : features(surface_features),
       surface(of),
       nodes(at_rest),
-      node_depth(depth_of_nodes),
+      depth(searched_depth),
       part_(surface.slaves(), 0) {
   for (const RoundElement& round : surface.round)
     if (round.alive())
@@ -26,20 +26,6 @@ SidedLook::SidedLook(const SurfaceFeatures& surface_features, const Surface& of,
   for (int s = 0; s < static_cast<int>(surface.slaves()); ++s)
     if (const auto faces = surface.faces_of.of(s); !faces.empty())
       part_[static_cast<std::size_t>(s)] = surface.face[static_cast<std::size_t>(faces.front())].part;
-}
-
-double SidedLook::depth_of(int slave, const Face& face) const {
-  double least = infinity;
-  for (int corner : face.node)
-    least = std::min(least, node_depth[static_cast<std::size_t>(surface.slave(corner))]);
-  return 0.5 * (least + node_depth[static_cast<std::size_t>(slave)]);
-}
-double SidedLook::depth_of(const EdgeFeature& a, const EdgeFeature& b) const {
-  const auto least = [&](const EdgeFeature& edge) {
-    return std::min(node_depth[static_cast<std::size_t>(edge.node[0])],
-                    node_depth[static_cast<std::size_t>(edge.node[1])]);
-  };
-  return 0.5 * (least(a) + least(b));
 }
 
 bool SidedLook::surely_farther(int slave, const Face& face, double distance) const {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include "contact/detection/feature_pairs.hpp"
@@ -35,12 +34,12 @@ class Directions {
 class SidedLook {
  public:
   SidedLook(const SurfaceFeatures& surface_features, const Surface& of, const Nodes& at_rest,
-            std::span<const double> depth_of_nodes);
+            const SearchedDepth& searched_depth);
 
   const SurfaceFeatures& features;
   const Surface& surface;
   const Nodes& nodes;
-  std::span<const double> node_depth;  ///< of each slave node: to which overlaps are looked for
+  SearchedDepth depth;  ///< to which overlaps are looked for
 
   Eigen::Vector3d at(int slave) const {
     return position(nodes, surface.node[static_cast<std::size_t>(slave)]);
@@ -51,9 +50,6 @@ class SidedLook {
   /// What of a radius is skin.
   double skin_in(double radius) const { return radius <= features.skin ? radius : 0; }
 
-  /// Of two features the mean, of each the least at its nodes.
-  double depth_of(int slave, const Face& face) const;
-  double depth_of(const EdgeFeature& a, const EdgeFeature& b) const;
   /// By the box of the face.
   bool surely_farther(int slave, const Face& face, double distance) const;
   /// Whether no neighbour of a node reaches behind a plane through it.

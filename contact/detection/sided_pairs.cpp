@@ -71,7 +71,8 @@ class NodesAndFaces {
     double least = infinity;
     for (int pair : group) {
       const Face& other = face(face_of(pair));
-      if (look_.surely_farther(s, other, look_.depth_of(s, other))) continue;
+      if (look_.surely_farther(s, other, 0.5 * (look_.depth.of(s) + look_.depth.of(surface_, other))))
+        continue;
       near.push_back({pair, closest_point_on_quad(x, look_.corners(face(face_of(pair))))});
       least = std::min(least, near.back().point.squared_distance);
     }
@@ -221,10 +222,10 @@ void leave_out_edges_beside_nodes(const Surface& surface, double coincident, std
 }  // namespace
 
 void find_sided_pairs(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes,
-                      const FeaturePairs& pairs, std::span<const double> node_depth, double band,
+                      const FeaturePairs& pairs, const SearchedDepth& depth, double band,
                       std::vector<SidedPair>& found) {
   found.clear();
-  const SidedLook look(features, surface, nodes, node_depth);
+  const SidedLook look(features, surface, nodes, depth);
   NodesAndFaces(look, pairs, band, found).run();
   keep_one_of_each(found, 0);
   const std::size_t edges = found.size();

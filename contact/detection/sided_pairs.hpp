@@ -13,7 +13,6 @@
 /// are.
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "contact/detection/feature_pairs.hpp"
@@ -42,9 +41,9 @@ inline constexpr double coincident_share = 1e-6;
 
 /// Replace `found` by what of the pairs is nearer than its radii and the band, those of nodes and faces by
 /// node, then those of edges, in an order that depends on the surface alone.
-/// \param node_depth of each slave node: to which overlaps are looked for; the pairs hold what is as near
+/// \param depth to which overlaps are looked for; the pairs hold what is as near
 void find_sided_pairs(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes,
-                      const FeaturePairs& pairs, std::span<const double> node_depth, double band,
+                      const FeaturePairs& pairs, const SearchedDepth& depth, double band,
                       std::vector<SidedPair>& found);
 
 }  // namespace brio

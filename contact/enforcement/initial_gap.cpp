@@ -129,9 +129,11 @@ class GapMaker {
     ContactOptions grown = scene_.options;
     grown.reach_buffer = std::max(grown.reach_buffer, 2 * scene_.options.initial_overlap_limit);
     pairs_.expire();
-    pairs_.find(features_, surface_, scene_.excluded, grown, motion_, team_, node_depth_);
+    pairs_.find(features_, surface_, scene_.excluded, grown, motion_, team_, {node_depth_});
   }
-  void find(double band) { find_sided_pairs(features_, surface_, nodes_, pairs_, node_depth_, band, found_); }
+  void find(double band) {
+    find_sided_pairs(features_, surface_, nodes_, pairs_, {node_depth_}, band, found_);
+  }
 
   // Pairs of one piece that overlap from the start are how the part was drawn: corners, seams, flanges; so
   // are those beside a tie.

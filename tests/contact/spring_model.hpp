@@ -201,9 +201,7 @@ class SpringModel {
     accelerate(dt);
     resolve(scene, nodes, dt, team);
     EXPECT_EQ(scene.unresolved.steps, 0) << "surfaces cross";
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-      for (int axis = 0; axis < 3; ++axis)
-        nodes.record[n].position[axis] += dt * nodes.record[n].velocity[axis];
+    move(dt);
   }
   void step(double dt) { step(dt, alone_); }
 

@@ -69,14 +69,16 @@ std::set<std::pair<int, int>> listed(const PairList& pairs) {
   return found;
 }
 
-bool is_flat(const ContactScene& scene, const FeatureMotion& still, int e) {
+// Whether an edge is the diagonal of a face that is flat for what keeps its radii, or two skins.
+bool is_flat(const ContactScene& scene, const FeatureMotion& still, int e, bool radii) {
   const EdgeFeature& edge = scene.features.edge[static_cast<std::size_t>(e)];
-  if (edge.kind != EdgeKind::diagonal && edge.kind != EdgeKind::cross_diagonal) return false;
+  if (!edge.is_diagonal()) return false;
   const auto f = static_cast<std::size_t>(edge.face[0]);
   const std::array<int, 4>& corner = scene.features.face_node[f];
+  const double thickness = flat_thickness(scene.features, f, radii ? Flatness::radii : Flatness::all);
   return flat_slack(
              {still.start(corner[0]), still.start(corner[1]), still.start(corner[2]), still.start(corner[3])},
-             flat_thickness(scene.features, f, Flatness::radii)) > 0;
+             thickness) > 0;
 }
 
 // What is near where the nodes are now is listed, but for diagonals of flat faces; nothing listed is dead.
@@ -91,9 +93,13 @@ void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
   near.find(scene.features, scene.surface, scene.excluded, options, still, team);
   const auto all_nodes = listed(scene.pairs.node_face), near_nodes = listed(near.node_face);
   EXPECT_TRUE(std::includes(all_nodes.begin(), all_nodes.end(), near_nodes.begin(), near_nodes.end()));
-  const auto all_edges = listed(scene.pairs.edge_edge), near_edges = listed(near.edge_edge);
-  for (const auto& [a, b] : near_edges)
-    EXPECT_TRUE(all_edges.count({a, b}) == 1 || is_flat(scene, still, a) || is_flat(scene, still, b));
+  const auto all_edges = listed(scene.pairs.edge_edge);
+  for (std::size_t i = 0; i < near.edge_edge.size(); ++i) {
+    const int a = near.edge_edge.first[i], b = near.edge_edge.second[i];
+    const bool radii = near.edge_edge.has_radii(i);
+    EXPECT_TRUE(all_edges.count({a, b}) == 1 || is_flat(scene, still, a, radii) ||
+                is_flat(scene, still, b, radii));
+  }
   for (const auto& [s, f] : all_nodes) {
     ASSERT_GE(scene.surface.node[static_cast<std::size_t>(s)], 0);
     ASSERT_TRUE(scene.surface.face[static_cast<std::size_t>(f)].alive());

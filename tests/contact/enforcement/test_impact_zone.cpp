@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "contact/enforcement/impact_zone.hpp"
+#include "tests/contact/spring_model.hpp"
 
 namespace brio {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 class Zone : public testing::TestWithParam<int> {
@@ -27,7 +27,6 @@ class Zone : public testing::TestWithParam<int> {
       members_.push_back(one);
     }
   }
-  // What prescribed components would do without their support.
   void prescribe(std::size_t member, int component) { members_[member].prescribed.set(component); }
 
   static Vector3d velocity_after(const ZoneMember& one) {
@@ -129,6 +128,40 @@ TEST_P(Zone, KeepsMomentumWhereSupportsContradict) {
     for (int axis = 0; axis < 3; ++axis) prescribe(i, axis);
   find_zone_impulses(members_);
   expect_no_sums();
+}
+
+// The diagonals of two cells are driven through each other along z and slide freely.
+TEST(ImpactZone, BooksWhatSupportsTake) {
+  ThreadTeam team(1);
+  test::SpringModel model;
+  model.stiffness = 0;
+  model.damping = 0;
+  const std::array<Vector3d, 9> place{Vector3d{0, 0, -2}, {1, 0, 0}, {0.5, -0.5, 1.5},
+                                      {0, 1, 0},          {1, 1, 0}, {0.2, 0.2, 0.5},
+                                      {0, 2, 0},          {1, 2, 0}, {-0.5, 0.5, 1.5}};
+  model.add_sheet({2, 2}, {2, 2}, 0.01, 1, [&](const Vector3d& x) {
+    return place[static_cast<std::size_t>(std::lround(x[0]) + 3 * std::lround(x[1]))];
+  });
+  model.start({});
+  for (const int held : {0, 2, 4, 5, 6, 7, 8}) model.hold(held, held + 1, 4);
+  model.set_velocity(5, {0.02, 0.01, -1});
+  model.set_velocity(6, {-0.02, 0.01, 0});
+  const double dt = 0.01;
+  const ContactStep& step = model.scene.step;
+  for (int i = 0; i < 60 && model.scene.zones == 0; ++i) {
+    const Vector3d linear = model.momentum(), angular = model.angular_momentum();
+    const double energy = model.kinetic_energy();
+    model.accelerate(dt);
+    resolve(model.scene, model.nodes, dt, team);
+    EXPECT_LT((model.momentum() - linear - step.support_impulse).norm(), 1e-13);
+    EXPECT_LT((model.angular_momentum() - angular - step.support_moment).norm(), 1e-13);
+    const double of_supports = 0.5 * (step.support_work_before + step.support_work_after);
+    EXPECT_NEAR(model.kinetic_energy() - energy, step.normal_work() + step.friction_work() + of_supports,
+                1e-13);
+    model.move(dt);
+  }
+  EXPECT_GT(model.scene.zones, 0U);
+  EXPECT_GT(step.support_impulse.norm() + step.support_moment.norm(), 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Zone, testing::Range(0, 12));

@@ -1,0 +1,107 @@
+#include "contact/detection/face_flatness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brio {
+
+using Eigen::Vector3d;
+using Corners = std::array<Vector3d, 4>;
+
+namespace {
+
+constexpr double share_of_skin = 0.1, share_of_radius = 0.03;
+/// Of the thickness up to which a face stays flat, so that it does not change at every search.
+constexpr double share_to_become_flat = 0.5;
+
+Corners at_start(const SurfaceFeatures& features, std::size_t face, const FeatureMotion& motion) {
+  const std::array<int, 4>& corner = features.face_node[face];
+  return {motion.start(corner[0]), motion.start(corner[1]), motion.start(corner[2]), motion.start(corner[3])};
+}
+Corners at_end(const SurfaceFeatures& features, std::size_t face, const FeatureMotion& motion) {
+  const std::array<int, 4>& corner = features.face_node[face];
+  return {motion.end(corner[0]), motion.end(corner[1]), motion.end(corner[2]), motion.end(corner[3])};
+}
+
+Flatness flatness_of(const SurfaceFeatures& features, std::size_t face, const FeatureMotion& motion) {
+  const Corners start = at_start(features, face, motion), end = at_end(features, face, motion);
+  for (const Flatness flatness : {Flatness::all, Flatness::radii}) {
+    const double thickness = share_to_become_flat * flat_thickness(features, face, flatness);
+    if (flat_slack(start, thickness) > 0 && flat_slack(end, thickness) > 0) return flatness;
+  }
+  return Flatness::none;
+}
+
+}  // namespace
+
+double flat_thickness(const SurfaceFeatures& features, std::size_t face, Flatness flatness) {
+  const double for_all = share_of_skin * features.skin;
+  return flatness == Flatness::all ? for_all
+                                   : std::max(for_all, share_of_radius * features.face_radius[face]);
+}
+
+double flat_slack(const Corners& at, double thickness) {
+  const Vector3d a = at[2] - at[0], b = at[3] - at[1];
+  const Vector3d across = a.cross(b);
+  const double area = across.norm();
+  if (!(area > 0)) return -1;
+  const double hull = std::abs((at[1] - at[0]).dot(across)) / area;
+  // Of each corner from the other diagonal, in the mean plane.
+  const auto beside = [&](const Vector3d& diagonal, const Vector3d& arm) {
+    return diagonal.cross(arm).dot(across) / (diagonal.norm() * area);
+  };
+  const double convex = std::min({beside(a, at[3] - at[0]), -beside(a, at[1] - at[0]),
+                                  beside(b, at[0] - at[1]), -beside(b, at[2] - at[1])});
+  return std::min(0.5 * (thickness - hull), 0.25 * convex);
+}
+
+void FaceFlatness::forget(std::size_t faces) {
+  flat_.assign(faces, Flatness::none);
+  until_.assign(faces, 0);
+}
+
+void FaceFlatness::measure(const SurfaceFeatures& features, const FeatureMotion& motion) {
+  forget(features.diagonal_of_face.size());
+  for (std::size_t f = 0; f < flat_.size(); ++f)
+    if (features.diagonal_of_face[f][0] >= 0) flat_[f] = flatness_of(features, f, motion);
+}
+
+void FaceFlatness::change(std::size_t faces, std::span<const int> changed) {
+  flat_.resize(faces, Flatness::none);
+  until_.resize(faces, 0);
+  for (int f : changed) flat_[static_cast<std::size_t>(f)] = Flatness::none;
+}
+
+// Paths and looks ahead are of the prediction; corners that contact has moved are looked at.
+bool FaceFlatness::may_bend(const SurfaceFeatures& features, std::size_t face,
+                            const FeatureMotion& motion) const {
+  if (flat_[face] == Flatness::none) return false;
+  const std::array<int, 4>& corner = features.face_node[face];
+  return motion.of_face.ahead[face] > until_[face] ||
+         std::any_of(corner.begin(), corner.end(), [&](int slave) { return motion.is_corrected(slave); });
+}
+
+bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion) {
+  for (std::size_t f = 0; f < flat_.size(); ++f) {
+    if (!may_bend(features, f, motion)) continue;
+    const double thickness = flat_thickness(features, f, flat_[f]);
+    until_[f] = motion.of_face.path[f] + flat_slack(at_start(features, f, motion), thickness);
+    if (may_bend(features, f, motion) && !(flat_slack(at_end(features, f, motion), thickness) >= 0))
+      return true;
+  }
+  return false;
+}
+
+void FaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion,
+                             std::vector<std::uint8_t>& joins) {
+  for (std::size_t f = 0; f < flat_.size(); ++f) {
+    if (!may_bend(features, f, motion)) continue;
+    const Flatness now = flatness_of(features, f, motion);
+    if (now <= flat_[f]) continue;
+    flat_[f] = now;
+    for (int e : features.diagonal_of_face[f])
+      if (e >= 0) joins[static_cast<std::size_t>(e)] = 1;
+  }
+}
+
+}  // namespace brio

@@ -93,7 +93,7 @@ class Resolution {
   void find_constraints() {
     scene_.motion.begin(scene_.features, scene_.surface, nodes_, team_);
     scene_.motion.end_by_velocity(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
-    if (scene_.pairs.is_due(scene_.features, scene_.surface, scene_.motion)) search();
+    if (scene_.pairs.is_due(scene_.features, scene_.surface, scene_.motion, team_)) search();
     select();
     scene_.motion.set_limits(2, allowed_surplus(scene_.features));
     scene_.last.swap(scene_.contacts);
@@ -111,7 +111,7 @@ class Resolution {
   void select() { select_awake(scene_.proximity, scene_.features, scene_.pairs, scene_.motion, team_); }
   // Of pairs that were surely apart in the predicted motion.
   void look_again() {
-    if (scene_.pairs.is_due(scene_.features, scene_.surface, scene_.motion)) {
+    if (scene_.pairs.is_due(scene_.features, scene_.surface, scene_.motion, team_)) {
       search();
       select();
     } else if (scene_.motion.exceeds_limits()) {

@@ -202,8 +202,8 @@ class SegmentProximity {
       return result;
     };
     for (std::size_t p = 0; p < list.size(); ++p)
-      if (list.spacing[p] == Spacing::waiting)
-        waiting_.push_back(nodes_of_pair(segment(list.first[p]), segment(list.second[p])));
+      if (list.spacing(p) == Spacing::waiting)
+        waiting_.push_back(nodes_of_pair(segment(list.first(p)), segment(list.second(p))));
     std::sort(waiting_.begin(), waiting_.end());
   }
 

@@ -1,10 +1,12 @@
 #pragma once
 /// Which pairs are awake: those that may come within their radii and the band in this step, by their paths.
 ///
-/// Pairs sleep in blocks. What a block's least sleepy pair has left, put on top of twice the longest path of
-/// any feature, is a sum that the longest look ahead must reach before any pair of the block can wake: until
-/// then the block costs one comparison. It is exact: no feature's path grows by more than the longest.
+/// Pairs sleep in blocks. What a block's least sleepy pair has left, put on top of the longest paths of the
+/// pairs of a relation, is a sum that their longest look ahead must reach before any pair of that relation in
+/// the block can wake: until then the block costs one comparison for each of its few relations. It is exact:
+/// no pair's path grows by more than the longest of its relation.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,12 +15,20 @@
 
 namespace brio {
 
-/// What is known of blocks of one list of pairs, and working space.
+struct alignas(64) PairBlock {
+  std::uint64_t version = 0;  ///< of the list, for which the relations were found
+  std::int8_t relations = 0;  ///< -1: too many
+  bool sleeps = false;
+  std::array<int, 4> relation{};
+  std::array<double, 4> wake{};  ///< longest look ahead of the relation at which it is looked into
+};
+
+/// Of all blocks of one list of pairs, and working space.
 struct PairBlocks {
-  std::vector<double> wake;  ///< of each block: twice the longest look ahead at which it is looked into
-  std::uint64_t changes = 0, restarts = 0;  ///< of pairs and motion that this was found for
-  std::vector<int> found;                   ///< by ranges
-  std::vector<std::size_t> count;           ///< of each range
+  std::vector<PairBlock> block;
+  std::uint64_t restarts = 0;      ///< of the motion that this was found for
+  std::vector<int> found;          ///< by ranges
+  std::vector<std::size_t> count;  ///< of each range
 };
 
 /// The pairs, ascending, but for those whose looks ahead and a surplus do not reach their wakes.

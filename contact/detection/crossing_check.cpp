@@ -44,7 +44,7 @@ std::optional<VelocityContact> first_touch(const MovingNode& node, const FaceVer
 
 std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
   const PairList& list = pairs_.node_face;
-  const int s = list.first[pair], f = list.second[pair];
+  const int s = list.first(pair), f = list.second(pair);
   const Face& face = surface_.face[static_cast<std::size_t>(f)];
   const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
   FaceVertices start, end;
@@ -76,8 +76,8 @@ std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
 
 std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   const PairList& list = pairs_.edge_edge;
-  const EdgeFeature& a = features_.edge[static_cast<std::size_t>(list.first[pair])];
-  const EdgeFeature& b = features_.edge[static_cast<std::size_t>(list.second[pair])];
+  const EdgeFeature& a = features_.edge[static_cast<std::size_t>(list.first(pair))];
+  const EdgeFeature& b = features_.edge[static_cast<std::size_t>(list.second(pair))];
   const Segment sa{motion_.start(a.node[0]), motion_.start(a.node[1])};
   const Segment sb{motion_.start(b.node[0]), motion_.start(b.node[1])};
   const Segment ea{motion_.end(a.node[0]), motion_.end(a.node[1])};
@@ -93,7 +93,7 @@ std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   if (!touch) return std::nullopt;
   Hit hit{.kind = PairKind::edge_edge, .pair = pair, .time = touch->time, .at_start = {}, .at_hit = {}};
   Contact contact;
-  contact.slave = first_line_slave + list.first[pair];
+  contact.slave = first_line_slave + list.first(pair);
   contact.face = -1;
   contact.body = b.body;
   contact.own = 2;

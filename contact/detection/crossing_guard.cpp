@@ -1,6 +1,7 @@
 #include "contact/detection/crossing_guard.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "contact/detection/crossing_check.hpp"
 #include "contact/detection/pair_packs.hpp"
@@ -25,16 +26,14 @@ class Look {
         check_(check),
         start_rows_(kind.motion.node.data()->start),
         end_rows_(kind.motion.node.data()->end),
-        extent_{Pack(2 * kind.motion.magnitude()), Pack(2 * kind.motion.magnitude()),
-                Pack(2 * kind.motion.magnitude())} {}
+        extent_(2 * kind.motion.magnitude()) {}
 
   void look(const std::vector<int>& pairs, std::size_t begin, std::size_t end,
             CrossingGuard::Range& range) const {
     range.hits.clear();
     range.certified = range.renewed = range.checked = 0;
     PairsOfRange uncertain;
-    for (std::size_t i = begin; i < end; i += pack_size)
-      certify(pack_of(kind_, pairs.data(), i, std::min(end, i + pack_size)), uncertain, range);
+    for (std::size_t i = begin; i < end; ++i) certify(OnePair<Kind>(kind_, pairs[i]), uncertain, range);
     std::array<int, pairs_a_range> left;
     int* last = left.data();
     renew<false>(uncertain, range, last);
@@ -50,7 +49,8 @@ class Look {
   }
   BRIO_INLINE MaskOf<Pack> separates(const Vector3<Pack>& d, const Points& start, const Points& end,
                                      Pack floor) const {
-    return separation_within(extent_, d, start.first, end.first, start.second, end.second)
+    return separation_within({Pack(extent_), Pack(extent_), Pack(extent_)}, d, start.first, end.first,
+                             start.second, end.second)
         .exceeds(height_of(floor, d));
   }
 
@@ -69,14 +69,25 @@ class Look {
     return floor;
   }
 
-  void certify(const Pairs& pack, PairsOfRange& uncertain, CrossingGuard::Range& range) const {
-    unsigned lanes = pack.lanes();
-    const Pack floor = floor_of(pack, lanes);
-    const MaskOf<Pack> certain = separates(directions_of(kind_.list, pack), points_of(pack, start_rows_),
-                                           points_of(pack, end_rows_), floor);
-    const unsigned left = ~lane_bits(certain) & lanes;
-    range.certified += static_cast<std::uint64_t>(__builtin_popcount(lanes & ~left));
-    for_lanes(left, [&](int lane) { uncertain.add(kind_.list, pack.pair[lane]); });
+  BRIO_INLINE void certify(const OnePair<Kind>& one, PairsOfRange& uncertain,
+                           CrossingGuard::Range& range) const {
+    const Vector3<double> d = one.direction();
+    const auto start = one.points(start_rows_), end = one.points(end_rows_);
+    double floor = 0;
+    if (is_of_points(one)) {
+      if (one.record.spacing != Spacing::radii) return;
+      floor = floor_of_points * one.radii() * (std::sqrt(dot(d, d)) * rounded_up);
+    }
+    if (separation_within({extent_, extent_, extent_}, d, start.first, end.first, start.second, end.second)
+            .exceeds(floor))
+      ++range.certified;
+    else
+      uncertain.add(kind_.list, static_cast<int>(one.pair));
+  }
+  static bool is_of_points(const OnePair<Kind>& one) {
+    if constexpr (Pairs::first_points == 1) return false;
+    const auto &a = one.kind.first_nodes(one.a), &b = one.kind.second_nodes(one.b);
+    return a.front() == a.back() || b.front() == b.back();
   }
 
   // Whether the direction of the closest points at the start, at the end, or their mean separates them.
@@ -118,7 +129,7 @@ class Look {
   const CrossingCheck& check_;
   const double* start_rows_;
   const double* end_rows_;
-  Vector3<Pack> extent_;
+  double extent_;
 };
 
 template <class Kind>

@@ -1,6 +1,7 @@
 #include "contact/detection/face_flatness.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace brio {
@@ -13,6 +14,7 @@ namespace {
 constexpr double share_of_skin = 0.1, share_of_radius = 0.03;
 /// Of the thickness up to which a face stays flat, so that it does not change at every search.
 constexpr double share_to_become_flat = 0.5;
+constexpr std::size_t faces_a_range = 2048;
 
 Corners at_start(const SurfaceFeatures& features, std::size_t face, const FeatureMotion& motion) {
   const std::array<int, 4>& corner = features.face_node[face];
@@ -72,24 +74,29 @@ void FaceFlatness::change(std::size_t faces, std::span<const int> changed) {
   for (int f : changed) flat_[static_cast<std::size_t>(f)] = Flatness::none;
 }
 
-// Paths and looks ahead are of the prediction; corners that contact has moved are looked at.
+// Paths and looks ahead are of the prediction; of corners that contact has moved, where it has taken them.
 bool FaceFlatness::may_bend(const SurfaceFeatures& features, std::size_t face,
                             const FeatureMotion& motion) const {
   if (flat_[face] == Flatness::none) return false;
+  if (motion.of_face.ahead[face] > until_[face]) return true;
+  const double left = until_[face] - motion.of_face.path[face];
   const std::array<int, 4>& corner = features.face_node[face];
-  return motion.of_face.ahead[face] > until_[face] ||
-         std::any_of(corner.begin(), corner.end(), [&](int slave) { return motion.is_corrected(slave); });
+  return std::any_of(corner.begin(), corner.end(),
+                     [&](int slave) { return motion.is_corrected(slave) && !motion.is_within(slave, left); });
 }
 
-bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion) {
-  for (std::size_t f = 0; f < flat_.size(); ++f) {
-    if (!may_bend(features, f, motion)) continue;
-    const double thickness = flat_thickness(features, f, flat_[f]);
-    until_[f] = motion.of_face.path[f] + flat_slack(at_start(features, f, motion), thickness);
-    if (may_bend(features, f, motion) && !(flat_slack(at_end(features, f, motion), thickness) >= 0))
-      return true;
-  }
-  return false;
+bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team) {
+  std::atomic<bool> any = false;
+  team.for_ranges(flat_.size(), faces_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      if (!may_bend(features, f, motion)) continue;
+      const double thickness = flat_thickness(features, f, flat_[f]);
+      until_[f] = motion.of_face.path[f] + flat_slack(at_start(features, f, motion), thickness);
+      if (may_bend(features, f, motion) && !(flat_slack(at_end(features, f, motion), thickness) >= 0))
+        any.store(true, std::memory_order_relaxed);
+    }
+  });
+  return any;
 }
 
 void FaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion,

@@ -35,7 +35,7 @@ class FaceFlatness {
   /// The surface has changed. \param changed faces that are not flat until they are measured
   void change(std::size_t faces, std::span<const int> changed);
   /// Whether a face is no longer as flat as it was at the end of the step.
-  bool any_bends(const SurfaceFeatures& features, const FeatureMotion& motion);
+  bool any_bends(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team);
   /// Take over what faces have become that bend more. \param joins of each edge: set where it is a diagonal
   /// of such a face
   void take_over(const SurfaceFeatures& features, const FeatureMotion& motion,

@@ -2,17 +2,18 @@
 /// Where the nodes of the surface are at the start and at the end of a step, and how much nearer to each
 /// other features may have come since they were last looked at.
 ///
-/// In a frame that moves with the mean displacement of the nodes, the distance of two features shrinks by no
-/// more than the sum of their paths: a path is the sum over the steps of the longest displacement of a
-/// corner, since a point of a feature is a fixed mean of its corners. Positions move linearly over a step
-/// (bodies that turn: along the chord), so a height above a direction that is positive at both ends is
-/// positive in between.
+/// The distance of two features shrinks by no more than the sum of their paths and that of their groups'
+/// relation (motion_groups.hpp): a path is the sum over the steps of the longest displacement of a corner in
+/// the frame of the group, since a point of a feature is a fixed mean of its corners. Positions move linearly
+/// over a step (bodies that turn: along the chord), so a height above a direction that is positive at both
+/// ends is positive in between.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "contact/detection/features.hpp"
+#include "contact/detection/motion_groups.hpp"
 #include "contact/rigid_motion.hpp"
 #include "contact/slave_set.hpp"
 #include "src/base/nodes.hpp"
@@ -26,10 +27,6 @@ struct alignas(64) NodeMotion64 {
   double end[4];
 };
 
-/// Constraints are formed ahead of touching, over this multiple of the approach of the step: other impulses
-/// of the step may speed it up.
-inline constexpr double approach_factor = 2;
-
 /// Of all features of one kind.
 struct FeatureWays {
   std::vector<double> path;   ///< since the restart, until the start of this step
@@ -40,6 +37,7 @@ class FeatureMotion {
  public:
   std::vector<NodeMotion64> node;  ///< of each slave node; dead ones stay at the origin
   FeatureWays of_node, of_face, of_edge;
+  MotionGroups groups;
 
   /// Positions at the start of a step; the displacements to them enter the paths with those at its end.
   void begin(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, ThreadTeam& team);
@@ -66,23 +64,19 @@ class FeatureMotion {
     return is_solution_ && (corrected_ == nullptr || corrected_->contains(slave));
   }
 
+  /// Whether a node's displacement in the frame of its group, to its last position at the end of the step, is
+  /// no longer than that.
+  bool is_within(int slave, double length) const;
+
   /// Nothing is known of the last step.
   void forget() { known_ = false; }
   /// The surface has changed: features may have joined. \param new_slave nodes of which no last step is known
   void join(const SurfaceFeatures& features, const Surface& surface, std::span<const int> new_slave);
-  /// Paths start at zero: pairs are found anew.
-  void restart(const SurfaceFeatures& features, const Surface& surface);
+  /// Paths start at zero, in groups formed anew: pairs are found anew.
+  void restart(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team);
   std::uint64_t restarts() const { return restarts_; }
 
-  double node_path(int slave) const { return of_node.path[index(slave)]; }
-  double face_path(int face) const { return of_face.path[index(face)]; }
-  double edge_path(int edge) const { return of_edge.path[index(edge)]; }
-  /// Displacement of a node in this step, in the frame.
-  double node_step(int slave) const { return way_[index(slave)].step; }
-  /// No feature's look ahead is more than that. It grows by no less than theirs until the next restart.
-  double longest_ahead() const { return longest_path_ + approach_factor * longest_step_; }
-  double longest_path() const { return longest_path_; }
-  /// Displacement of the frame in this step, and since the restart until its start.
+  /// Displacement in this step of the frame in which boxes are laid, and since the restart until its start.
   const double* frame() const { return frame_; }
   const double* frame_since_restart() const { return frame_sum_; }
   /// Largest coordinate: rounding is in proportion to it.
@@ -93,38 +87,41 @@ class FeatureMotion {
   Eigen::Vector3d displacement(int slave) const { return end(slave) - start(slave); }
 
  private:
-  /// Of a node, in the frame.
+  /// Of a node, in the frame of its group.
   struct alignas(16) Way {
     double moved;  ///< from the start of the last step to that of this one; 0: nothing is known of the last
     double step;   ///< in this step
   };
   struct Sum {
-    double displacement[3] = {0, 0, 0};
     double magnitude = 0;
-    double count = 0;
-    double longest_moved = 0, longest_step = 0;
     bool exceeds = false;
   };
 
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   void end_of_body_node(std::size_t slave, const RigidMotion& body, double dt);
+  const std::array<double, 3>& frame_of(std::size_t slave) const {
+    return groups.group[index(groups.of_node(static_cast<int>(slave)))].step;
+  }
   void set_frame();
-  void measure_steps(const Surface& surface, ThreadTeam& team);
+  void form_groups(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team);
+  void measure_steps(ThreadTeam& team);
   bool raise(std::size_t slave);
   void finish_raising(const SurfaceFeatures& features, ThreadTeam& team);
   void spread(const SurfaceFeatures& features, bool with_paths, ThreadTeam& team);
   void start_sums(std::size_t count);
 
-  std::vector<Way> way_;     ///< of each slave node
-  std::vector<Sum> sum_;     ///< one a range
-  std::vector<int> driven_;  ///< slave nodes of rigid bodies
-  std::vector<int> joined_;  ///< slave nodes since the last step
-  double longest_path_ = 0, longest_step_ = 0;
+  std::vector<Way> way_;  ///< of each slave node
+  std::vector<Sum> sum_;  ///< one a range
+  std::vector<Vector3<double>> position_;
+  std::vector<std::pair<double, double>> of_groups_;  ///< displacement along an axis, nodes
+  std::vector<int> driven_;                           ///< slave nodes of rigid bodies
+  std::vector<int> joined_;                           ///< slave nodes since the last step
   double limit_factor_ = 1, limit_surplus_ = 0;
   double frame_[3] = {0, 0, 0};
   double frame_sum_[3] = {0, 0, 0};
   double magnitude_ = 0;
   std::uint64_t restarts_ = 0;
+  bool grouped_ = false;    ///< whether the nodes are in groups
   bool known_ = false;      ///< whether the nodes' last positions are those of the step before
   bool predicted_ = false;  ///< whether the steps are known
   bool exceeds_ = false;

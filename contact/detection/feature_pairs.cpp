@@ -1,6 +1,7 @@
 #include "contact/detection/feature_pairs.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <numbers>
 
 #include "contact/closest_segments.hpp"
@@ -21,6 +22,7 @@ constexpr double steps_of_notice = 4;
 constexpr double most_leaving = 0.2;
 /// Of ContactOptions::reach_buffer: both features of a pair have a box that is larger on both sides.
 constexpr double share_of_buffer = 0.25;
+constexpr std::size_t nodes_a_range = 4096;
 
 CaptureBox joined(const CaptureBox& a, const CaptureBox& b) {
   CaptureBox box{};
@@ -103,24 +105,6 @@ bool one_piece(const SurfaceFeatures& features, const Surface& surface, const Li
 
 }  // namespace
 
-void PairList::clear() {
-  ++changes;
-  first.clear();
-  second.clear();
-  for (auto& axis : direction) axis.clear();
-  wake.clear();
-  spacing.clear();
-}
-
-void PairList::add(int a, int b, Spacing kept_apart) {
-  ++changes;
-  first.push_back(a);
-  second.push_back(b);
-  for (auto& axis : direction) axis.push_back(0);
-  wake.push_back(-1);
-  spacing.push_back(kept_apart);
-}
-
 bool FeaturePairs::is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const {
   const NodeMotion64& node = motion.node[slave];
   for (int axis = 0; axis < 3; ++axis) {
@@ -133,21 +117,30 @@ bool FeaturePairs::is_inside(std::size_t slave, const FeatureMotion& motion, dou
 }
 
 bool FeaturePairs::is_due(const SurfaceFeatures& features, const Surface& surface,
-                          const FeatureMotion& motion) {
+                          const FeatureMotion& motion, ThreadTeam& team) {
   if (reach_.size() != surface.slaves() || !changes_.empty()) return true;
-  for (std::size_t s = 0; s < reach_.size(); ++s)
-    if (surface.node[s] >= 0 && !is_inside(s, motion, 1)) return true;
-  return flat_.any_bends(features, motion);
+  std::atomic<bool> any_left = false;
+  team.for_ranges(reach_.size(), nodes_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s)
+      if (surface.node[s] >= 0 && !is_inside(s, motion, 1)) {
+        any_left.store(true, std::memory_order_relaxed);
+        return;
+      }
+  });
+  return any_left || flat_.any_bends(features, motion, team);
 }
 
 void FeaturePairs::place(std::size_t slave, const Scene& scene, const FeatureMotion& motion) {
-  const double step = motion.node_step(static_cast<int>(slave));
-  const double steps = std::clamp(step > 0 ? way_ahead * scene.features.mean_edge / step : most_steps_ahead,
-                                  least_steps_ahead, most_steps_ahead);
   const NodeMotion64& node = motion.node[slave];
+  const Eigen::Vector3d step =
+      motion.displacement(static_cast<int>(slave)) - Eigen::Map<const Eigen::Vector3d>(motion.frame());
+  const double length = step.norm();
+  const double steps =
+      std::clamp(length > 0 ? way_ahead * scene.features.mean_edge / length : most_steps_ahead,
+                 least_steps_ahead, most_steps_ahead);
   for (int axis = 0; axis < 3; ++axis) {
     const double x = node.start[axis] - motion.frame_since_restart()[axis];
-    const double ahead = steps * (node.end[axis] - node.start[axis] - motion.frame()[axis]);
+    const double ahead = steps * step[axis];
     reach_[slave].lower[axis] = x + std::min(ahead, 0.0) - scene.margin;
     reach_[slave].upper[axis] = x + std::max(ahead, 0.0) + scene.margin;
   }
@@ -196,6 +189,8 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
     find_leaving(scene, motion, team);
   else
     find_all(scene, motion, team);
+  node_face.close_up();
+  edge_edge.close_up();
   forget_changes();
 }
 
@@ -257,7 +252,7 @@ Spacing FeaturePairs::spacing_of_new(const std::vector<std::uint64_t>& kept, int
 }
 
 void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
-  motion.restart(scene.features, scene.surface);
+  motion.restart(scene.features, scene.surface, team);
   if (scene.depth.empty())
     flat_.measure(scene.features, motion);
   else
@@ -284,18 +279,17 @@ void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTea
   edge_leaves_.assign(edge_box_.size(), 0);
 
   const auto remember_all = [&](const PairList& pairs, std::vector<std::uint64_t>& kept) {
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      remember(kept, pairs.first[i], pairs.second[i], pairs.spacing[i]);
+    for (const PairRecord& pair : pairs.records()) remember(kept, pair.first, pair.second, pair.spacing);
     std::sort(kept.begin(), kept.end());
   };
   remember_all(node_face, kept_node_face_);
   remember_all(edge_edge, kept_edge_edge_);
   node_face.clear();
   node_box_.find(face_box_.boxes(), team, counts,
-                 [&](std::size_t f, int s) { add_node_face(scene, s, static_cast<int>(f)); });
+                 [&](std::size_t f, int s) { add_node_face(scene, motion.groups, s, static_cast<int>(f)); });
   edge_edge.clear();
   edge_box_.find(edge_box_.boxes(), team, counts, [&](std::size_t e, int other) {
-    if (other > static_cast<int>(e)) add_edge_edge(scene, static_cast<int>(e), other);
+    if (other > static_cast<int>(e)) add_edge_edge(scene, motion.groups, static_cast<int>(e), other);
   });
 }
 
@@ -337,7 +331,7 @@ bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& moti
   return true;
 }
 
-void FeaturePairs::find_leaving(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team) {
+void FeaturePairs::find_leaving(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
   const auto leaves = [](const std::vector<std::uint8_t>& flags, int feature) {
     return flags[static_cast<std::size_t>(feature)] != 0;
   };
@@ -358,10 +352,11 @@ void FeaturePairs::find_leaving(const Scene& scene, const FeatureMotion& motion,
   });
   std::sort(kept_node_face_.begin(), kept_node_face_.end());
   gather(face_box_, face_);
-  node_box_.find(query_, team, counts, [&](std::size_t i, int s) { add_node_face(scene, s, face_[i]); });
+  node_box_.find(query_, team, counts,
+                 [&](std::size_t i, int s) { add_node_face(scene, motion.groups, s, face_[i]); });
   gather(node_box_, node_);
   face_box_.find(query_, team, counts, [&](std::size_t i, int f) {
-    if (!leaves(face_leaves_, f)) add_node_face(scene, node_[i], f);
+    if (!leaves(face_leaves_, f)) add_node_face(scene, motion.groups, node_[i], f);
   });
 
   edge_edge.remove_if([&](int a, int b, Spacing spacing) {
@@ -374,7 +369,7 @@ void FeaturePairs::find_leaving(const Scene& scene, const FeatureMotion& motion,
   edge_box_.find(query_, team, counts, [&](std::size_t i, int other) {
     const int own = edge_[i];
     if (other == own || (leaves(edge_leaves_, other) && other < own)) return;
-    add_edge_edge(scene, std::min(own, other), std::max(own, other));
+    add_edge_edge(scene, motion.groups, std::min(own, other), std::max(own, other));
   });
 }
 
@@ -388,7 +383,7 @@ void FeaturePairs::drop_dead(const Scene& scene) {
     if (!scene.features.edge[static_cast<std::size_t>(e)].alive()) edge_box_.change(e, empty_box);
 }
 
-void FeaturePairs::add_node_face(const Scene& scene, int slave, int f) {
+void FeaturePairs::add_node_face(const Scene& scene, MotionGroups& groups, int slave, int f) {
   const Face& face = scene.surface.face[static_cast<std::size_t>(f)];
   if (face.has(scene.surface.node[static_cast<std::size_t>(slave)]) || scene.surface.never_touch(slave, face))
     return;
@@ -408,10 +403,12 @@ void FeaturePairs::add_node_face(const Scene& scene, int slave, int f) {
     spacing = Spacing::waiting;
   else if (spaced)
     spacing = spacing_of_new(kept_node_face_, slave, f, radii <= 2 * scene.features.skin);
-  node_face.add(slave, f, spacing);
+  node_face.add(slave, f, spacing,
+                groups.relate(groups.of_node(slave),
+                              groups.of_node(scene.features.face_node[static_cast<std::size_t>(f)][0])));
 }
 
-void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
+void FeaturePairs::add_edge_edge(const Scene& scene, MotionGroups& groups, int first, int second) {
   const EdgeFeature& a = scene.features.edge[static_cast<std::size_t>(first)];
   const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
   if (!scene.edges && a.of_face() && b.of_face()) return;
@@ -426,7 +423,9 @@ void FeaturePairs::add_edge_edge(const Scene& scene, int first, int second) {
   const Spacing spacing =
       spaced ? spacing_of_new(kept_edge_edge_, first, second, only_skins) : Spacing::skins;
   const bool radii = spacing == Spacing::radii;
-  if (flat_.pairs(a, radii) && flat_.pairs(b, radii)) edge_edge.add(first, second, spacing);
+  if (flat_.pairs(a, radii) && flat_.pairs(b, radii))
+    edge_edge.add(first, second, spacing,
+                  groups.relate(groups.of_node(a.node[0]), groups.of_node(b.node[0])));
 }
 
 }  // namespace brio

@@ -1,13 +1,13 @@
 #pragma once
 /// Pairs of features that may come near each other before the next search: nodes and faces, edges and edges.
 ///
-/// Every node has a box that holds its motion of some steps ahead, in the frame of the mean motion; features
-/// whose boxes meet are paired. A search is due when the end of a node's step leaves its box, for the
-/// features at such nodes alone: until then no pair is missing, and a fast splinter makes nobody else search.
-/// Left out are pairs that share a node, that are parts of one rigid body, of one face, or that the deck
-/// keeps from touching. Pairs of one piece (the fold of a shell, the sides of one element) are listed too:
-/// not their radii, which overlap as drawn, but two skins are kept between them. What a deletion pairs anew
-/// begins as near as it was: such a pair waits with two skins until it has been apart by its radii.
+/// Every node has a box that holds its motion of some steps ahead, in the frame of the mean motion;
+/// features whose boxes meet are paired. A search is due when the end of a node's step leaves its box, for
+/// the features at such nodes alone: until then no pair is missing, and a fast splinter makes nobody else
+/// search. Left out are pairs that share a node, that are parts of one rigid body, of one face, or that the
+/// deck keeps from touching. Pairs of one piece (the fold of a shell, the sides of one element) are listed
+/// too: not their radii, which overlap as drawn, but two skins are kept between them. What a deletion pairs
+/// anew begins as near as it was: such a pair waits with two skins until it has been apart by its radii.
 ///
 /// Diagonals of a flat face are not paired (face_flatness.hpp).
 
@@ -19,58 +19,11 @@
 #include "contact/detection/feature_boxes.hpp"
 #include "contact/detection/feature_motion.hpp"
 #include "contact/detection/features.hpp"
+#include "contact/detection/pair_list.hpp"
 #include "contact/detection/searched_depth.hpp"
 #include "contact/options.hpp"
 
 namespace brio {
-
-/// What is kept between a pair: two skins; its radii; its radii once it has been apart by them, two skins
-/// until then.
-enum class Spacing : std::uint8_t { skins, radii, waiting };
-
-/// One list of pairs, struct of arrays. The first feature is a node or an edge, the second a face or an edge.
-struct PairList {
-  std::vector<int> first, second;
-  std::vector<float> direction[3];  ///< from the second to the first; zero: not known
-  std::vector<double> wake;         ///< sum of both paths at which the pair has to be looked at
-  std::vector<Spacing> spacing;
-
-  std::uint64_t changes = 0;  ///< how often pairs were put in or taken out
-
-  std::size_t size() const { return first.size(); }
-  void clear();
-  void add(int a, int b, Spacing kept_apart);
-  bool has_radii(std::size_t pair) const { return spacing[pair] == Spacing::radii; }
-  /// Take out those for which `leaves(first, second, spacing)`; the others keep their order.
-  template <class Leaves>
-  void remove_if(const Leaves& leaves);
-  Eigen::Vector3d direction_of(std::size_t pair) const {
-    return {direction[0][pair], direction[1][pair], direction[2][pair]};
-  }
-  void set_direction(std::size_t pair, const Eigen::Vector3d& d) {
-    for (int axis = 0; axis < 3; ++axis) direction[axis][pair] = static_cast<float>(d[axis]);
-  }
-};
-
-template <class Leaves>
-void PairList::remove_if(const Leaves& leaves) {
-  ++changes;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (leaves(first[i], second[i], spacing[i])) continue;
-    first[kept] = first[i];
-    second[kept] = second[i];
-    for (auto& axis : direction) axis[kept] = axis[i];
-    wake[kept] = wake[i];
-    spacing[kept] = spacing[i];
-    ++kept;
-  }
-  first.resize(kept);
-  second.resize(kept);
-  for (auto& axis : direction) axis.resize(kept);
-  wake.resize(kept);
-  spacing.resize(kept);
-}
 
 class FeaturePairs {
  public:
@@ -80,7 +33,8 @@ class FeaturePairs {
 
   /// Whether some node's step ends outside of its box, a face bends more than it did, or there has been no
   /// search since `expire`.
-  bool is_due(const SurfaceFeatures& features, const Surface& surface, const FeatureMotion& motion);
+  bool is_due(const SurfaceFeatures& features, const Surface& surface, const FeatureMotion& motion,
+              ThreadTeam& team);
   /// Renew the pairs of what has left its boxes, or where that is much, all; then the paths of the motion
   /// restart. \param depth to which features of different bodies are paired; not empty: no face is flat
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
@@ -119,10 +73,10 @@ class FeaturePairs {
   void remember(std::vector<std::uint64_t>& kept, int a, int b, Spacing spacing) const;
   Spacing spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b, bool only_skins) const;
   void find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
-  void find_leaving(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team);
+  void find_leaving(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
   void drop_dead(const Scene& scene);
-  void add_node_face(const Scene& scene, int slave, int face);
-  void add_edge_edge(const Scene& scene, int first, int second);
+  void add_node_face(const Scene& scene, MotionGroups& groups, int slave, int face);
+  void add_edge_edge(const Scene& scene, MotionGroups& groups, int first, int second);
 
   std::vector<CaptureBox> reach_;  ///< of each slave node: where it may be until the next search
   FaceFlatness flat_;

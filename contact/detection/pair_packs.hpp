@@ -69,12 +69,14 @@ struct PackOfPairs {
   unsigned lanes() const { return first_lanes(count); }
 };
 
-/// Points of both features at one time.
-template <std::size_t First, std::size_t Second>
-struct PackOfPoints {
-  std::array<Vector3<Pack>, First> first;
-  std::array<Vector3<Pack>, Second> second;
+/// Points of both features at one time, of one pair or of eight.
+template <class T, std::size_t First, std::size_t Second>
+struct PointsOfPair {
+  std::array<Vector3<T>, First> first;
+  std::array<Vector3<T>, Second> second;
 };
+template <std::size_t First, std::size_t Second>
+using PackOfPoints = PointsOfPair<Pack, First, Second>;
 
 template <std::size_t First, std::size_t Second>
 BRIO_INLINE PackOfPoints<First, Second> points_of(const PackOfPairs<First, Second>& pack,
@@ -106,10 +108,9 @@ struct NodesAndFaces {
   const FeatureWays& second_ways() const { return motion.of_face; }
   const std::vector<double>& first_radii() const { return features.node_radius; }
   const std::vector<double>& second_radii() const { return features.face_radius; }
-  void set_nodes(Pairs& pack, std::size_t lane, int node, int face) const {
-    const std::array<int, 4>& corners = features.face_node[static_cast<std::size_t>(face)];
-    pack.node[0][lane] = node;
-    for (std::size_t k = 0; k < 4; ++k) pack.node[k + 1][lane] = corners[k];
+  static std::array<int, 1> first_nodes(int node) { return {node}; }
+  const std::array<int, 4>& second_nodes(int face) const {
+    return features.face_node[static_cast<std::size_t>(face)];
   }
   /// Of the hull of the face, or among neighbours of one piece of its two triangles (hull_point.hpp). A face
   /// that bends by a tenth of a skin counts as flat, so that weights do not leap as what rests on it quivers.
@@ -147,12 +148,10 @@ struct EdgesAndEdges {
   const FeatureWays& second_ways() const { return motion.of_edge; }
   const std::vector<double>& first_radii() const { return features.edge_radius; }
   const std::vector<double>& second_radii() const { return features.edge_radius; }
-  void set_nodes(Pairs& pack, std::size_t lane, int a, int b) const {
-    for (std::size_t k = 0; k < 2; ++k) {
-      pack.node[k][lane] = features.edge_node[static_cast<std::size_t>(a)][k];
-      pack.node[k + 2][lane] = features.edge_node[static_cast<std::size_t>(b)][k];
-    }
+  const std::array<int, 2>& first_nodes(int edge) const {
+    return features.edge_node[static_cast<std::size_t>(edge)];
   }
+  const std::array<int, 2>& second_nodes(int edge) const { return first_nodes(edge); }
   BRIO_INLINE Closest closest(const Points& at, bool /*as_hull*/) const {
     return closest_on_segments(at.first[0], at.first[1], at.second[0], at.second[1]);
   }
@@ -191,31 +190,20 @@ BRIO_INLINE typename Kind::Pairs pack_of(const Kind& kind, const int* pairs, std
   for (std::size_t lane = 0; lane < pack_size; ++lane) {
     const int pair = pairs[begin + lane < end ? begin + lane : end - 1];
     pack.pair[lane] = pair;
-    pack.a[lane] = kind.list.first[static_cast<std::size_t>(pair)];
-    pack.b[lane] = kind.list.second[static_cast<std::size_t>(pair)];
-    kind.set_nodes(pack, lane, pack.a[lane], pack.b[lane]);
+    pack.a[lane] = kind.list.first(static_cast<std::size_t>(pair));
+    pack.b[lane] = kind.list.second(static_cast<std::size_t>(pair));
+    const auto &first = kind.first_nodes(pack.a[lane]), &second = kind.second_nodes(pack.b[lane]);
+    for (std::size_t k = 0; k < first.size(); ++k) pack.node[k][lane] = first[k];
+    for (std::size_t k = 0; k < second.size(); ++k) pack.node[first.size() + k][lane] = second[k];
   }
   pack.count = static_cast<int>(std::min<std::size_t>(pack_size, end - begin));
   return pack;
 }
 
-/// Registers are put together from eight loads: what is stored by lanes and loaded whole waits for the
-/// stores.
-template <class Pairs>
-BRIO_INLINE Vector3<Pack> directions_of(const PairList& list, const Pairs& pack) {
-  typedef float Narrow __attribute__((vector_size(32)));
-  const auto component = [&](const std::vector<float>& all) {
-    const float* of = all.data();
-    const int* p = pack.pair;
-    const Narrow narrow{of[p[0]], of[p[1]], of[p[2]], of[p[3]], of[p[4]], of[p[5]], of[p[6]], of[p[7]]};
-    return Pack(__builtin_convertvector(narrow, Pack::Vector));
-  };
-  return {component(list.direction[0]), component(list.direction[1]), component(list.direction[2])};
-}
 template <class Pairs>
 BRIO_INLINE MaskOf<Pack> have_spacing(Spacing spacing, const PairList& list, const Pairs& pack) {
   const auto lane = [&](std::size_t l) -> std::int64_t {
-    return list.spacing[static_cast<std::size_t>(pack.pair[l])] == spacing ? -1 : 0;
+    return list.spacing(static_cast<std::size_t>(pack.pair[l])) == spacing ? -1 : 0;
   };
   return {MaskOf<Pack>::Vector{lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7)}};
 }
@@ -224,7 +212,7 @@ struct PackOfWays {
   Pack radii;
   MaskOf<Pack> waits;
   Pack reach;        ///< distance at which they touch
-  Pack path, ahead;  ///< sums of both features
+  Pack path, ahead;  ///< sums of both features and their groups' relation
 };
 
 template <class Kind>
@@ -239,8 +227,14 @@ BRIO_INLINE PackOfWays ways_of(const Kind& kind, const typename Kind::Pairs& pac
   ways.waits = have_spacing(Spacing::waiting, kind.list, pack);
   ways.reach = where(have_spacing(Spacing::radii, kind.list, pack), ways.radii, Pack(2 * kind.features.skin));
   const FeatureWays &first = kind.first_ways(), &second = kind.second_ways();
-  ways.path = gather_numbers(first.path.data(), pack.a) + gather_numbers(second.path.data(), pack.b);
-  ways.ahead = gather_numbers(first.ahead.data(), pack.a) + gather_numbers(second.ahead.data(), pack.b);
+  int relation[pack_size];
+  for (std::size_t lane = 0; lane < pack_size; ++lane)
+    relation[lane] = kind.list[static_cast<std::size_t>(pack.pair[lane])].relation;
+  const PathAndAhead& frames = kind.motion.groups.relation;
+  ways.path = gather_numbers(first.path.data(), pack.a) + gather_numbers(second.path.data(), pack.b) +
+              gather_numbers(frames.path.data(), relation);
+  ways.ahead = gather_numbers(first.ahead.data(), pack.a) + gather_numbers(second.ahead.data(), pack.b) +
+               gather_numbers(frames.ahead.data(), relation);
   return ways;
 }
 
@@ -248,9 +242,7 @@ template <class Pairs>
 BRIO_INLINE void store_directions(PairList& list, const Pairs& pack, unsigned lanes, const Vector3<Pack>& d) {
   for_lanes(lanes, [&](int lane) {
     const auto pair = static_cast<std::size_t>(pack.pair[lane]);
-    list.direction[0][pair] = static_cast<float>(d.x[lane]);
-    list.direction[1][pair] = static_cast<float>(d.y[lane]);
-    list.direction[2][pair] = static_cast<float>(d.z[lane]);
+    list.set_direction(pair, d.x[lane], d.y[lane], d.z[lane]);
   });
 }
 template <class Pairs>
@@ -262,6 +254,59 @@ BRIO_INLINE void store_wakes(PairList& list, const Pairs& pack, unsigned lanes, 
     for_lanes(lanes, [&](int lane) { to[pack.pair[lane]] = wake[lane]; });
   }
 }
+
+/// One pair. What takes but a few operations on some points is done pair by pair: to put lanes together would
+/// cost more.
+template <class Kind>
+struct OnePair {
+  static constexpr std::size_t first_points = Kind::Pairs::first_points,
+                               second_points = Kind::Pairs::second_points;
+  using Points = PointsOfPair<double, first_points, second_points>;
+
+  OnePair(const Kind& of, int number)
+      : kind(of),
+        pair(static_cast<std::size_t>(number)),
+        record(kind.list[pair]),
+        a(record.first),
+        b(record.second) {}
+
+  Points points(const double* rows) const {
+    constexpr std::size_t stride = sizeof(NodeMotion64) / sizeof(double);
+    const auto at = [&](int node) {
+      const double* row = rows + stride * static_cast<std::size_t>(node);
+      return Vector3<double>{row[0], row[1], row[2]};
+    };
+    const auto &first = kind.first_nodes(a), &second = kind.second_nodes(b);
+    Points points;
+    for (std::size_t k = 0; k < first_points; ++k) points.first[k] = at(first[k]);
+    for (std::size_t k = 0; k < second_points; ++k) points.second[k] = at(second[k]);
+    return points;
+  }
+  double radii() const { return of_a(kind.first_radii()) + of_b(kind.second_radii()); }
+  double path() const {
+    return of_a(kind.first_ways().path) + of_b(kind.second_ways().path) + of_frames(frames().path);
+  }
+  double ahead() const {
+    return of_a(kind.first_ways().ahead) + of_b(kind.second_ways().ahead) + of_frames(frames().ahead);
+  }
+  Vector3<double> direction() const {
+    const auto& d = record.direction;
+    return {d[0], d[1], d[2]};
+  }
+
+  const Kind& kind;
+  std::size_t pair;
+  const PairRecord& record;
+  int a, b;  ///< the features
+
+ private:
+  const PathAndAhead& frames() const { return kind.motion.groups.relation; }
+  double of_a(const std::vector<double>& all) const { return all[static_cast<std::size_t>(a)]; }
+  double of_b(const std::vector<double>& all) const { return all[static_cast<std::size_t>(b)]; }
+  double of_frames(const std::vector<double>& all) const {
+    return all[static_cast<std::size_t>(record.relation)];
+  }
+};
 
 /// Pairs that a pass takes at once: one task of a team of threads.
 inline constexpr std::size_t pairs_a_range = 512;

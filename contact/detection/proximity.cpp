@@ -1,6 +1,7 @@
 #include "contact/detection/proximity.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "contact/detection/pair_packs.hpp"
@@ -17,14 +18,18 @@ constexpr double no_distance = 1e-12;
 /// By which a separation is lowered, as its direction is kept in single precision.
 constexpr double rounding_of_direction = 1e-6;
 
+// Of unit length but for rounding to single precision, or zero.
 template <class Points>
-BRIO_INLINE Vector3<Pack> between_middles(const Points& at) {
+Vector3<double> between_middles(const Points& at) {
   const auto middle = [](const auto& points) {
-    Vector3<Pack> sum = points[0];
+    Vector3<double> sum = points[0];
     for (std::size_t k = 1; k < points.size(); ++k) sum = sum + points[k];
-    return Pack(1.0 / static_cast<double>(points.size())) * sum;
+    return 1.0 / static_cast<double>(points.size()) * sum;
   };
-  return middle(at.first) - middle(at.second);
+  const Vector3<double> d = middle(at.first) - middle(at.second);
+  const double inverse = std::sqrt(inverse_or_zero(dot(d, d)));
+  const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+  return {rounded(inverse * d.x), rounded(inverse * d.y), rounded(inverse * d.z)};
 }
 
 /// Passes over a range of awake pairs of one kind.
@@ -35,14 +40,15 @@ class Finder {
       : kind_(kind),
         filter_(filter),
         rows_(kind.motion.node.data()->start),
+        end_rows_(kind.motion.node.data()->end),
         band_(proximity_band * kind.features.smallest_edge),
         least_square_(square(no_distance * kind.features.smallest_edge)) {}
 
   void find(const std::vector<int>& awake, std::size_t begin, std::size_t end,
             Proximity::Range& range) const {
     PairsOfRange near;
-    for (std::size_t i = begin; i < end; i += pack_size)
-      look(pack_of(kind_, awake.data(), i, std::min(end, i + pack_size)), near);
+    for (std::size_t i = begin; i < end; ++i)
+      if (is_near(OnePair<Kind>(kind_, awake[i]))) near.add(kind_.list, awake[i]);
     range.found.clear();
     range.closest_points = near.count[0] + near.count[1];
     find_closest<false>(near, range.found);
@@ -50,32 +56,30 @@ class Finder {
   }
 
  private:
-  // Along the direction that the pairs had: how far they are apart at least.
-  BRIO_INLINE void look(const typename Kind::Pairs& pack, PairsOfRange& near) const {
-    const PackOfWays ways = ways_of(kind_, pack);
-    const auto at = points_of(pack, rows_);
-    Vector3<Pack> direction = directions_of(kind_.list, pack);
-    const MaskOf<Pack> is_unknown = dot(direction, direction) < Pack(0.5);
-    if (any(is_unknown)) {
-      direction = where<Pack>(is_unknown, rounded_to_float(normalized(between_middles(at))), direction);
-      store_directions(kind_.list, pack, lane_bits(is_unknown) & pack.lanes(), direction);
+  // Whether it is not far enough apart along the direction that it had.
+  BRIO_INLINE bool is_near(const OnePair<Kind>& one) const {
+    const auto at = one.points(rows_);
+    Vector3<double> direction = one.direction();
+    if (dot(direction, direction) < 0.5) {
+      direction = between_middles(at);
+      kind_.list.set_direction(one.pair, direction.x, direction.y, direction.z);
     }
-    const Pack apart = Pack(1 - rounding_of_direction) * height_between(direction, at.first, at.second);
-    const Pack wake = ways.path + apart - reach_to_wake(ways) - Pack(band_);
-    store_wakes(kind_.list, pack, pack.lanes(), wake);
-    end_wait(pack, ways.waits & (apart > ways.radii));
-    for_lanes(lane_bits(!(wake > ways.ahead)) & pack.lanes(),
-              [&](int lane) { near.add(kind_.list, pack.pair[lane]); });
+    const double apart = (1 - rounding_of_direction) * height_between(direction, at.first, at.second);
+    const Spacing spacing = one.record.spacing;
+    // Pairs that wait are looked at as if they did not, so that they are seen to be apart before they meet.
+    const double reach = spacing == Spacing::skins ? 2 * kind_.features.skin : one.radii();
+    const double wake = one.path() + apart - reach - band_;
+    kind_.list.wake[one.pair] = wake;
+    if (spacing == Spacing::waiting && apart > reach) kind_.list.end_wait(one.pair);
+    return !(wake > one.ahead());
   }
 
-  // Pairs that wait are looked at as if they did not, so that they are seen to be apart before they meet.
   static BRIO_INLINE Pack reach_to_wake(const PackOfWays& ways) {
     return where(ways.waits, ways.radii, ways.reach);
   }
   BRIO_INLINE void end_wait(const typename Kind::Pairs& pack, MaskOf<Pack> apart) const {
-    for_lanes(lane_bits(apart) & pack.lanes(), [&](int lane) {
-      kind_.list.spacing[static_cast<std::size_t>(pack.pair[lane])] = Spacing::radii;
-    });
+    for_lanes(lane_bits(apart) & pack.lanes(),
+              [&](int lane) { kind_.list.end_wait(static_cast<std::size_t>(pack.pair[lane])); });
   }
 
   template <bool Spaced>
@@ -89,23 +93,37 @@ class Finder {
       const auto closest = kind_.closest(points, Spaced);
       const Pack distance = sqrt(closest.squared_distance);
       const Pack at_end = where(ways.waits, Pack(0.0), kind_.path_at_end(pack, points, closest));
-      const Pack wake = ways.path + max(distance - reach_to_wake(ways) - Pack(band_), at_end);
+      const Pack left = max(distance - reach_to_wake(ways) - Pack(band_), at_end);
       if (!Spaced) {
         const MaskOf<Pack> apart = ways.waits & (distance > ways.radii);
         end_wait(pack, apart);
         ways.reach = where(apart, ways.radii, ways.reach);
       }
-      store_wakes(kind_.list, pack, pack.lanes(), wake);
+      store_wakes(kind_.list, pack, pack.lanes(), ways.path + left);
       const MaskOf<Pack> has_direction = closest.squared_distance > Pack(least_square_);
       const Pack length = sqrt(dot(closest.offset, closest.offset));
       const Vector3<Pack> normal = (Pack(1.0) / where(has_direction, length, Pack(1.0))) * closest.offset;
       const unsigned lanes = lane_bits(has_direction) & pack.lanes();
       store_directions(kind_.list, pack, lanes, normal);
-      for_lanes(lane_bits(!(wake > ways.ahead)) & lanes & candidates(closest), [&](int lane) {
+      const Pack approach = Pack(approach_factor) * longest_approach(points, points_of(pack, end_rows_));
+      for_lanes(lane_bits(!(left > approach)) & lanes & candidates(closest), [&](int lane) {
         filter(closest, lane, pack.pair[lane], {normal.x[lane], normal.y[lane], normal.z[lane]}, length[lane],
                ways.reach[lane], found);
       });
     }
+  }
+
+  // Of any point of one feature towards any of the other in this step: of no frame, and no more than the
+  // looks ahead.
+  static BRIO_INLINE Pack longest_approach(const typename Kind::Points& start,
+                                           const typename Kind::Points& end) {
+    Pack square(0.0);
+    for (std::size_t k = 0; k < start.first.size(); ++k)
+      for (std::size_t l = 0; l < start.second.size(); ++l) {
+        const Vector3<Pack> relative = (end.first[k] - start.first[k]) - (end.second[l] - start.second[l]);
+        square = max(square, dot(relative, relative));
+      }
+    return sqrt(square);
   }
 
   // Not what the filter leaves out at once: edges of faces that are nearest at their ends.
@@ -130,6 +148,7 @@ class Finder {
   const Kind& kind_;
   const ProximityFilter& filter_;
   const double* rows_;
+  const double* end_rows_;
   double band_;
   double least_square_;
 };

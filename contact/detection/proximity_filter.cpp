@@ -192,7 +192,7 @@ bool ProximityFilter::lay_in_plane(const NearPair<4>& near, double slack, Contac
 
 void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundContact>& found) const {
   const auto pair = static_cast<std::size_t>(near.pair);
-  const int s = pairs_.node_face.first[pair], f = pairs_.node_face.second[pair];
+  const int s = pairs_.node_face.first(pair), f = pairs_.node_face.second(pair);
   const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
   const Face& face = surface_.face[static_cast<std::size_t>(f)];
   Contact contact;
@@ -282,7 +282,7 @@ bool ProximityFilter::are_parallel(const EdgeFeature& a, const EdgeFeature& b, d
 
 void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundContact>& found) const {
   const auto pair = static_cast<std::size_t>(near.pair);
-  const int ea = pairs_.edge_edge.first[pair], eb = pairs_.edge_edge.second[pair];
+  const int ea = pairs_.edge_edge.first(pair), eb = pairs_.edge_edge.second(pair);
   const EdgeFeature &a = edge(ea), &b = edge(eb);
   const auto foot = [&](const EdgeFeature& own, double parameter) {
     const MovingPoint first = point_of(own.node[0]), second = point_of(own.node[1]);

@@ -36,12 +36,12 @@ class EdgesAndEdges {
   static bool of_solid(const EdgeFeature& edge) { return edge.of_face() && !edge.shell; }
   bool is_spaced(std::size_t pair) const { return list_.has_radii(pair); }
   double reach_of(std::size_t pair) const {
-    return is_spaced(pair) ? look_.edge(list_.first[pair]).radius + look_.edge(list_.second[pair]).radius
+    return is_spaced(pair) ? look_.edge(list_.first(pair)).radius + look_.edge(list_.second(pair)).radius
                            : 2 * features_.skin;
   }
 
   void look_at(std::size_t pair) {
-    const int ea = list_.first[pair], eb = list_.second[pair];
+    const int ea = list_.first(pair), eb = list_.second(pair);
     const EdgeFeature &a = look_.edge(ea), &b = look_.edge(eb);
     const Segment sa = segment(a), sb = segment(b);
     const bool solids = of_solid(a) && of_solid(b) && a.body != b.body;
@@ -158,7 +158,7 @@ class EdgesAndEdges {
   void add(std::size_t pair, const Feet& feet, const Vector3d& normal, double distance, bool is_apart) {
     const double reach = reach_of(pair);
     if (distance - reach > band_) return;
-    const int ea = list_.first[pair], eb = list_.second[pair];
+    const int ea = list_.first(pair), eb = list_.second(pair);
     const EdgeFeature &a = look_.edge(ea), &b = look_.edge(eb);
     SidedPair one;
     if (!look_.is_minimum(ea, feet.parameter[0], feet.on_a, normal, one.support[0]) ||

@@ -36,8 +36,8 @@ class NodesAndFaces {
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
     const auto key = [&](int pair) {
       const auto p = static_cast<std::size_t>(pair);
-      return std::tuple(list_.first[p], face(list_.second[p]).body, face(list_.second[p]).shell,
-                        list_.second[p]);
+      return std::tuple(list_.first(p), face(list_.second(p)).body, face(list_.second(p)).shell,
+                        list_.second(p));
     };
     std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
     const auto group = [&](int pair) {
@@ -52,11 +52,11 @@ class NodesAndFaces {
 
  private:
   const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
-  int face_of(int pair) const { return list_.second[static_cast<std::size_t>(pair)]; }
+  int face_of(int pair) const { return list_.second(static_cast<std::size_t>(pair)); }
 
   // Pairs of one node with faces of one body, of solids or of shells.
   void look_at(std::span<const int> group) {
-    const int s = list_.first[static_cast<std::size_t>(group.front())];
+    const int s = list_.first(static_cast<std::size_t>(group.front()));
     const Face& any = face(face_of(group.front()));
     const Vector3d x = look_.at(s);
     if (any.shell || any.body == surface_.body[static_cast<std::size_t>(s)]) {

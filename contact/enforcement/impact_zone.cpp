@@ -157,13 +157,13 @@ class Zones {
   std::array<int, 5> nodes_of(const Hit& hit) const {
     const FeaturePairs& pairs = scene_.pairs;
     if (hit.kind == PairKind::node_face) {
-      const Face& face = scene_.surface.face[static_cast<std::size_t>(pairs.node_face.second[hit.pair])];
-      std::array<int, 5> nodes{pairs.node_face.first[hit.pair]};
+      const Face& face = scene_.surface.face[static_cast<std::size_t>(pairs.node_face.second(hit.pair))];
+      std::array<int, 5> nodes{pairs.node_face.first(hit.pair)};
       for (std::size_t k = 0; k < 4; ++k) nodes[k + 1] = scene_.surface.slave(face.node[k]);
       return nodes;
     }
-    const auto& a = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.first[hit.pair])];
-    const auto& b = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.second[hit.pair])];
+    const auto& a = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.first(hit.pair))];
+    const auto& b = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.second(hit.pair))];
     return {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
   }
 

@@ -355,10 +355,10 @@ class GapMaker {
     for (const Hit& hit : guard.hits) {
       const auto p = hit.pair;
       const bool edges = hit.kind == PairKind::edge_edge;
-      const int first = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.first[p])].body
-                              : surface_.body[static_cast<std::size_t>(pairs_.node_face.first[p])];
-      const int second = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.second[p])].body
-                               : surface_.face[static_cast<std::size_t>(pairs_.node_face.second[p])].body;
+      const int first = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.first(p))].body
+                              : surface_.body[static_cast<std::size_t>(pairs_.node_face.first(p))];
+      const int second = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.second(p))].body
+                               : surface_.face[static_cast<std::size_t>(pairs_.node_face.second(p))].body;
       if (hit.time > 0 && !overlapping.contains(std::minmax(first, second)))
         share = std::min(share, share_of_hit * hit.time);
     }

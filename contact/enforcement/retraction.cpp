@@ -59,7 +59,7 @@ class Retraction {
   const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
 
   void look_at_node_and_face(std::size_t p) {
-    const int s = pairs_.node_face.first[p], f = pairs_.node_face.second[p];
+    const int s = pairs_.node_face.first(p), f = pairs_.node_face.second(p);
     const Face& other = face(f);
     const auto faces = surface_.faces_of.of(s);
     if (other.shell || faces.empty() || face(faces.front()).shell) return;
@@ -81,8 +81,8 @@ class Retraction {
   }
 
   void look_at_edges(std::size_t p) {
-    const EdgeFeature& a = look_.edge(pairs_.edge_edge.first[p]);
-    const EdgeFeature& b = look_.edge(pairs_.edge_edge.second[p]);
+    const EdgeFeature& a = look_.edge(pairs_.edge_edge.first(p));
+    const EdgeFeature& b = look_.edge(pairs_.edge_edge.second(p));
     if (!a.of_face() || !b.of_face() || a.shell || b.shell || !are_two(a.body, b.body)) return;
     const Segment sa{look_.at(a.node[0]), look_.at(a.node[1])}, sb{look_.at(b.node[0]), look_.at(b.node[1])};
     for (int axis = 0; axis < 3; ++axis)
@@ -110,7 +110,7 @@ class Retraction {
     };
     std::map<std::pair<int, int>, Near> nearest;  // of a node to a body
     for (std::size_t p = 0; p < pairs_.node_face.size(); ++p) {
-      const int s = pairs_.node_face.first[p], f = pairs_.node_face.second[p];
+      const int s = pairs_.node_face.first(p), f = pairs_.node_face.second(p);
       const Face& other = face(f);
       if (other.shell || !are_two(surface_.body[static_cast<std::size_t>(s)], other.body)) continue;
       const ClosestPoint point = closest_point_on_quad(look_.at(s), look_.corners(other));

@@ -26,7 +26,7 @@ class Reference {
   bool closest_at_an_end(std::size_t pair) const {
     const auto is_end = [](double at) { return at <= 0 || at >= 1; };
     const NearPair<2> near = closest_edges(pair);
-    return edge(all_.edge_edge.first[pair]).of_face() && edge(all_.edge_edge.second[pair]).of_face() &&
+    return edge(all_.edge_edge.first(pair)).of_face() && edge(all_.edge_edge.second(pair)).of_face() &&
            (is_end(near.at[0]) || is_end(near.at[1]));
   }
 
@@ -35,16 +35,19 @@ class Reference {
     std::vector<FoundContact> found;
     const ProximityFilter filter(scene_.features, scene_.surface, scene_.options, all_, motion_);
     for (std::size_t i = 0; i < all_.node_face.size(); ++i) {
+      if (all_.node_face.spacing(i) == Spacing::none) continue;
       const NearPair<4> near = closest_node_face(i);
-      const double ahead = ahead_of(motion_.of_node, all_.node_face.first[i]) +
-                           ahead_of(motion_.of_face, all_.node_face.second[i]);
+      const double ahead =
+          longest_approach(std::array{all_.node_face.first(i)},
+                           scene_.features.face_node[static_cast<std::size_t>(all_.node_face.second(i))]);
       if (is_near(near.distance, near.reach, ahead)) filter.node_and_face(near, found);
     }
     take_over(found, contacts);
     for (std::size_t i = 0; i < all_.edge_edge.size(); ++i) {
+      if (all_.edge_edge.spacing(i) == Spacing::none) continue;
       const NearPair<2> near = closest_edges(i);
-      const double ahead = ahead_of(motion_.of_edge, all_.edge_edge.first[i]) +
-                           ahead_of(motion_.of_edge, all_.edge_edge.second[i]);
+      const double ahead =
+          longest_approach(edge(all_.edge_edge.first(i)).node, edge(all_.edge_edge.second(i)).node);
       if (is_near(near.distance, near.reach, ahead)) filter.edge_and_edge(near, found);
     }
     take_over(found, contacts);
@@ -57,10 +60,11 @@ class Reference {
     std::vector<Touch> touches;
     const CrossingCheck check(scene_.features, scene_.surface, scene_.options, all_, motion_);
     for (std::size_t i = 0; i < all_.node_face.size(); ++i)
-      if (check.node_and_face(i))
-        touches.emplace_back(PairKind::node_face, all_.node_face.first[i], all_.node_face.second[i]);
+      if (all_.node_face.spacing(i) != Spacing::none && check.node_and_face(i))
+        touches.emplace_back(PairKind::node_face, all_.node_face.first(i), all_.node_face.second(i));
     for (std::size_t i = 0; i < all_.edge_edge.size(); ++i) {
-      const int a = all_.edge_edge.first[i], b = all_.edge_edge.second[i];
+      const int a = all_.edge_edge.first(i), b = all_.edge_edge.second(i);
+      if (all_.edge_edge.spacing(i) == Spacing::none) continue;
       if (!all_.edge_edge.has_radii(i) && (edge(a).is_point() || edge(b).is_point())) continue;
       if (check.edge_and_edge(i)) touches.emplace_back(PairKind::edge_edge, a, b);
     }
@@ -77,10 +81,13 @@ class Reference {
 
  private:
   const EdgeFeature& edge(int e) const { return scene_.features.edge[static_cast<std::size_t>(e)]; }
-  // Of a step alone.
-  static double ahead_of(const FeatureWays& ways, int feature) {
-    const auto f = static_cast<std::size_t>(feature);
-    return ways.ahead[f] - ways.path[f];
+  template <std::size_t N, std::size_t M>
+  double longest_approach(const std::array<int, N>& first, const std::array<int, M>& second) const {
+    double longest = 0;
+    for (int a : first)
+      for (int b : second)
+        longest = std::max(longest, (motion_.displacement(a) - motion_.displacement(b)).norm());
+    return approach_factor * longest;
   }
   bool is_near(double distance, double reach, double ahead) const {
     const double h = scene_.features.smallest_edge;
@@ -89,7 +96,7 @@ class Reference {
 
   NearPair<4> closest_node_face(std::size_t i) const {
     const PairList& list = all_.node_face;
-    const int s = list.first[i], f = list.second[i];
+    const int s = list.first(i), f = list.second(i);
     FaceVertices at;
     for (std::size_t k = 0; k < 4; ++k)
       at[k] = motion_.start(scene_.features.face_node[static_cast<std::size_t>(f)][k]);
@@ -122,7 +129,7 @@ class Reference {
 
   NearPair<2> closest_edges(std::size_t i) const {
     const PairList& list = all_.edge_edge;
-    const EdgeFeature &a = edge(list.first[i]), &b = edge(list.second[i]);
+    const EdgeFeature &a = edge(list.first(i)), &b = edge(list.second(i));
     const auto found = closest_on_segments(plain(motion_.start(a.node[0])), plain(motion_.start(a.node[1])),
                                            plain(motion_.start(b.node[0])), plain(motion_.start(b.node[1])));
     const double distance = std::sqrt(found.squared_distance);

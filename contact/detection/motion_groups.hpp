@@ -1,0 +1,85 @@
+#pragma once
+/// Groups of nodes, in whose frames paths are measured.
+///
+/// Nodes of one body that lie near each other are a group, and its frame moves with their mean displacement:
+/// what flies, or is carried along by a fold, moves little in its own frame. A feature belongs to the group
+/// of its first node. The distance of two features shrinks by no more than both their paths and the path of
+/// one frame relative to the other, which their relation holds.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "contact/detection/features.hpp"
+#include "contact/spatial_order.hpp"
+#include "contact/surface.hpp"
+#include "src/base/parallel.hpp"
+
+namespace brio {
+
+/// Sums of what may have brought two features nearer since the paths were started: until the start of this
+/// step, and with what this step may add.
+struct PathAndAhead {
+  std::vector<double> path, ahead;
+};
+
+class MotionGroups {
+ public:
+  struct Group {
+    std::array<double, 3> step{}, last{};  ///< displacement of the frame in this step and in the last one
+    double moved = 0, ahead = 0;  ///< longest displacement of its nodes in the last step and in this one
+    double longest_path = 0, longest_ahead = 0;  ///< no feature of it has more
+  };
+  std::vector<Group> group;
+  PathAndAhead relation;  ///< of the frames of each relation
+  std::vector<std::array<double, 2>>
+      apart;           ///< of the frames of each relation: in the last step, in this one
+  PathAndAhead total;  ///< no pair of features of a relation has more
+
+  /// Group the nodes by where they are; nothing is related. \param position of each slave node, of dead ones
+  /// not a number
+  void form(const Surface& surface, const SurfaceFeatures& features,
+            std::span<const Vector3<double>> position, ThreadTeam& team);
+  /// New nodes belong to groups of nodes that share a face with them.
+  void join(const Surface& surface, const SurfaceFeatures& features, std::span<const int> new_slave);
+
+  /// By how much the frames of two groups that share a feature moved apart.
+  const std::array<double, 2>& frames_apart(int a, int b) const {
+    return apart[static_cast<std::size_t>(relation_of_[cell(a, b)])];
+  }
+  int of_node(int slave) const { return of_node_[static_cast<std::size_t>(slave)]; }
+  std::span<const int> members(std::size_t g) const {
+    return {member_.data() + first_[g], first_[g + 1] - first_[g]};
+  }
+  /// The relation of two groups.
+  int relate(int a, int b);
+
+  /// Follow one step, of which the groups have the frames and the longest displacements.
+  void advance(bool with_paths);
+
+ private:
+  std::size_t cell(int a, int b) const {
+    return static_cast<std::size_t>(std::min(a, b)) * group.size() + static_cast<std::size_t>(std::max(a, b));
+  }
+  void list_members(const Surface& surface);
+  void find_borders(const SurfaceFeatures& features);
+
+  std::vector<int> of_node_;
+  std::vector<int> member_;
+  std::vector<std::size_t> first_;
+  std::vector<std::array<int, 3>> border_;      ///< a feature of the first has a node in the second; relation
+  std::vector<std::array<int, 2>> related_;     ///< groups of each relation
+  std::vector<int> relation_of_;                ///< of two groups; -1: none
+  std::vector<std::array<double, 2>> longest_;  ///< of features of each group: moved, ahead
+  SpatialOrder order_;
+};
+
+/// Constraints are formed ahead of touching, over this multiple of the approach of the step: other impulses
+/// of the step may speed it up.
+inline constexpr double approach_factor = 2;
+/// Paths are rounded up by more than their sums are rounded down.
+inline constexpr double paths_rounded_up = 1 + 1e-9;
+
+}  // namespace brio

@@ -1,0 +1,89 @@
+#pragma once
+/// One list of pairs of features. What is taken out leaves a vacant place, which the next new pair takes: a
+/// search changes few blocks of the list.
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "src/base/floating_point.hpp"
+
+namespace brio {
+
+/// What is kept between a pair: two skins; its radii; its radii once it has been apart by them, two skins
+/// until then. None: the place is vacant.
+enum class Spacing : std::uint8_t { skins, radii, waiting, none };
+
+/// What a look at a pair reads, side by side.
+struct alignas(32) PairRecord {
+  int first = 0, second = 0;         ///< a node or an edge; a face or an edge
+  std::array<float, 3> direction{};  ///< from the second to the first; zero: not known
+  int relation = 0;                  ///< of their groups, in MotionGroups
+  Spacing spacing = Spacing::none;
+
+  bool operator==(const PairRecord&) const = default;
+};
+
+class PairList {
+ public:
+  static constexpr std::size_t block_size = 32;
+  /// Sum of the paths at which each pair has to be looked at; of vacant places infinite.
+  std::vector<double> wake;
+
+  /// Places, vacant ones too.
+  std::size_t size() const { return record_.size(); }
+  std::size_t vacant() const { return vacant_.size(); }
+  const std::vector<PairRecord>& records() const { return record_; }
+  const PairRecord& operator[](std::size_t pair) const { return record_[pair]; }
+  int first(std::size_t pair) const { return record_[pair].first; }
+  int second(std::size_t pair) const { return record_[pair].second; }
+  Spacing spacing(std::size_t pair) const { return record_[pair].spacing; }
+  bool has_radii(std::size_t pair) const { return spacing(pair) == Spacing::radii; }
+  Eigen::Vector3d direction_of(std::size_t pair) const {
+    const auto& d = record_[pair].direction;
+    return {d[0], d[1], d[2]};
+  }
+  void set_direction(std::size_t pair, double x, double y, double z) {
+    record_[pair].direction = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+  }
+  /// A pair that waited has been apart.
+  void end_wait(std::size_t pair) { record_[pair].spacing = Spacing::radii; }
+
+  void clear();
+  void add(int first, int second, Spacing spacing, int relation);
+  /// Take out those for which `leaves(first, second, spacing)`.
+  template <class Leaves>
+  void remove_if(const Leaves& leaves);
+  /// Close up where more than a quarter of the places are vacant.
+  void close_up();
+
+  /// Differs from what it was when a pair of the block came or went since.
+  std::uint64_t version(std::size_t block) const { return version_[block]; }
+
+ private:
+  void change(std::size_t pair) { version_[pair / block_size] = changes_; }
+
+  std::vector<PairRecord> record_;
+  std::vector<int> vacant_;  ///< descending
+  std::vector<std::uint64_t> version_;
+  std::uint64_t changes_ = 0;
+};
+
+template <class Leaves>
+void PairList::remove_if(const Leaves& leaves) {
+  ++changes_;
+  vacant_.clear();
+  for (std::size_t i = size(); i-- > 0;) {
+    PairRecord& pair = record_[i];
+    if (pair.spacing != Spacing::none) {
+      if (!leaves(pair.first, pair.second, pair.spacing)) continue;
+      pair = {};
+      wake[i] = infinity;
+      change(i);
+    }
+    vacant_.push_back(static_cast<int>(i));
+  }
+}
+
+}  // namespace brio

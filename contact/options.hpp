@@ -11,6 +11,9 @@ struct ContactOptions {
   double friction = 0;
   /// Tens of iterations over the constraints of a step at most; what has converged takes fewer.
   int passes = 20;
+  /// Converged: no relative velocity changes by more than this share of the largest that an impulse stands
+  /// for.
+  double tolerance = 1e-4;
   SearchStrategy search = SearchStrategy::automatic;
   /// Length by which boxes are grown so that the search can be skipped, over the mean edge of the surface.
   double reach_buffer = 0.2;
@@ -40,6 +43,9 @@ struct ContactOptions {
         optional("friction", &ContactOptions::friction, non_negative, "Coulomb coefficient, -"),
         optional("passes", &ContactOptions::passes, Range{.lower = 1, .upper = 1000},
                  "tens of iterations over the contact constraints of a step at most, -"),
+        optional(
+            "tolerance", &ContactOptions::tolerance, Range{.lower = 0, .upper = 1, .lower_open = true},
+            "iterations end once no relative velocity changes by more than this share of the largest, -"),
         optional("search", &ContactOptions::search, any_number,
                  "how surfaces that cross at the start are searched; what is found is the same"),
         optional("reach_buffer", &ContactOptions::reach_buffer,

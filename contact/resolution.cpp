@@ -172,7 +172,8 @@ class Resolution {
   }
 
   void solve(bool anew) {
-    const SolveOptions options{.max_iterations = iterations_a_pass * scene_.options.passes};
+    const SolveOptions options{.max_iterations = iterations_a_pass * scene_.options.passes,
+                               .tolerance = scene_.options.tolerance};
     const SolveReport report = anew ? scene_.solver.solve(options, rows_.rows, rows_.block, team_)
                                     : scene_.solver.solve_further(options, rows_.rows, rows_.block, team_);
     scene_.step.passes += report.iterations;

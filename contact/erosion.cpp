@@ -28,7 +28,7 @@ void change_features(ContactScene& scene, const std::vector<int>& affected) {
   nodes.insert(nodes.end(), change.dead_slave.begin(), change.dead_slave.end());
   nodes.insert(nodes.end(), change.new_slave.begin(), change.new_slave.end());
   faces.insert(faces.end(), change.new_face.begin(), change.new_face.end());
-  scene.motion.join(scene.features, surface, change.new_slave);
+  scene.motion.join(scene.features, surface, change, edges);
   scene.pairs.change(nodes, faces, edges, change.debris);
 }
 

@@ -77,8 +77,8 @@ void join(const PairBlocks& blocks, std::vector<int>& awake) {
 
 }  // namespace
 
-void select_awake_pairs(PairBlocks& blocks, const PairList& pairs, const FeatureWays& first,
-                        const FeatureWays& second, const FeatureMotion& motion, double surplus,
+void select_awake_pairs(PairBlocks& blocks, const PairList& pairs, const PathAndAhead& first,
+                        const PathAndAhead& second, const FeatureMotion& motion, double surplus,
                         ThreadTeam& team, std::vector<int>& awake) {
   const std::size_t count = (pairs.size() + pairs_a_block - 1) / pairs_a_block;
   if (blocks.restarts != motion.restarts()) blocks.block.clear();

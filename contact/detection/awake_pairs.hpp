@@ -15,6 +15,7 @@
 
 namespace brio {
 
+/// What is known of a block of pairs.
 struct alignas(64) PairBlock {
   std::uint64_t version = 0;  ///< of the list, for which the relations were found
   std::int8_t relations = 0;  ///< -1: too many
@@ -32,8 +33,8 @@ struct PairBlocks {
 };
 
 /// The pairs, ascending, but for those whose looks ahead and a surplus do not reach their wakes.
-void select_awake_pairs(PairBlocks& blocks, const PairList& pairs, const FeatureWays& first,
-                        const FeatureWays& second, const FeatureMotion& motion, double surplus,
+void select_awake_pairs(PairBlocks& blocks, const PairList& pairs, const PathAndAhead& first,
+                        const PathAndAhead& second, const FeatureMotion& motion, double surplus,
                         ThreadTeam& team, std::vector<int>& awake);
 
 }  // namespace brio

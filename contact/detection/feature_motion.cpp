@@ -31,7 +31,7 @@ Both longer(Both a, Both b) { return a > b ? a : b; }
 
 // The longest of the corners of each feature, in the frame of the first one's group.
 template <class Way, std::size_t Corners>
-void spread_to(FeatureWays& ways, const std::vector<std::array<int, Corners>>& corners,
+void spread_to(PathAndAhead& ways, const std::vector<std::array<int, Corners>>& corners,
                const std::vector<Way>& of_node, const MotionGroups& groups, bool with_paths,
                ThreadTeam& team) {
   const auto at = [&](int slave) {
@@ -58,7 +58,7 @@ void spread_to(FeatureWays& ways, const std::vector<std::array<int, Corners>>& c
   });
 }
 
-void restart_ways(FeatureWays& ways, std::size_t count) {
+void restart_ways(PathAndAhead& ways, std::size_t count) {
   ways.path.resize(count, 0);
   ways.ahead.resize(count, 0);
   for (std::size_t i = 0; i < count; ++i) {
@@ -88,13 +88,12 @@ void FeatureMotion::form_groups(const SurfaceFeatures& features, const Surface& 
                        ? Vector3<double>{none, none, none}
                        : Vector3<double>{node[s].start[0], node[s].start[1], node[s].start[2]};
   groups.form(surface, features, position_, team);
-  grouped_ = true;
 }
 
-void FeatureMotion::join(const SurfaceFeatures& features, const Surface& surface,
-                         std::span<const int> new_slave) {
+void FeatureMotion::join(const SurfaceFeatures& features, const Surface& surface, const SurfaceChange& change,
+                         std::span<const int> edges) {
   if (!known_) return;
-  joined_.insert(joined_.end(), new_slave.begin(), new_slave.end());
+  joined_.insert(joined_.end(), change.new_slave.begin(), change.new_slave.end());
   node.resize(surface.slaves());
   way_.resize(surface.slaves());
   for (auto [ways, count] : {std::pair(&of_node, surface.slaves()), std::pair(&of_face, surface.face.size()),
@@ -102,7 +101,7 @@ void FeatureMotion::join(const SurfaceFeatures& features, const Surface& surface
     ways->path.resize(count, 0);
     ways->ahead.resize(count, 0);
   }
-  groups.join(surface, features, new_slave);
+  groups.join(surface, features, change, edges);
 }
 
 void FeatureMotion::start_sums(std::size_t count) {
@@ -119,7 +118,7 @@ void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surfac
     for (auto [ways, count] : {std::pair(&of_node, node.size()), std::pair(&of_face, surface.face.size()),
                                std::pair(&of_edge, features.edge.size())})
       *ways = {std::vector<double>(count, 0), std::vector<double>(count, 0)};
-    grouped_ = false;
+    groups.group.clear();
     driven_.clear();
     for (std::size_t s = 0; s < node.size(); ++s)
       if (surface.rigid_body(surface.node[s]) >= 0) driven_.push_back(static_cast<int>(s));
@@ -182,7 +181,7 @@ void FeatureMotion::end_by_velocity(const SurfaceFeatures& features, const Surfa
     finish_raising(features, team);
     return;
   }
-  if (!grouped_) {
+  if (groups.group.empty()) {
     restart(features, surface, team);
   } else {
     for (MotionGroups::Group& g : groups.group) g.last = g.step;

@@ -27,16 +27,10 @@ struct alignas(64) NodeMotion64 {
   double end[4];
 };
 
-/// Of all features of one kind.
-struct FeatureWays {
-  std::vector<double> path;   ///< since the restart, until the start of this step
-  std::vector<double> ahead;  ///< the path with approach_factor times the displacement of this step
-};
-
 class FeatureMotion {
  public:
   std::vector<NodeMotion64> node;  ///< of each slave node; dead ones stay at the origin
-  FeatureWays of_node, of_face, of_edge;
+  PathAndAhead of_node, of_face, of_edge;
   MotionGroups groups;
 
   /// Positions at the start of a step; the displacements to them enter the paths with those at its end.
@@ -70,8 +64,9 @@ class FeatureMotion {
 
   /// Nothing is known of the last step.
   void forget() { known_ = false; }
-  /// The surface has changed: features may have joined. \param new_slave nodes of which no last step is known
-  void join(const SurfaceFeatures& features, const Surface& surface, std::span<const int> new_slave);
+  /// The surface has changed: features may have joined. \param edges new and changed ones
+  void join(const SurfaceFeatures& features, const Surface& surface, const SurfaceChange& change,
+            std::span<const int> edges);
   /// Paths start at zero, in groups formed anew: pairs are found anew.
   void restart(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team);
   std::uint64_t restarts() const { return restarts_; }
@@ -121,7 +116,6 @@ class FeatureMotion {
   double frame_sum_[3] = {0, 0, 0};
   double magnitude_ = 0;
   std::uint64_t restarts_ = 0;
-  bool grouped_ = false;    ///< whether the nodes are in groups
   bool known_ = false;      ///< whether the nodes' last positions are those of the step before
   bool predicted_ = false;  ///< whether the steps are known
   bool exceeds_ = false;

@@ -341,8 +341,7 @@ void FeaturePairs::add_node_face(const Scene& scene, MotionGroups& groups, int s
   else if (spaced)
     spacing = spacing_of_new(kept_node_face_, slave, f, radii <= 2 * scene.features.skin);
   node_face.add(slave, f, spacing,
-                groups.relate(groups.of_node(slave),
-                              groups.of_node(scene.features.face_node[static_cast<std::size_t>(f)][0])));
+                groups.relate(slave, scene.features.face_node[static_cast<std::size_t>(f)][0]));
 }
 
 void FeaturePairs::add_edge_edge(const Scene& scene, MotionGroups& groups, int first, int second) {
@@ -361,8 +360,7 @@ void FeaturePairs::add_edge_edge(const Scene& scene, MotionGroups& groups, int f
       spaced ? spacing_of_new(kept_edge_edge_, first, second, only_skins) : Spacing::skins;
   const bool radii = spacing == Spacing::radii;
   if (flat_.pairs(a, radii) && flat_.pairs(b, radii))
-    edge_edge.add(first, second, spacing,
-                  groups.relate(groups.of_node(a.node[0]), groups.of_node(b.node[0])));
+    edge_edge.add(first, second, spacing, groups.relate(a.node[0], b.node[0]));
 }
 
 }  // namespace brio

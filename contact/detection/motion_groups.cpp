@@ -59,51 +59,58 @@ void MotionGroups::form(const Surface& surface, const SurfaceFeatures& features,
     sums->ahead.clear();
   }
   list_members(surface);
-  find_borders(features);
-}
-
-void MotionGroups::join(const Surface& surface, const SurfaceFeatures& features,
-                        std::span<const int> new_slave) {
-  if (group.empty()) return;
-  of_node_.resize(surface.slaves(), 0);
-  for (int s : new_slave) of_node_[index(s)] = -1;
-  for (const std::array<int, 4>& corner : features.face_node) {
-    const auto known =
-        std::find_if(corner.begin(), corner.end(), [&](int s) { return of_node_[index(s)] >= 0; });
-    if (known == corner.end()) continue;
-    for (int s : corner)
-      if (of_node_[index(s)] < 0) of_node_[index(s)] = of_node_[index(*known)];
-  }
-  for (int s : new_slave) of_node_[index(s)] = std::max(of_node_[index(s)], 0);
-  list_members(surface);
-  find_borders(features);
+  border_.clear();
+  for (const auto& corners : features.face_node) add_borders(corners);
+  for (const auto& ends : features.edge_node) add_borders(ends);
 }
 
 void MotionGroups::list_members(const Surface& surface) {
-  first_.assign(group.size() + 1, 0);
+  member_.start_packed(group.size());
   for (std::size_t s = 0; s < of_node_.size(); ++s)
-    if (surface.node[s] >= 0) ++first_[index(of_node_[s]) + 1];
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  member_.resize(first_.back());
-  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    if (surface.node[s] >= 0) ++member_.first[index(of_node_[s]) + 1];
+  std::partial_sum(member_.first.begin(), member_.first.end(), member_.first.begin());
+  member_.item.resize(index(member_.first.back()));
+  std::vector<int> next(member_.first.begin(), member_.first.end() - 1);
   for (std::size_t s = 0; s < of_node_.size(); ++s)
-    if (surface.node[s] >= 0) member_[next[index(of_node_[s])]++] = static_cast<int>(s);
+    if (surface.node[s] >= 0) member_.item[index(next[index(of_node_[s])]++)] = static_cast<int>(s);
 }
 
-void MotionGroups::find_borders(const SurfaceFeatures& features) {
-  border_.clear();
-  const auto add = [&](const auto& corners) {
-    const int own = of_node(corners[0]);
-    for (int s : corners)
-      if (of_node(s) != own) border_.push_back({own, of_node(s), relate(own, of_node(s))});
-  };
-  for (const auto& corners : features.face_node) add(corners);
-  for (const auto& ends : features.edge_node) add(ends);
-  std::sort(border_.begin(), border_.end());
-  border_.erase(std::unique(border_.begin(), border_.end()), border_.end());
+void MotionGroups::join(const Surface& surface, const SurfaceFeatures& features, const SurfaceChange& change,
+                        std::span<const int> edges) {
+  if (group.empty()) return;
+  member_.loosen();
+  for (int s : change.dead_slave) member_.erase(of_node_[index(s)], s);
+  of_node_.resize(surface.slaves());
+  for (int s : change.new_slave) of_node_[index(s)] = -1;
+  const auto is_known = [&](int s) { return of_node_[index(s)] >= 0; };
+  for (int f : change.new_face) {
+    const std::array<int, 4>& corner = features.face_node[index(f)];
+    const auto known = std::find_if(corner.begin(), corner.end(), is_known);
+    const int own = known == corner.end() ? 0 : of_node_[index(*known)];
+    for (int s : corner)
+      if (!is_known(s)) of_node_[index(s)] = own;
+  }
+  for (int s : change.new_slave) {
+    of_node_[index(s)] = std::max(of_node_[index(s)], 0);
+    if (surface.node[index(s)] >= 0) member_.insert(of_node_[index(s)], s);
+  }
+  for (int f : change.new_face) add_borders(features.face_node[index(f)]);
+  for (int e : edges) add_borders(features.edge_node[index(e)]);
 }
 
-int MotionGroups::relate(int a, int b) {
+template <class Corners>
+void MotionGroups::add_borders(const Corners& corners) {
+  const int own = of_node(corners[0]);
+  for (int s : corners) {
+    if (of_node(s) == own) continue;
+    const std::array<int, 3> border{own, of_node(s), relate(corners[0], s)};
+    const auto place = std::lower_bound(border_.begin(), border_.end(), border);
+    if (place == border_.end() || *place != border) border_.insert(place, border);
+  }
+}
+
+int MotionGroups::relate(int slave_a, int slave_b) {
+  const int a = of_node(slave_a), b = of_node(slave_b);
   int& known = relation_of_[cell(a, b)];
   if (known >= 0) return known;
   known = static_cast<int>(related_.size());

@@ -19,10 +19,10 @@
 
 namespace brio {
 
-/// Sums of what may have brought two features nearer since the paths were started: until the start of this
-/// step, and with what this step may add.
+/// Of all features of one kind, or of all relations.
 struct PathAndAhead {
-  std::vector<double> path, ahead;
+  std::vector<double> path;   ///< since the restart, until the start of this step
+  std::vector<double> ahead;  ///< the path with approach_factor times the displacement of this step
 };
 
 class MotionGroups {
@@ -34,27 +34,28 @@ class MotionGroups {
   };
   std::vector<Group> group;
   PathAndAhead relation;  ///< of the frames of each relation
-  std::vector<std::array<double, 2>>
-      apart;           ///< of the frames of each relation: in the last step, in this one
+  /// By how much the frames of each relation moved apart, in the last step and in this one.
+  std::vector<std::array<double, 2>> apart;
   PathAndAhead total;  ///< no pair of features of a relation has more
 
   /// Group the nodes by where they are; nothing is related. \param position of each slave node, of dead ones
   /// not a number
   void form(const Surface& surface, const SurfaceFeatures& features,
             std::span<const Vector3<double>> position, ThreadTeam& team);
-  /// New nodes belong to groups of nodes that share a face with them.
-  void join(const Surface& surface, const SurfaceFeatures& features, std::span<const int> new_slave);
+  /// Follow a deletion: new nodes belong to groups of nodes that share a face with them. \param edges new and
+  /// changed ones
+  void join(const Surface& surface, const SurfaceFeatures& features, const SurfaceChange& change,
+            std::span<const int> edges);
 
   /// By how much the frames of two groups that share a feature moved apart.
   const std::array<double, 2>& frames_apart(int a, int b) const {
     return apart[static_cast<std::size_t>(relation_of_[cell(a, b)])];
   }
   int of_node(int slave) const { return of_node_[static_cast<std::size_t>(slave)]; }
-  std::span<const int> members(std::size_t g) const {
-    return {member_.data() + first_[g], first_[g + 1] - first_[g]};
-  }
-  /// The relation of two groups.
-  int relate(int a, int b);
+  /// Living nodes of a group, ascending.
+  std::span<const int> members(std::size_t g) const { return member_.of(static_cast<int>(g)); }
+  /// The relation of the groups of two nodes.
+  int relate(int slave_a, int slave_b);
 
   /// Follow one step, of which the groups have the frames and the longest displacements.
   void advance(bool with_paths);
@@ -64,11 +65,11 @@ class MotionGroups {
     return static_cast<std::size_t>(std::min(a, b)) * group.size() + static_cast<std::size_t>(std::max(a, b));
   }
   void list_members(const Surface& surface);
-  void find_borders(const SurfaceFeatures& features);
+  template <class Corners>
+  void add_borders(const Corners& corners);
 
   std::vector<int> of_node_;
-  std::vector<int> member_;
-  std::vector<std::size_t> first_;
+  Lists member_;
   std::vector<std::array<int, 3>> border_;      ///< a feature of the first has a node in the second; relation
   std::vector<std::array<int, 2>> related_;     ///< groups of each relation
   std::vector<int> relation_of_;                ///< of two groups; -1: none

@@ -40,11 +40,6 @@ BRIO_INLINE Pack gather_numbers(const double* of, const int* index) {
   return Pack(Pack::Vector{of[index[0]], of[index[1]], of[index[2]], of[index[3]], of[index[4]], of[index[5]],
                            of[index[6]], of[index[7]]});
 }
-BRIO_INLINE Pack load_numbers(const double* from) {
-  Pack pack;
-  std::memcpy(&pack.v, from, sizeof pack.v);
-  return pack;
-}
 
 /// In single precision, in which directions are kept.
 BRIO_INLINE Pack rounded_to_float(Pack a) {
@@ -104,8 +99,8 @@ struct NodesAndFaces {
   const FeatureMotion& motion;
   PairList& list;
 
-  const FeatureWays& first_ways() const { return motion.of_node; }
-  const FeatureWays& second_ways() const { return motion.of_face; }
+  const PathAndAhead& first_ways() const { return motion.of_node; }
+  const PathAndAhead& second_ways() const { return motion.of_face; }
   const std::vector<double>& first_radii() const { return features.node_radius; }
   const std::vector<double>& second_radii() const { return features.face_radius; }
   static std::array<int, 1> first_nodes(int node) { return {node}; }
@@ -144,8 +139,8 @@ struct EdgesAndEdges {
   const FeatureMotion& motion;
   PairList& list;
 
-  const FeatureWays& first_ways() const { return motion.of_edge; }
-  const FeatureWays& second_ways() const { return motion.of_edge; }
+  const PathAndAhead& first_ways() const { return motion.of_edge; }
+  const PathAndAhead& second_ways() const { return motion.of_edge; }
   const std::vector<double>& first_radii() const { return features.edge_radius; }
   const std::vector<double>& second_radii() const { return features.edge_radius; }
   const std::array<int, 2>& first_nodes(int edge) const {
@@ -211,8 +206,8 @@ BRIO_INLINE MaskOf<Pack> have_spacing(Spacing spacing, const PairList& list, con
 struct PackOfWays {
   Pack radii;
   MaskOf<Pack> waits;
-  Pack reach;        ///< distance at which they touch
-  Pack path, ahead;  ///< sums of both features and their groups' relation
+  Pack reach;  ///< distance at which they touch
+  Pack path;   ///< sum of both features and their groups' relation
 };
 
 template <class Kind>
@@ -226,15 +221,13 @@ BRIO_INLINE PackOfWays ways_of(const Kind& kind, const typename Kind::Pairs& pac
   ways.radii = radii_of(kind, pack);
   ways.waits = have_spacing(Spacing::waiting, kind.list, pack);
   ways.reach = where(have_spacing(Spacing::radii, kind.list, pack), ways.radii, Pack(2 * kind.features.skin));
-  const FeatureWays &first = kind.first_ways(), &second = kind.second_ways();
+  const PathAndAhead &first = kind.first_ways(), &second = kind.second_ways();
   int relation[pack_size];
   for (std::size_t lane = 0; lane < pack_size; ++lane)
     relation[lane] = kind.list[static_cast<std::size_t>(pack.pair[lane])].relation;
   const PathAndAhead& frames = kind.motion.groups.relation;
   ways.path = gather_numbers(first.path.data(), pack.a) + gather_numbers(second.path.data(), pack.b) +
               gather_numbers(frames.path.data(), relation);
-  ways.ahead = gather_numbers(first.ahead.data(), pack.a) + gather_numbers(second.ahead.data(), pack.b) +
-               gather_numbers(frames.ahead.data(), relation);
   return ways;
 }
 

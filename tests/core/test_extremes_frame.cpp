@@ -77,8 +77,8 @@ std::vector<std::pair<std::string, Deck>> scenes() {
   list.emplace_back("bricks", few_bricks());
   for (auto& [name, deck] : list) {
     deck.contact->options.friction = 0;
-    deck.contact->options.passes =
-        200;  // how many iterations reach a wider tolerance is a matter of rounding
+    // How many iterations reach a wider tolerance is a matter of rounding.
+    deck.contact->options.passes = 200;
     deck.contact->options.tolerance = 1e-7;
     deck.time.end = 3e-3;
   }

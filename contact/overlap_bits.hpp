@@ -68,9 +68,7 @@ BRIO_INLINE unsigned overlap_bits(const double* const lower[3], const double* co
   LaneMask<double> inside = eight_of(lower[0]) <= box.upper[0];
   for (int axis = 0; axis < 3; ++axis)
     inside = inside & (eight_of(lower[axis]) <= box.upper[axis]) & (eight_of(upper[axis]) >= box.lower[axis]);
-  unsigned bits = 0;
-  for (int lane = 0; lane < bits_lanes; ++lane) bits |= (inside.v[lane] != 0 ? 1u : 0u) << lane;
-  return bits;
+  return bits_of_lanes(inside.v);
 }
 
 BRIO_INLINE int append_selected(int* target, const int* source, unsigned bits) {

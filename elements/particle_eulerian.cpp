@@ -37,11 +37,10 @@ struct NeighbourPack {
   LaneMask<double> is_pair;
 
   NeighbourPack(const ParticleCloud& cloud, std::size_t i, int begin) {
-    static constexpr LaneMask<double>::Vector lane_number = {0, 1, 2, 3, 4, 5, 6, 7};
     count = std::min(width, cloud.count[i] - begin);
     const int* list = cloud.neighbour.data() + cloud.first[i] + begin;
     for (int lane = 0; lane < width; ++lane) index[lane] = lane < count ? list[lane] : static_cast<int>(i);
-    is_pair.v = lane_number < static_cast<std::int64_t>(count);
+    is_pair = Number(wide_of<double>(0., 1., 2., 3., 4., 5., 6., 7.)) < Number(count);
   }
   Number gather(const double* value) const {
     Number result;

@@ -14,7 +14,7 @@ namespace {
 /// share of the mean edge.
 constexpr double least_steps_ahead = 10;
 constexpr double most_steps_ahead = 200;
-constexpr double way_ahead = 0.2;
+constexpr double way_ahead = 0.6;
 /// What would leave its box within so many steps is looked for together with what does.
 constexpr double steps_of_notice = 4;
 /// Share of the nodes of which more than that leaving means to search for all.

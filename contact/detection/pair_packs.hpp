@@ -19,15 +19,7 @@ using Pack = Lanes<double>;
 inline constexpr int pack_size = NumberTraits<Pack>::lanes;
 
 /// Bit i: the truth in lane i.
-BRIO_INLINE unsigned lane_bits(MaskOf<Pack> mask) {
-#if defined(BRIO_AVX512)
-  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask.v));
-#else
-  unsigned bits = 0;
-  for (int lane = 0; lane < pack_size; ++lane) bits |= (mask.v[lane] != 0 ? 1U : 0U) << lane;
-  return bits;
-#endif
-}
+BRIO_INLINE unsigned lane_bits(MaskOf<Pack> mask) { return bits_of_lanes(mask.v); }
 /// Visit the lanes of set bits, ascending.
 template <class Visit>
 BRIO_INLINE void for_lanes(unsigned bits, const Visit& visit) {
@@ -37,14 +29,15 @@ constexpr unsigned first_lanes(int count) { return (1U << count) - 1; }
 
 /// Numbers of eight features.
 BRIO_INLINE Pack gather_numbers(const double* of, const int* index) {
-  return Pack(Pack::Vector{of[index[0]], of[index[1]], of[index[2]], of[index[3]], of[index[4]], of[index[5]],
-                           of[index[6]], of[index[7]]});
+  return Pack(wide_of<double>(of[index[0]], of[index[1]], of[index[2]], of[index[3]], of[index[4]],
+                              of[index[5]], of[index[6]], of[index[7]]));
 }
 
 /// In single precision, in which directions are kept.
 BRIO_INLINE Pack rounded_to_float(Pack a) {
-  typedef float Narrow __attribute__((vector_size(32)));
-  return Pack(__builtin_convertvector(__builtin_convertvector(a.v, Narrow), Pack::Vector));
+  Row8 wide[2];
+  widen_pair(narrow_pair(a.v, a.v), wide);
+  return Pack(wide[0]);
 }
 BRIO_INLINE Vector3<Pack> rounded_to_float(const Vector3<Pack>& a) {
   return {rounded_to_float(a.x), rounded_to_float(a.y), rounded_to_float(a.z)};
@@ -200,7 +193,7 @@ BRIO_INLINE MaskOf<Pack> have_spacing(Spacing spacing, const PairList& list, con
   const auto lane = [&](std::size_t l) -> std::int64_t {
     return list.spacing(static_cast<std::size_t>(pack.pair[l])) == spacing ? -1 : 0;
   };
-  return {MaskOf<Pack>::Vector{lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7)}};
+  return {wide_of<std::int64_t>(lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7))};
 }
 /// What is known of the pairs besides their points.
 struct PackOfWays {

@@ -12,7 +12,7 @@
 namespace brio {
 
 typedef double Row4 __attribute__((vector_size(32)));
-typedef double Row8 __attribute__((vector_size(64)));
+using Row8 = Wide<double>;
 
 BRIO_INLINE Row4 load_row(const double* row) {
   Row4 r;
@@ -22,6 +22,8 @@ BRIO_INLINE Row4 load_row(const double* row) {
 BRIO_INLINE void store_row(double* row, Row4 r) {
   __builtin_memcpy(__builtin_assume_aligned(row, 32), &r, sizeof r);
 }
+
+#if defined(BRIO_AVX512)
 
 /// First three entries of eight rows: x, y, z with one row a lane.
 BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z) {
@@ -53,6 +55,73 @@ BRIO_INLINE void transpose_lanes(Row8 x, Row8 y, Row8 z, Row4 rows[8]) {
   rows[6] = __builtin_shufflevector(xy_even, z_even, 6, 7, 14, 15);
   rows[7] = __builtin_shufflevector(xy_odd, z_odd, 6, 7, 14, 15);
 }
+
+BRIO_INLINE Wide<float> narrow_pair(Row8 first, Row8 second) {
+  typedef float Half __attribute__((vector_size(32)));
+  const Half low = __builtin_convertvector(first, Half);
+  const Half high = __builtin_convertvector(second, Half);
+  return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+BRIO_INLINE void widen_pair(Wide<float> lanes, Row8* wide) {
+  typedef float Half __attribute__((vector_size(32)));
+  const Half low = __builtin_shufflevector(lanes, lanes, 0, 1, 2, 3, 4, 5, 6, 7);
+  const Half high = __builtin_shufflevector(lanes, lanes, 8, 9, 10, 11, 12, 13, 14, 15);
+  wide[0] = __builtin_convertvector(low, Row8);
+  wide[1] = __builtin_convertvector(high, Row8);
+}
+
+#else
+
+BRIO_INLINE void transpose_four_rows(const Row4* rows, Row4& x, Row4& y, Row4& z) {
+  const Row4 xz01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
+  const Row4 xz23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
+  const Row4 yw01 = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
+  const Row4 yw23 = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+  x = __builtin_shufflevector(xz01, xz23, 0, 1, 4, 5);
+  y = __builtin_shufflevector(yw01, yw23, 0, 1, 4, 5);
+  z = __builtin_shufflevector(xz01, xz23, 2, 3, 6, 7);
+}
+/// First three entries of eight rows: x, y, z with one row a lane.
+BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z) {
+  transpose_four_rows(rows, x.low, y.low, z.low);
+  transpose_four_rows(rows + 4, x.high, y.high, z.high);
+}
+
+BRIO_INLINE void transpose_four_lanes(Row4 x, Row4 y, Row4 z, Row4* rows) {
+  const Row4 zero = {};
+  const Row4 xy_even = __builtin_shufflevector(x, y, 0, 4, 2, 6);
+  const Row4 xy_odd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
+  const Row4 z_even = __builtin_shufflevector(z, zero, 0, 4, 2, 6);
+  const Row4 z_odd = __builtin_shufflevector(z, zero, 1, 5, 3, 7);
+  rows[0] = __builtin_shufflevector(xy_even, z_even, 0, 1, 4, 5);
+  rows[1] = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 4, 5);
+  rows[2] = __builtin_shufflevector(xy_even, z_even, 2, 3, 6, 7);
+  rows[3] = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 6, 7);
+}
+/// The inverse: eight rows (x, y, z, 0).
+BRIO_INLINE void transpose_lanes(Row8 x, Row8 y, Row8 z, Row4 rows[8]) {
+  transpose_four_lanes(x.low, y.low, z.low, rows);
+  transpose_four_lanes(x.high, y.high, z.high, rows + 4);
+}
+
+typedef float Float4 __attribute__((vector_size(16)));
+BRIO_INLINE Wide<float>::Half narrow_halves(Row8 wide) {
+  return __builtin_shufflevector(__builtin_convertvector(wide.low, Float4),
+                                 __builtin_convertvector(wide.high, Float4), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+BRIO_INLINE Row8 widen_half(Wide<float>::Half half) {
+  return {__builtin_convertvector(__builtin_shufflevector(half, half, 0, 1, 2, 3), Row4),
+          __builtin_convertvector(__builtin_shufflevector(half, half, 4, 5, 6, 7), Row4)};
+}
+BRIO_INLINE Wide<float> narrow_pair(Row8 first, Row8 second) {
+  return {narrow_halves(first), narrow_halves(second)};
+}
+BRIO_INLINE void widen_pair(Wide<float> lanes, Row8* wide) {
+  wide[0] = widen_half(lanes.low);
+  wide[1] = widen_half(lanes.high);
+}
+
+#endif
 
 /// Three doubles a lane for all lanes of a pack: one group of eight for double, two for float.
 template <Floating Real>
@@ -92,11 +161,7 @@ BRIO_INLINE Lanes<Real> narrow(const Row8* wide) {
   if constexpr (sizeof(Real) == 8) {
     return Lanes<Real>(wide[0]);
   } else {
-    typedef float Half __attribute__((vector_size(32)));
-    const Half low = __builtin_convertvector(wide[0], Half);
-    const Half high = __builtin_convertvector(wide[1], Half);
-    return Lanes<Real>(
-        __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+    return Lanes<Real>(narrow_pair(wide[0], wide[1]));
   }
 }
 template <Floating Real>
@@ -104,11 +169,7 @@ BRIO_INLINE void widen(Lanes<Real> lanes, Row8* wide) {
   if constexpr (sizeof(Real) == 8) {
     wide[0] = lanes.v;
   } else {
-    typedef float Half __attribute__((vector_size(32)));
-    const Half low = __builtin_shufflevector(lanes.v, lanes.v, 0, 1, 2, 3, 4, 5, 6, 7);
-    const Half high = __builtin_shufflevector(lanes.v, lanes.v, 8, 9, 10, 11, 12, 13, 14, 15);
-    wide[0] = __builtin_convertvector(low, Row8);
-    wide[1] = __builtin_convertvector(high, Row8);
+    widen_pair(lanes.v, wide);
   }
 }
 

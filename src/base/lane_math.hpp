@@ -85,11 +85,11 @@ using Bits = typename LaneMask<Real>::Vector;
 
 template <Floating Real>
 BRIO_INLINE Bits<Real> bits_of(Lanes<Real> x) {
-  return reinterpret_cast<Bits<Real>>(x.v);
+  return bits_as<IntegerOf<Real>>(x.v);
 }
 template <Floating Real>
 BRIO_INLINE Lanes<Real> number_of(Bits<Real> bits) {
-  return Lanes<Real>(reinterpret_cast<typename Lanes<Real>::Vector>(bits));
+  return Lanes<Real>(bits_as<Real>(bits));
 }
 
 template <Floating Real, std::size_t N>

@@ -6,22 +6,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-#include <immintrin.h>
-#define BRIO_AVX512 1
-#endif
-
-#include "src/base/real.hpp"
-
-// Kernels are inlined whole into the loop over packs; for sanitizers and tests that takes long to compile.
-#if defined(BRIO_KERNELS_BY_CALL)
-#define BRIO_INLINE inline
-#else
-#define BRIO_INLINE inline __attribute__((always_inline))
-#endif
+#include "src/base/wide.hpp"
 
 namespace brio {
 
@@ -31,8 +18,7 @@ inline constexpr int lane_count = static_cast<int>(64 / sizeof(Real));
 /// One truth value a lane.
 template <Floating Real>
 struct LaneMask {
-  using Integer = std::conditional_t<sizeof(Real) == 8, std::int64_t, std::int32_t>;
-  typedef Integer Vector __attribute__((vector_size(64)));
+  using Vector = Wide<IntegerOf<Real>>;
   Vector v;
 
   friend BRIO_INLINE LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
@@ -42,16 +28,16 @@ struct LaneMask {
 
 template <Floating Real>
 struct Lanes {
-  typedef Real Vector __attribute__((vector_size(64)));
+  using Vector = Wide<Real>;
   Vector v;
 
   Lanes() = default;
   BRIO_INLINE Lanes(double value)
-      : v(static_cast<Real>(value) - Vector{}) {}  // implicit: a number in every lane
+      : v(broadcast(static_cast<Real>(value))) {}  // implicit: a number in every lane
   explicit BRIO_INLINE Lanes(Vector vector) : v(vector) {}
 
   BRIO_INLINE Real operator[](int lane) const { return v[lane]; }
-  BRIO_INLINE void set(int lane, Real value) { v[lane] = value; }
+  BRIO_INLINE void set(int lane, Real value) { set_lane(v, lane, value); }
 
   friend BRIO_INLINE Lanes operator+(Lanes a, Lanes b) { return Lanes(a.v + b.v); }
   friend BRIO_INLINE Lanes operator-(Lanes a, Lanes b) { return Lanes(a.v - b.v); }
@@ -101,7 +87,7 @@ using MaskOf = typename NumberTraits<T>::Mask;
 
 template <Floating Real>
 BRIO_INLINE Lanes<Real> where(LaneMask<Real> condition, Lanes<Real> a, Lanes<Real> b) {
-  return Lanes<Real>(condition.v ? a.v : b.v);
+  return Lanes<Real>(select(condition.v, a.v, b.v));
 }
 template <Floating Real>
 BRIO_INLINE Lanes<Real> where(LaneMask<Real> condition, Lanes<Real> a, std::type_identity_t<double> b) {
@@ -118,16 +104,7 @@ BRIO_INLINE Real where(bool condition, Real a, std::type_identity_t<Real> b) {
 
 template <Floating Real>
 BRIO_INLINE bool any(LaneMask<Real> mask) {
-#if defined(BRIO_AVX512)
-  const __m512i words = reinterpret_cast<__m512i>(mask.v);
-  return _mm512_test_epi64_mask(words, words) != 0;
-#else
-  std::uint64_t bits = 0;
-  std::uint64_t words[8];
-  std::memcpy(words, &mask.v, sizeof words);
-  for (std::uint64_t word : words) bits |= word;
-  return bits != 0;
-#endif
+  return any_bit(mask.v);
 }
 BRIO_INLINE bool any(bool mask) { return mask; }
 template <class Mask>
@@ -160,21 +137,9 @@ BRIO_INLINE Real min(Real a, std::type_identity_t<Real> b) {
   return a < b ? a : b;
 }
 
-// The compiler splits a loop of square roots into halves of a register; the instruction is named where it
-// exists.
 template <Floating Real>
 BRIO_INLINE Lanes<Real> sqrt(Lanes<Real> a) {
-#if defined(BRIO_AVX512)
-  if constexpr (sizeof(Real) == 8) {
-    return Lanes<Real>(_mm512_maskz_sqrt_pd(0xff, a.v));
-  } else {
-    return Lanes<Real>(_mm512_maskz_sqrt_ps(0xffff, a.v));
-  }
-#else
-  Lanes<Real> root;
-  for (int lane = 0; lane < lane_count<Real>; ++lane) root.v[lane] = std::sqrt(a.v[lane]);
-  return root;
-#endif
+  return Lanes<Real>(square_root(a.v));
 }
 template <Floating Real>
 BRIO_INLINE Real sqrt(Real a) {

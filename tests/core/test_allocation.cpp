@@ -167,7 +167,7 @@ TEST(StepAllocation, NoneInASceneOfHexahedraWithWallGravityAndPressure) {
 
 TEST(StepAllocation, NoneWhereBlocksSlideOverEachOther) {
   for (int threads : {1, 2}) {
-    const Counted counted = count(block_on_floor(), threads, 300);
+    const Counted counted = count(block_on_floor(), threads, 900);
     EXPECT_EQ(counted.allocations, 0u) << threads;
     EXPECT_GT(counted.searches, 2);
     EXPECT_GT(counted.active, 200);

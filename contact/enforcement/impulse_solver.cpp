@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace brio {
 
@@ -9,12 +10,10 @@ using Vector = Vector3<double>;
 
 namespace {
 
-/// Rows and blocks of a task: whatever the number of threads.
+/// Rows, packs and blocks of a task: whatever the number of threads.
 constexpr std::size_t rows_a_task = 512;
+constexpr std::uint32_t packs_a_task = 64;
 constexpr std::size_t blocks_a_task = 512;
-
-/// Islands of more rows are worked on by the whole team.
-constexpr std::size_t most_rows_of_small = 4096;
 
 template <class Task>
 void each_of(ThreadTeam* team, std::size_t count, Task&& task) {
@@ -36,53 +35,28 @@ void store_given_of(const RowUnknowns<double, true>& unknown, const ConstraintRo
   given.slope_1 = impulse[2];
 }
 
-/// \param place of the first slot among the packs.
-template <class Packs, class Visit>
-void each_pack(Packs& packs, std::size_t place, std::size_t begin, std::size_t end, Visit&& visit) {
-  constexpr std::size_t lanes = lane_count<double>;
-  for (std::size_t slot = begin; slot < end; slot += lanes, place += lanes) visit(packs[place / lanes], slot);
+RowSums<double> joined(const RowSums<double>& a, const RowSums<double>& b) {
+  return {a.turned + b.turned, a.counted + b.counted, std::max(a.residual, b.residual),
+          std::max(a.largest, b.largest)};
 }
 
 RowSums<double> reduced(const RowSums<Lanes<double>>& sums) {
   RowSums<double> total;
-  for (int lane = 0; lane < lane_count<double>; ++lane) {
-    total.turned += sums.turned[lane];
-    total.residual = std::max(total.residual, sums.residual[lane]);
-    total.largest = std::max(total.largest, sums.largest[lane]);
-  }
+  for (int lane = 0; lane < lane_count<double>; ++lane)
+    total = joined(total, {sums.turned[lane], sums.counted[lane], sums.residual[lane], sums.largest[lane]});
   return total;
-}
-
-template <class Packs>
-RowSums<double> change_packs(Packs& packs, std::size_t place, std::size_t begin, std::size_t end,
-                             const double* velocity, double momentum, RowImpulse* given) {
-  RowSums<Lanes<double>> sums;
-  each_pack(packs, place, begin, end, [&](auto& pack, std::size_t slot) {
-    change_impulses(pack, velocity, momentum, sums, given + slot);
-  });
-  return reduced(sums);
 }
 
 }  // namespace
 
-void ImpulseSolver::store_given(const ConstraintRows& rows, Kind kind, std::size_t begin, std::size_t end) {
-  const auto store_packs = [&](const auto& packs) {
-    each_pack(packs, place_[begin], begin, end,
-              [&](const auto& pack, std::size_t slot) { store_impulses(pack, &given_[slot]); });
-  };
-  switch (kind) {
-    case normal_only:
-      return store_packs(normal_packs_);
-    case with_friction:
-      return store_packs(friction_packs_);
-    case with_tilt:
-      return store_packs(tilt_packs_);
-    default:
-      break;
-  }
-  for (std::size_t slot = begin; slot < end; ++slot)
-    if (row_of_slot_[slot] != no_row)
-      store_given_of(general_[place_[slot]], rows.row[row_of_slot_[slot]], given_[slot]);
+void ImpulseSolver::store_given(const ConstraintRows& rows, std::uint32_t p) {
+  const Pack& pack = pack_[p];
+  const std::uint32_t first = p * lanes;
+  if (pack.kind == normal_only) return store_impulses(normal_packs_[pack.place], &given_[first]);
+  if (pack.kind == with_friction) return store_impulses(friction_packs_[pack.place], &given_[first]);
+  for (std::uint32_t lane = 0; lane < lanes; ++lane)
+    if (const std::uint32_t row = row_of_slot_[first + lane]; row != no_row)
+      store_given_of(general_[pack.place * lanes + lane], rows.row[row], given_[first + lane]);
 }
 
 void ImpulseSolver::velocity_of(const ConstraintRows& rows, const ConstraintRow& row,
@@ -93,48 +67,51 @@ void ImpulseSolver::velocity_of(const ConstraintRows& rows, const ConstraintRow&
   velocity[2] = dot(row.tangent[1], u);
 }
 
-ImpulseSolver::Sums ImpulseSolver::change_general(const ConstraintRows& rows, double momentum,
-                                                  std::size_t begin, std::size_t end) {
-  Sums sums;
-  for (std::size_t slot = begin; slot < end; ++slot) {
+void ImpulseSolver::change_general(const ConstraintRows& rows, const Step& step, std::uint32_t p,
+                                   Sums& sums) {
+  for (std::uint32_t lane = 0; lane < lanes; ++lane) {
+    const std::uint32_t slot = p * lanes + lane;
     if (row_of_slot_[slot] == no_row) continue;
     const ConstraintRow& row = rows.row[row_of_slot_[slot]];
     double velocity[3];
     velocity_of(rows, row, extrapolated_, velocity);
-    RowUnknowns<double, true>& unknown = general_[place_[slot]];
-    change_impulse(unknown, velocity, momentum, sums);
+    RowUnknowns<double, true>& unknown = general_[pack_[p].place * lanes + lane];
+    change_impulse(unknown, velocity, step.momentum, step.counted, sums);
     store_given_of(unknown, row, given_[slot]);
   }
-  return sums;
+}
+
+ImpulseSolver::Sums ImpulseSolver::change_packs(const ConstraintRows& rows, const Step& step,
+                                                std::uint32_t begin, std::uint32_t end) {
+  const double* velocity = extrapolated_.data()->component;
+  RowSums<Lanes<double>> sums;
+  Sums of_general;
+  const auto change = [&](auto& pack, std::uint32_t p) {
+    brio::change_impulses(pack, entries_, velocity, step.momentum, step.counted, sums, &given_[p * lanes]);
+  };
+  for (std::uint32_t p = begin; p < end; ++p) {
+    const Pack& pack = pack_[p];
+    if (pack.kind == with_friction) change(friction_packs_[pack.place], p);
+    if (pack.kind == normal_only) change(normal_packs_[pack.place], p);
+    if (pack.kind == general) change_general(rows, step, p, of_general);
+  }
+  return joined(reduced(sums), of_general);
 }
 
 ImpulseSolver::Sums ImpulseSolver::change_impulses(const ConstraintRows& rows, const Island& island,
-                                                   double momentum, ThreadTeam* team) {
-  const double* velocity = extrapolated_.data()->component;
-  each_of(team, island.piece_end - island.piece_begin, [&](std::size_t p) {
-    const auto& [kind, begin, end] = piece_[island.piece_begin + p];
-    const std::size_t place = place_[begin];
-    RowImpulse* given = given_.data();
-    Sums& sums = sums_[island.piece_begin + p];
-    switch (kind) {
-      case normal_only:
-        sums = change_packs(normal_packs_, place, begin, end, velocity, momentum, given);
-        break;
-      case with_friction:
-        sums = change_packs(friction_packs_, place, begin, end, velocity, momentum, given);
-        break;
-      case with_tilt:
-        sums = change_packs(tilt_packs_, place, begin, end, velocity, momentum, given);
-        break;
-      default:
-        sums = change_general(rows, momentum, begin, end);
-    }
-  });
+                                                   const Step& step, ThreadTeam* team) {
+  const std::uint32_t tasks = (island.pack_end - island.pack_begin + packs_a_task - 1) / packs_a_task;
+  const auto run = [&](std::size_t task) {
+    const std::uint32_t begin = island.pack_begin + static_cast<std::uint32_t>(task) * packs_a_task;
+    return change_packs(rows, step, begin, std::min(begin + packs_a_task, island.pack_end));
+  };
   Sums total;
-  for (std::size_t p = island.piece_begin; p < island.piece_end; ++p) {
-    total.turned += sums_[p].turned;
-    total.residual = std::max(total.residual, sums_[p].residual);
-    total.largest = std::max(total.largest, sums_[p].largest);
+  if (team == nullptr) {
+    for (std::uint32_t task = 0; task < tasks; ++task) total = joined(total, run(task));
+  } else {
+    sums_.resize(tasks);
+    team->for_each(tasks, [&](std::size_t task) { sums_[task] = run(task); });
+    for (const Sums& one : sums_) total = joined(total, one);
   }
   total.residual = std::sqrt(total.residual);
   return total;
@@ -184,19 +161,19 @@ void ImpulseSolver::gather(const ConstraintRows& rows, std::span<const VelocityB
 }
 
 void ImpulseSolver::store(ConstraintRows& rows, std::span<VelocityBlock> blocks, ThreadTeam& team) const {
-  const auto impulse_in_pack = [&](const auto& packs, std::size_t place, int axis) -> double {
-    constexpr std::size_t lanes = lane_count<double>;
-    return packs[place / lanes].unknown.impulse[axis][static_cast<int>(place % lanes)];
+  const auto copy = [](const auto& from, int lane, double(&impulse)[3]) {
+    for (int axis = 0; axis < std::decay_t<decltype(from)>::axes; ++axis)
+      impulse[axis] = from.impulse[axis][lane];
   };
   team.for_ranges(rows.size(), rows_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t place = place_[slot_[i]];
+      const Pack& pack = pack_[slot_[i] / lanes];
+      const auto lane = static_cast<int>(slot_[i] % lanes);
       double impulse[3] = {0, 0, 0};
-      for (int axis = 0; axis < (kind_[i] == normal_only ? 1 : 3); ++axis)
-        impulse[axis] = kind_[i] == normal_only     ? impulse_in_pack(normal_packs_, place, axis)
-                        : kind_[i] == with_friction ? impulse_in_pack(friction_packs_, place, axis)
-                        : kind_[i] == with_tilt     ? impulse_in_pack(tilt_packs_, place, axis)
-                                                    : general_[place].impulse[axis];
+      if (pack.kind == normal_only) copy(normal_packs_[pack.place].unknown, lane, impulse);
+      if (pack.kind == with_friction) copy(friction_packs_[pack.place].unknown, lane, impulse);
+      if (pack.kind == general)
+        std::copy_n(general_[pack.place * lanes + slot_[i] % lanes].impulse, 3, impulse);
       ConstraintRow& row = rows.row[i];
       row.impulse = impulse[0];
       row.friction = impulse[1] * row.tangent[0] + impulse[2] * row.tangent[1];
@@ -207,73 +184,18 @@ void ImpulseSolver::store(ConstraintRows& rows, std::span<VelocityBlock> blocks,
   });
 }
 
-SolveReport ImpulseSolver::solve(const SolveOptions& options, ConstraintRows& rows,
-                                 std::span<VelocityBlock> blocks, ThreadTeam& team) {
-  free_.clear();
-  return solve_further(options, rows, blocks, team);
-}
-
-SolveReport ImpulseSolver::solve_further(const SolveOptions& options, ConstraintRows& rows,
-                                         std::span<VelocityBlock> blocks, ThreadTeam& team) {
-  const std::size_t known = free_.size();
-  free_.resize(blocks.size());
-  for (std::size_t b = known; b < blocks.size(); ++b)
-    free_[b] = {{blocks[b].velocity.x, blocks[b].velocity.y, blocks[b].velocity.z, 0}};
-  SolveReport total;
-  if (rows.size() == 0) return total;
-  now_ = extrapolated_ = free_;
-  prepare(rows, blocks, team);
-  sums_.resize(piece_.size());
-  report_.resize(island_.size());
-  // Small islands in groups of about as many rows: where each begins.
-  small_.clear();
-  std::size_t gathered = rows_a_task;
-  for (std::size_t n = 0; n < island_.size(); ++n) {
-    if (island_[n].rows > most_rows_of_small) continue;
-    if (gathered >= rows_a_task) {
-      small_.push_back(static_cast<std::uint32_t>(n));
-      gathered = 0;
-    }
-    gathered += island_[n].rows;
-  }
-  team.for_each(small_.size(), [&](std::size_t group) {
-    const std::size_t end = group + 1 < small_.size() ? small_[group + 1] : island_.size();
-    for (std::size_t n = small_[group]; n < end; ++n)
-      if (island_[n].rows <= most_rows_of_small)
-        report_[n] = solve_island(options, rows, blocks, island_[n], nullptr);
-  });
-  for (std::size_t n = 0; n < island_.size(); ++n) {
-    if (island_[n].rows > most_rows_of_small)
-      report_[n] = solve_island(options, rows, blocks, island_[n], &team);
-    const SolveReport& own = report_[n];
-    total.iterations = std::max(total.iterations, own.iterations);
-    total.restarts += own.restarts;
-    total.residual = std::max(total.residual, own.residual);
-    total.largest_velocity = std::max(total.largest_velocity, own.largest_velocity);
-    total.converged = total.converged && own.converged;
-    total.islands += own.islands;
-    total.row_iterations += own.row_iterations;
-  }
-  store(rows, blocks, team);
-  return total;
-}
-
 // Calls `visit_pack(pack)` and `visit_row(unknown, row)`, for rows that are in no pack.
 template <class VisitPack, class VisitRow>
 void ImpulseSolver::each_row(const ConstraintRows& rows, const Island& island, const VisitPack& visit_pack,
                              const VisitRow& visit_row) {
-  for (std::size_t p = island.piece_begin; p < island.piece_end; ++p) {
-    const auto& [kind, begin, end] = piece_[p];
-    const auto visit_packs = [&](auto& packs) {
-      each_pack(packs, place_[begin], begin, end, [&](auto& pack, std::size_t) { visit_pack(pack); });
-    };
-    if (kind == normal_only) visit_packs(normal_packs_);
-    if (kind == with_friction) visit_packs(friction_packs_);
-    if (kind == with_tilt) visit_packs(tilt_packs_);
-    if (kind != general) continue;
-    for (std::size_t slot = begin; slot < end; ++slot)
-      if (const std::uint32_t row = row_of_slot_[slot]; row != no_row)
-        visit_row(general_[place_[slot]], rows.row[row]);
+  for (std::uint32_t p = island.pack_begin; p < island.pack_end; ++p) {
+    const Pack& pack = pack_[p];
+    if (pack.kind == normal_only) visit_pack(normal_packs_[pack.place]);
+    if (pack.kind == with_friction) visit_pack(friction_packs_[pack.place]);
+    if (pack.kind != general) continue;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane)
+      if (const std::uint32_t row = row_of_slot_[p * lanes + lane]; row != no_row)
+        visit_row(general_[pack.place * lanes + lane], rows.row[row]);
   }
 }
 
@@ -282,7 +204,7 @@ void ImpulseSolver::each_row(const ConstraintRows& rows, const Island& island, c
 void ImpulseSolver::take_excess(const ConstraintRows& rows, const Island& island) {
   double work = 0;
   each_row(
-      rows, island, [&](const auto& pack) { work += work_of(pack, now_.data()->component); },
+      rows, island, [&](const auto& pack) { work += work_of(pack, entries_, now_.data()->component); },
       [&](const auto& unknown, const ConstraintRow& row) {
         double velocity[3];
         velocity_of(rows, row, now_, velocity);
@@ -308,35 +230,6 @@ void ImpulseSolver::take_excess(const ConstraintRows& rows, const Island& island
     const Row4 free = load_row(free_[b].component);
     store_row(now_[b].component, free + share * (load_row(now_[b].component) - free));
   }
-}
-
-// \param team of a large island; null: one thread alone.
-SolveReport ImpulseSolver::solve_island(const SolveOptions& options, const ConstraintRows& rows,
-                                        std::span<const VelocityBlock> blocks, const Island& island,
-                                        ThreadTeam* team) {
-  SolveReport report;
-  if (island.rows == 0) return report;
-  gather(rows, blocks, island, 0, team);
-  double momentum = 0;
-  double theta = 1;
-  report.islands = 1;
-  report.converged = false;
-  while (report.iterations < options.max_iterations && !report.converged) {
-    ++report.iterations;
-    const Sums sums = change_impulses(rows, island, momentum, team);
-    report.residual = sums.residual;
-    report.largest_velocity = sums.largest;
-    report.converged = sums.residual <= options.tolerance * sums.largest;
-    const bool restart = sums.turned > 0;
-    report.restarts += restart;
-    const double next = 0.5 * (1 + std::sqrt(1 + 4 * theta * theta));
-    momentum = restart ? 0 : (theta - 1) / next;
-    theta = restart ? 1 : next;
-    gather(rows, blocks, island, momentum, team);
-  }
-  take_excess(rows, island);
-  report.row_iterations = island.rows * static_cast<std::size_t>(report.iterations);
-  return report;
 }
 
 }  // namespace brio

@@ -27,7 +27,9 @@
 ///
 /// Rows that share no block that can move, nor are joined by others, are islands: each has its own momentum,
 /// restarts and convergence, so what one does is not seen by another, and what rests costs one check. Small
-/// ones are solved side by side, each by one thread.
+/// ones are solved side by side, each by one thread. Where few rows of an island still change, they are
+/// solved alone, the others held, as islands of their own with majorants of their own; then all rows are
+/// iterated again: an island has converged once an iteration of all its rows changes none.
 
 #include <cstddef>
 #include <span>
@@ -72,10 +74,31 @@ class ImpulseSolver {
                             std::span<VelocityBlock> blocks, ThreadTeam& team);
 
  private:
-  /// How a row is worked on; slots are given to one kind after the other.
   static constexpr std::uint32_t no_row = ~std::uint32_t{0};
-  static constexpr std::uint32_t slots_a_piece = 512;
-  enum Kind : std::uint8_t { normal_only, with_friction, with_tilt, general, kinds };
+  static constexpr std::uint32_t lanes = lane_count<double>;
+  /// How a row is worked on.
+  enum Kind : std::uint8_t { normal_only, with_friction, general, kinds };
+  /// Rows of about as many entries are put side by side, kind after kind.
+  enum Class : std::uint8_t {
+    sliding,
+    sliding_turning,
+    rubbing,
+    one_turning_2,  ///< one rotation (a rigid body), up to two translations
+    one_turning_3,
+    one_turning,
+    some_turning,  ///< up to three rotations
+    turning,
+    tilting_5,  ///< up to five translations
+    tilting_8,
+    tilting,
+    with_matrix,
+    classes
+  };
+  static Class class_of(const ConstraintRow& row, bool tilted);
+  static constexpr Kind kind_of(std::uint8_t row_class) {
+    return row_class == with_matrix ? general : row_class >= rubbing ? with_friction : normal_only;
+  }
+  static constexpr bool tilts(std::uint8_t row_class) { return row_class >= tilting_5; }
   using Sums = RowSums<double>;
 
   struct alignas(32) BlockVelocity {
@@ -98,16 +121,25 @@ class ImpulseSolver {
     std::uint32_t entry;
   };
 
-  /// Slots of one kind and island, whole packs.
-  struct Piece {
+  /// Slots are eight a pack, of one kind and island.
+  struct Pack {
     Kind kind;
-    std::uint32_t begin, end;
+    std::uint32_t place;  ///< among those of its kind
   };
   struct Island {
-    std::uint32_t piece_begin, piece_end;  ///< in piece_
+    std::uint32_t pack_begin, pack_end;
     std::uint32_t block_begin, block_end;  ///< in block_order_
     std::uint32_t rows;
+    double tolerated = -1;  ///< change of a relative velocity; negative: as the options say
+    bool has_new = true;    ///< impulses that no iteration of all rows has seen
   };
+  /// A step of an iteration.
+  struct Step {
+    double momentum = 0;
+    double counted = 0;  ///< squared change of relative velocity from which on rows are counted
+  };
+  /// Rows that are solved without the others.
+  struct Unconverged;
 
   void prepare(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, ThreadTeam& team);
   void measure_blocks(std::span<const VelocityBlock> blocks, ThreadTeam& team);
@@ -117,44 +149,64 @@ class ImpulseSolver {
   void list_entries(const ConstraintRows& rows, std::size_t blocks, ThreadTeam& team);
   void sum_block_norms(const ConstraintRows& rows, std::size_t blocks, ThreadTeam& team);
   void fill_rows(const ConstraintRows& rows, ThreadTeam& team);
-  template <bool friction, bool tilt>
-  void fill_lane(std::vector<RowPack<friction, tilt>>& packs, const ConstraintRows& rows, std::size_t row);
-
-  void fill_general(const ConstraintRows& rows, std::size_t row);
-  void store_given(const ConstraintRows& rows, Kind kind, std::size_t begin, std::size_t end);
+  void reserve_entries(const ConstraintRows& rows, ThreadTeam& team);
+  template <bool friction>
+  void fill_lane(std::vector<RowPack<friction>>& packs, const ConstraintRows& rows, std::uint32_t slot);
+  void clear_entries(const ConstraintRows& rows, std::size_t pack, EntryRange translation, EntryRange tilt,
+                     EntryRange rotation);
+  template <bool friction>
+  void fill_pack(std::vector<RowPack<friction>>& packs, const ConstraintRows& rows, std::uint32_t pack);
+  void fill_general(const ConstraintRows& rows, std::uint32_t slot);
 
   static void velocity_of(const ConstraintRows& rows, const ConstraintRow& row,
                           const std::vector<BlockVelocity>& blocks, double (&velocity)[3]);
-  Sums change_general(const ConstraintRows& rows, double momentum, std::size_t begin, std::size_t end);
-  Sums change_impulses(const ConstraintRows& rows, const Island& island, double momentum, ThreadTeam* team);
+  void change_general(const ConstraintRows& rows, const Step& step, std::uint32_t pack, Sums& sums);
+  Sums change_packs(const ConstraintRows& rows, const Step& step, std::uint32_t begin, std::uint32_t end);
+  Sums change_impulses(const ConstraintRows& rows, const Island& island, const Step& step, ThreadTeam* team);
+  void store_given(const ConstraintRows& rows, std::uint32_t pack);
   Row4 given_to(const ConstraintRows& rows, std::size_t block) const;
   void gather(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, const Island& island,
               double momentum, ThreadTeam* team);
-  SolveReport solve_island(const SolveOptions& options, const ConstraintRows& rows,
-                           std::span<const VelocityBlock> blocks, const Island& island, ThreadTeam* team);
+  void iterate(const SolveOptions& options, const ConstraintRows& rows, std::span<const VelocityBlock> blocks,
+               std::size_t island, ThreadTeam* team);
+  void iterate_islands(const SolveOptions& options, const ConstraintRows& rows,
+                       std::span<const VelocityBlock> blocks, ThreadTeam& team);
+  bool solve_unconverged(const SolveOptions& options, const ConstraintRows& rows,
+                         std::span<const VelocityBlock> blocks, ThreadTeam& team);
+  void select_unconverged(const SolveOptions& options, const ConstraintRows& rows,
+                          std::span<const VelocityBlock> blocks, Unconverged& unconverged);
+  void solve_alone(const SolveOptions& options, ConstraintRows& rows, std::span<VelocityBlock> blocks,
+                   std::span<const double> tolerated, ThreadTeam& team);
+  void take_over(const ConstraintRows& rows, const Unconverged& unconverged);
+  double tolerated(const SolveOptions& options, std::size_t island) const;
+  bool goes_on(const SolveOptions& options, std::size_t island) const;
+  void add_free(std::span<const VelocityBlock> blocks);
+  void begin(const ConstraintRows& rows, std::span<const VelocityBlock> blocks, ThreadTeam& team);
+  /// `visit(unknown, lane)`.
+  template <class Visit>
+  void at_slot(std::uint32_t slot, Visit&& visit);
   template <class VisitPack, class VisitRow>
   void each_row(const ConstraintRows& rows, const Island& island, const VisitPack& visit_pack,
                 const VisitRow& visit_row);
   void take_excess(const ConstraintRows& rows, const Island& island);
   void store(ConstraintRows& rows, std::span<VelocityBlock> blocks, ThreadTeam& team) const;
 
-  std::vector<RowPack<false, false>> normal_packs_;
-  std::vector<RowPack<true, false>> friction_packs_;
-  std::vector<RowPack<true, true>> tilt_packs_;
-  std::vector<RowUnknowns<double, true>> general_;
-  std::vector<Piece> piece_;
+  std::vector<RowPack<false>> normal_packs_;
+  std::vector<RowPack<true>> friction_packs_;
+  std::vector<RowUnknowns<double, true>> general_;  ///< as many as lanes a pack
+  PackEntries entries_;
+  std::vector<Pack> pack_;
   std::vector<Island> island_;
   std::vector<RowImpulse> given_;  ///< by slot
 
-  std::vector<Kind> kind_;            ///< by row
-  std::vector<std::uint32_t> slot_;   ///< by row
-  std::vector<std::uint32_t> place_;  ///< by slot: among the packs, or general rows, of its kind
+  std::vector<std::uint8_t> class_;  ///< by row
+  std::vector<std::uint32_t> slot_;  ///< by row
   std::vector<std::uint32_t> row_of_slot_;
   std::vector<std::uint32_t> mover_;  ///< by row: a block that it moves, then its island
-  std::size_t slots_of_kind_[kinds] = {};
+  std::uint32_t packs_of_kind_[kinds] = {};
   std::vector<double> squared_scale_;  ///< s^2 of each row
   IslandFinder finder_;
-  std::vector<std::uint32_t> count_;        ///< rows by island and kind, then the next slot
+  std::vector<std::uint32_t> count_;        ///< rows by island and class, then the next slot
   std::vector<std::uint32_t> block_order_;  ///< blocks that rows move, island by island
 
   EntryLists<TranslationItem> translation_;
@@ -165,9 +217,27 @@ class ImpulseSolver {
   std::vector<double> block_bound_;  ///< bound of |W|; negative where W is not a multiple of one
 
   std::vector<BlockVelocity> free_, now_, extrapolated_;  ///< by block
-  std::vector<Sums> sums_;                                ///< by piece
+  std::vector<Sums> sums_;                                ///< by task of a large island
   std::vector<SolveReport> report_;                       ///< by island
   std::vector<std::uint32_t> small_;                      ///< first of each group of small islands
+  std::vector<Unconverged> unconverged_;                  ///< none or one
+};
+
+struct ImpulseSolver::Unconverged {
+  void clear();
+  /// A copy of the row, with the impulses that it has. \param velocities of the blocks.
+  void add(const ConstraintRows& from, std::uint32_t row, const double (&impulse)[3], double tolerated,
+           std::span<const VelocityBlock> blocks, std::span<const BlockVelocity> velocities);
+  /// Without what the rows do to the velocities of the blocks.
+  void take_impulses_off();
+
+  ConstraintRows rows;
+  std::vector<std::uint32_t> row;  ///< which they are
+  std::vector<double> tolerated;   ///< by row
+  std::vector<VelocityBlock> blocks;
+  std::vector<std::uint32_t> block;   ///< which they are
+  std::vector<std::uint32_t> number;  ///< of each block, or none
+  ImpulseSolver solver;
 };
 
 }  // namespace brio

@@ -80,6 +80,17 @@ bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<con
 
 }  // namespace
 
+ImpulseSolver::Class ImpulseSolver::class_of(const ConstraintRow& row, bool tilted) {
+  const std::uint32_t translations = row.translation.size();
+  const std::uint32_t rotations = row.rotation.size();
+  if (row.matrix.size() > 0) return with_matrix;
+  if (row.friction_coefficient == 0) return rotations == 0 ? sliding : sliding_turning;
+  if (tilted) return translations <= 5 ? tilting_5 : translations <= 8 ? tilting_8 : tilting;
+  if (rotations == 0) return rubbing;
+  if (rotations > 1) return rotations <= 3 ? some_turning : turning;
+  return translations <= 2 ? one_turning_2 : translations == 3 ? one_turning_3 : one_turning;
+}
+
 void ImpulseSolver::measure_blocks(std::span<const VelocityBlock> blocks, ThreadTeam& team) {
   block_bound_.resize(blocks.size());
   block_norm_.resize(blocks.size());
@@ -91,13 +102,13 @@ void ImpulseSolver::measure_blocks(std::span<const VelocityBlock> blocks, Thread
   });
 }
 
-// c of all entries and the squared scale of rows; which kind a row is of.
+// c of all entries and the squared scale of rows; of which class a row is.
 void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const VelocityBlock> blocks,
                                  ThreadTeam& team) {
   const std::size_t rotations = rows.translation.size();
   const std::size_t matrices = rotations + rows.rotation.size();
   norm_.resize(matrices + rows.matrix.size());
-  kind_.resize(rows.size());
+  class_.resize(rows.size());
   squared_scale_.resize(rows.size());
   const auto measure = [&](std::size_t i) {
     const ConstraintRow& row = rows.row[i];
@@ -129,12 +140,7 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
     for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) finish(norm_[e]);
     for (std::uint32_t e = row.rotation.begin; e < row.rotation.end; ++e) finish(norm_[rotations + e]);
     for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e) finish(norm_[matrices + e]);
-    const bool packed = row.rotation.size() + row.matrix.size() == 0 && row.translation.size() > 0 &&
-                        row.translation.size() <= RowPack<false, false>::entries;
-    kind_[i] = !packed                         ? general
-               : row.friction_coefficient == 0 ? normal_only
-               : tilted                        ? with_tilt
-                                               : with_friction;
+    class_[i] = class_of(row, tilted);
   };
   const auto join_blocks = [&](const ConstraintRow& row) {
     std::uint32_t first = no_row;

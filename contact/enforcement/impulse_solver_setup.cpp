@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "contact/enforcement/impulse_solver.hpp"
 
@@ -10,52 +11,47 @@ using Vector = Vector3<double>;
 namespace {
 
 constexpr std::size_t blocks_a_task = 1024;
+constexpr std::size_t packs_a_task = 64;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-// Island after island and kind after kind, each from a full pack on, in the order of rows. Rows that move
-// nothing are an island at the end.
+// Island after island and class after class, each kind from a full pack on, in the order of rows. Rows that
+// move nothing are an island at the end.
 void ImpulseSolver::assign_slots(const ConstraintRows& rows) {
-  constexpr std::size_t lanes = lane_count<double>;
   slot_.resize(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
     mover_[i] = mover_[i] == no_row ? no_row : finder_.number(mover_[i]);
   const std::size_t islands = finder_.size() + 1;
-  count_.assign(islands * kinds, 0);
+  count_.assign(islands * classes, 0);
   const auto key = [&](std::size_t i) {
-    return (mover_[i] == no_row ? islands - 1 : mover_[i]) * kinds + kind_[i];
+    return (mover_[i] == no_row ? islands - 1 : mover_[i]) * classes + class_[i];
   };
   for (std::size_t i = 0; i < rows.size(); ++i) ++count_[key(i)];
   island_.clear();
-  piece_.clear();
-  place_.clear();
+  pack_.clear();
+  std::fill(std::begin(packs_of_kind_), std::end(packs_of_kind_), 0);
   std::uint32_t next = 0;
-  std::uint32_t next_place[kinds] = {};
   for (std::size_t n = 0; n < islands; ++n) {
     Island& island = island_.emplace_back();
-    island.piece_begin = static_cast<std::uint32_t>(piece_.size());
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-      std::uint32_t& count = count_[n * kinds + kind];
+    island.pack_begin = next / lanes;
+    for (std::uint8_t c = 0; c < classes; ++c) {
+      if (c > 0 && kind_of(c) != kind_of(static_cast<std::uint8_t>(c - 1)))
+        next = (next + lanes - 1) / lanes * lanes;
+      std::uint32_t& count = count_[n * classes + c];
       island.rows += count;
-      const auto end = static_cast<std::uint32_t>(next + (count + lanes - 1) / lanes * lanes);
-      count = next;
-      for (; next < end; next += slots_a_piece) {
-        const std::uint32_t last = std::min(next + slots_a_piece, end);
-        piece_.push_back({static_cast<Kind>(kind), next, last});
-      }
-      next = end;
-      while (place_.size() < end) place_.push_back(next_place[kind]++);
+      next += std::exchange(count, next);
+      while (pack_.size() * lanes < next) pack_.push_back({kind_of(c), packs_of_kind_[kind_of(c)]++});
     }
-    island.piece_end = static_cast<std::uint32_t>(piece_.size());
+    next = (next + lanes - 1) / lanes * lanes;
+    island.pack_end = next / lanes;
   }
   row_of_slot_.assign(next, no_row);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     slot_[i] = count_[key(i)]++;
     row_of_slot_[slot_[i]] = static_cast<std::uint32_t>(i);
   }
-  for (std::size_t kind = 0; kind < kinds; ++kind) slots_of_kind_[kind] = next_place[kind];
 }
 
 void ImpulseSolver::order_blocks(std::size_t blocks) {
@@ -80,19 +76,18 @@ void ImpulseSolver::order_blocks(std::size_t blocks) {
 }
 
 void ImpulseSolver::list_entries(const ConstraintRows& rows, std::size_t blocks, ThreadTeam& team) {
-  const auto is_plain = [&](std::size_t i) { return kind_[i] == normal_only || kind_[i] == with_friction; };
-  translation_.build(slots_of_kind_[normal_only] + slots_of_kind_[with_friction] > 0 ? rows.size() : 0,
-                     blocks, team, [&](std::size_t i, auto&& visit) {
-                       if (!is_plain(i)) return;
-                       const EntryRange range = rows.row[i].translation;
-                       for (std::uint32_t e = range.begin; e < range.end; ++e)
-                         visit(rows.translation[e].block, [&] {
-                           return TranslationItem{slot_[i], e, rows.translation[e].weight};
-                         });
-                     });
-  const bool any_tilted = slots_of_kind_[with_tilt] + slots_of_kind_[general] > 0;
+  bool any_plain = false, any_tilted = false;
+  for (const std::uint8_t c : class_) (tilts(c) ? any_tilted : any_plain) = true;
+  translation_.build(any_plain ? rows.size() : 0, blocks, team, [&](std::size_t i, auto&& visit) {
+    if (tilts(class_[i])) return;
+    const EntryRange range = rows.row[i].translation;
+    for (std::uint32_t e = range.begin; e < range.end; ++e)
+      visit(rows.translation[e].block, [&] {
+        return TranslationItem{slot_[i], e, rows.translation[e].weight};
+      });
+  });
   tilted_.build(any_tilted ? rows.size() : 0, blocks, team, [&](std::size_t i, auto&& visit) {
-    if (is_plain(i)) return;
+    if (!tilts(class_[i])) return;
     const EntryRange range = rows.row[i].translation;
     for (std::uint32_t e = range.begin; e < range.end; ++e) {
       const TranslationEntry& entry = rows.translation[e];
@@ -153,28 +148,94 @@ void start(RowUnknowns<T, friction>& unknown, const ConstraintRow& row, double m
 
 }  // namespace
 
-template <bool friction, bool tilt>
-void ImpulseSolver::fill_lane(std::vector<RowPack<friction, tilt>>& packs, const ConstraintRows& rows,
-                              std::size_t i) {
+// How many entries the packs have, and where.
+void ImpulseSolver::reserve_entries(const ConstraintRows& rows, ThreadTeam& team) {
+  normal_packs_.resize(packs_of_kind_[normal_only]);
+  friction_packs_.resize(packs_of_kind_[with_friction]);
+  general_.resize(std::size_t{packs_of_kind_[general]} * lanes);
+  given_.resize(row_of_slot_.size());
+  const auto each_pack = [&](std::size_t begin, std::size_t end, auto&& visit) {
+    for (std::size_t p = begin; p < end; ++p) {
+      if (pack_[p].kind == normal_only) visit(p, normal_packs_[pack_[p].place]);
+      if (pack_[p].kind == with_friction) visit(p, friction_packs_[pack_[p].place]);
+    }
+  };
+  team.for_ranges(pack_.size(), packs_a_task, [&](std::size_t begin, std::size_t end) {
+    each_pack(begin, end, [&](std::size_t p, auto& pack) {
+      pack.translation = pack.tilt = pack.rotation = {};
+      for (std::size_t slot = p * lanes; slot < (p + 1) * lanes; ++slot) {
+        const std::uint32_t i = row_of_slot_[slot];
+        if (i == no_row) continue;
+        const ConstraintRow& row = rows.row[i];
+        pack.translation.end = std::max(pack.translation.end, row.translation.size());
+        if (tilts(class_[i])) pack.tilt.end = std::max(pack.tilt.end, row.translation.size());
+        pack.rotation.end = std::max(pack.rotation.end, row.rotation.size());
+      }
+    });
+  });
+  std::uint32_t translations = 0, tilts = 0, rotations = 0;
+  const auto place = [](EntryRange& range, std::uint32_t& next) {
+    range = {next, next + range.end};
+    next = range.end;
+  };
+  each_pack(0, pack_.size(), [&](std::size_t, auto& pack) {
+    place(pack.translation, translations);
+    place(pack.tilt, tilts);
+    place(pack.rotation, rotations);
+  });
+  entries_.translation.resize(translations);
+  entries_.tilt.resize(tilts);
+  entries_.rotation.resize(rotations);
+}
+
+// Lanes without an entry read a block of their island.
+void ImpulseSolver::clear_entries(const ConstraintRows& rows, std::size_t pack, EntryRange translation,
+                                  EntryRange tilt, EntryRange rotation) {
+  int block = 0;
+  for (std::size_t slot = pack * lanes; slot < (pack + 1) * lanes; ++slot) {
+    if (row_of_slot_[slot] == no_row) continue;
+    const ConstraintRow& row = rows.row[row_of_slot_[slot]];
+    if (row.translation.size() > 0) block = rows.translation[row.translation.begin].block;
+    if (row.rotation.size() > 0) block = rows.rotation[row.rotation.begin].block;
+  }
+  for (std::uint32_t k = translation.begin; k < translation.end; ++k) {
+    entries_.translation[k].weight = 0.0;
+    std::fill_n(entries_.translation[k].block, lanes, block);
+  }
+  for (std::uint32_t k = tilt.begin; k < tilt.end; ++k) entries_.tilt[k] = {{0.0, 0.0}};
+  for (std::uint32_t k = rotation.begin; k < rotation.end; ++k) {
+    for (auto& arm : entries_.rotation[k].arm) arm = 0.0;
+    std::fill_n(entries_.rotation[k].block, lanes, block);
+  }
+}
+
+template <bool friction>
+void ImpulseSolver::fill_lane(std::vector<RowPack<friction>>& packs, const ConstraintRows& rows,
+                              std::uint32_t slot) {
+  const std::uint32_t i = row_of_slot_[slot];
   const ConstraintRow& row = rows.row[i];
-  const std::size_t place = place_[slot_[i]];
-  RowPack<friction, tilt>& pack = packs[place / lane_count<double>];
-  const auto lane = static_cast<int>(place % lane_count<double>);
+  RowPack<friction>& pack = packs[pack_[slot / lanes].place];
+  const auto lane = static_cast<int>(slot % lanes);
   double majorant = 0;
-  int k = 0;
-  for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e, ++k) {
+  for (std::uint32_t k = 0; k < row.translation.size(); ++k) {
+    const std::uint32_t e = row.translation.begin + k;
     const TranslationEntry& entry = rows.translation[e];
     majorant += norm_[e] * block_norm_[index(entry.block)];
-    pack.block[k][lane] = entry.block;
-    pack.weight[k].set(lane, entry.weight);
-    if constexpr (tilt)
-      for (int t = 0; t < 2; ++t) pack.tilt[2 * k + t].set(lane, entry.tilt[t]);
+    TranslationLanes& to = entries_.translation[pack.translation.begin + k];
+    to.block[lane] = entry.block;
+    to.weight.set(lane, entry.weight);
+    if (k >= pack.tilt.size()) continue;
+    for (int t = 0; t < 2; ++t) entries_.tilt[pack.tilt.begin + k].along[t].set(lane, entry.tilt[t]);
   }
-  for (; k < RowPack<friction, tilt>::entries; ++k) {
-    pack.block[k][lane] = pack.block[0][lane];
-    pack.weight[k].set(lane, 0);
-    if constexpr (tilt)
-      for (int t = 0; t < 2; ++t) pack.tilt[2 * k + t].set(lane, 0);
+  for (std::uint32_t k = 0; k < row.rotation.size(); ++k) {
+    const std::uint32_t e = row.rotation.begin + k;
+    const RotationEntry& entry = rows.rotation[e];
+    majorant += norm_[rows.translation.size() + e] * block_norm_[index(entry.block)];
+    RotationLanes& to = entries_.rotation[pack.rotation.begin + k];
+    to.block[lane] = entry.block;
+    to.arm[0].set(lane, entry.arm.x);
+    to.arm[1].set(lane, entry.arm.y);
+    to.arm[2].set(lane, entry.arm.z);
   }
   const Vector frame[3] = {row.normal, row.tangent[0], row.tangent[1]};
   for (int axis = 0; axis < (friction ? 3 : 1); ++axis) {
@@ -186,7 +247,22 @@ void ImpulseSolver::fill_lane(std::vector<RowPack<friction, tilt>>& packs, const
         [&](Lanes<double>& to, double value) { to.set(lane, value); });
 }
 
-void ImpulseSolver::fill_general(const ConstraintRows& rows, std::size_t i) {
+template <bool friction>
+void ImpulseSolver::fill_pack(std::vector<RowPack<friction>>& packs, const ConstraintRows& rows,
+                              std::uint32_t p) {
+  RowPack<friction>& pack = packs[pack_[p].place];
+  clear_entries(rows, p, pack.translation, pack.tilt, pack.rotation);
+  if (row_of_slot_[(p + 1) * lanes - 1] == no_row) {
+    pack.unknown = {};
+    for (auto& axis : pack.frame) axis = 0.0;
+  }
+  for (std::uint32_t slot = p * lanes; slot < (p + 1) * lanes; ++slot)
+    if (row_of_slot_[slot] != no_row) fill_lane(packs, rows, slot);
+}
+
+void ImpulseSolver::fill_general(const ConstraintRows& rows, std::uint32_t slot) {
+  const std::uint32_t i = row_of_slot_[slot];
+  if (i == no_row) return;
   const std::size_t rotations = rows.translation.size();
   const std::size_t matrices = rotations + rows.rotation.size();
   const ConstraintRow& row = rows.row[i];
@@ -198,52 +274,24 @@ void ImpulseSolver::fill_general(const ConstraintRows& rows, std::size_t i) {
     add(norm_[rotations + e], rows.rotation[e].block);
   for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e)
     add(norm_[matrices + e], rows.matrix[e].block);
-  start(general_[place_[slot_[i]]], row, squared_scale_[i] * majorant,
+  start(general_[pack_[slot / lanes].place * lanes + slot % lanes], row, squared_scale_[i] * majorant,
         [](double& to, double value) { to = value; });
 }
 
 void ImpulseSolver::fill_rows(const ConstraintRows& rows, ThreadTeam& team) {
-  constexpr std::size_t lanes = lane_count<double>;
-  normal_packs_.resize(slots_of_kind_[normal_only] / lanes);
-  friction_packs_.resize(slots_of_kind_[with_friction] / lanes);
-  tilt_packs_.resize(slots_of_kind_[with_tilt] / lanes);
-  general_.resize(slots_of_kind_[general]);
-  given_.resize(row_of_slot_.size());
-  // The last pack of a kind and island: lanes without a row read a block of their island.
-  const auto clear = [&](auto& packs, std::size_t end) {
-    const ConstraintRow& row = rows.row[row_of_slot_[end - lanes]];
-    auto& pack = packs[place_[end - 1] / lanes];
-    pack = {};
-    for (auto& blocks : pack.block)
-      std::fill(std::begin(blocks), std::end(blocks), rows.translation[row.translation.begin].block);
-  };
-  team.for_each(piece_.size(), [&](std::size_t p) {
-    const Piece& piece = piece_[p];
-    if (row_of_slot_[piece.end - 1] == no_row) {
-      if (piece.kind == normal_only) clear(normal_packs_, piece.end);
-      if (piece.kind == with_friction) clear(friction_packs_, piece.end);
-      if (piece.kind == with_tilt) clear(tilt_packs_, piece.end);
-    }
-    for (std::size_t slot = piece.begin; slot < piece.end; ++slot) {
-      const std::uint32_t i = row_of_slot_[slot];
-      if (i == no_row) continue;
-      const Vector& normal = rows.row[i].normal;
-      given_[slot] = {{0, 0, 0}, 0, {normal.x, normal.y, normal.z}, 0};
-      switch (piece.kind) {
-        case normal_only:
-          fill_lane(normal_packs_, rows, i);
-          break;
-        case with_friction:
-          fill_lane(friction_packs_, rows, i);
-          break;
-        case with_tilt:
-          fill_lane(tilt_packs_, rows, i);
-          break;
-        default:
-          fill_general(rows, i);
+  reserve_entries(rows, team);
+  team.for_ranges(pack_.size(), packs_a_task, [&](std::size_t begin, std::size_t end) {
+    for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p) {
+      for (std::uint32_t slot = p * lanes; slot < (p + 1) * lanes; ++slot) {
+        if (row_of_slot_[slot] == no_row) continue;
+        const Vector& normal = rows.row[row_of_slot_[slot]].normal;
+        given_[slot] = {{0, 0, 0}, 0, {normal.x, normal.y, normal.z}, 0};
+        if (pack_[p].kind == general) fill_general(rows, slot);
       }
+      if (pack_[p].kind == normal_only) fill_pack(normal_packs_, rows, p);
+      if (pack_[p].kind == with_friction) fill_pack(friction_packs_, rows, p);
+      store_given(rows, p);
     }
-    store_given(rows, piece.kind, piece.begin, piece.end);
   });
 }
 

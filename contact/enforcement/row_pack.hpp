@@ -1,9 +1,11 @@
 #pragma once
-/// Rows of up to five translations, eight side by side: node on face, face with its tilt, edge on edge,
-/// walls. What an iteration does to a row stands here once, on a number-like `T`.
+/// Rows of translations and rotations, eight side by side. What an iteration does to a row stands here once,
+/// on a number-like `T`.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "contact/enforcement/constraint_row.hpp"
 #include "src/base/gather.hpp"
@@ -18,6 +20,7 @@ struct RowUnknowns {
   T impulse[axes];
   T last[axes];    ///< an iteration before
   T offset[axes];  ///< relative velocity of the blocks that is asked for
+  T change;        ///< squared, of the relative velocity in the last iteration
   T majorant;      ///< D; 0: nothing can move
   T step;          ///< 1 / D, or 0
   T friction_coefficient;
@@ -27,14 +30,16 @@ struct RowUnknowns {
 template <class T>
 struct RowSums {
   T turned = 0.0;    ///< D (y - impulse) . (impulse - last): positive where the momentum leads uphill
+  T counted = 0.0;   ///< rows that changed by more than is counted
   T residual = 0.0;  ///< largest squared change of a relative velocity
   T largest = 0.0;   ///< velocity that an impulse stands for
 };
 
 /// One projected gradient step from the extrapolated impulses, whose relative velocity is given.
+/// \param least squared change of a relative velocity that is counted.
 template <class T, bool with_friction>
 BRIO_INLINE void change_impulse(RowUnknowns<T, with_friction>& row,
-                                const T (&velocity)[RowUnknowns<T, with_friction>::axes], T momentum,
+                                const T (&velocity)[RowUnknowns<T, with_friction>::axes], T momentum, T least,
                                 RowSums<T>& sums) {
   constexpr int axes = RowUnknowns<T, with_friction>::axes;
   T from[axes];
@@ -62,7 +67,9 @@ BRIO_INLINE void change_impulse(RowUnknowns<T, with_friction>& row,
     turned += (from[axis] - row.impulse[axis]) * (row.impulse[axis] - row.last[axis]);
   }
   sums.turned += row.majorant * turned;
-  sums.residual = max(sums.residual, square(row.majorant) * change);
+  row.change = square(row.majorant) * change;
+  sums.counted += where(least < row.change, T(1.0), 0.0);
+  sums.residual = max(sums.residual, row.change);
   sums.largest = max(sums.largest, row.majorant * row.impulse[0]);
 }
 
@@ -74,22 +81,39 @@ struct alignas(64) RowImpulse {
   double slope_1;
 };
 
+/// Entries of eight rows side by side, one of each row. A row without one reads some block of its island with
+/// weight 0.
+struct TranslationLanes {
+  Lanes<double> weight;
+  int block[lane_count<double>];
+};
+struct TiltLanes {
+  Lanes<double> along[2];  ///< tangents
+};
+struct RotationLanes {
+  Lanes<double> arm[3];
+  int block[lane_count<double>];
+};
+
+/// Of all packs, pack after pack: as many as the row of a pack that has most.
+struct PackEntries {
+  std::vector<TranslationLanes> translation;
+  std::vector<TiltLanes> tilt;  ///< beside the translations, of packs that tilt
+  std::vector<RotationLanes> rotation;
+};
+
 /// Eight rows. Lanes without a row have weights, step and impulses of 0.
-template <bool with_friction, bool with_tilt>
+template <bool with_friction>
 struct RowPack {
-  static constexpr int entries = 5;
   using Number = Lanes<double>;
-  static constexpr int lanes = lane_count<double>;
 
   RowUnknowns<Number, with_friction> unknown;
   Number frame[with_friction ? 9 : 3];  ///< normal, tangents
-  Number weight[entries];
-  Number tilt[with_tilt ? 2 * entries : 1];
-  alignas(64) int block[entries][lanes];
+  EntryRange translation, tilt, rotation;
 };
 
-template <bool with_friction, bool with_tilt>
-BRIO_INLINE void store_impulses(const RowPack<with_friction, with_tilt>& pack, RowImpulse* given) {
+template <bool with_friction>
+BRIO_INLINE void store_impulses(const RowPack<with_friction>& pack, RowImpulse* given) {
   using Number = Lanes<double>;
   const Number* n = pack.frame;
   const Number* j = pack.unknown.impulse;
@@ -103,7 +127,8 @@ BRIO_INLINE void store_impulses(const RowPack<with_friction, with_tilt>& pack, R
   transpose_lanes(force[0].v, force[1].v, force[2].v, rows);
 #pragma GCC unroll 8
   for (int lane = 0; lane < 8; ++lane) store_row(given[lane].force, rows[lane]);
-  if constexpr (with_tilt) {
+  if constexpr (with_friction) {
+    if (pack.tilt.size() == 0) return;
     for (int lane = 0; lane < 8; ++lane) {
       given[lane].slope_0 = j[1][lane];
       given[lane].slope_1 = j[2][lane];
@@ -113,24 +138,35 @@ BRIO_INLINE void store_impulses(const RowPack<with_friction, with_tilt>& pack, R
 
 /// Relative velocities of the rows of the pack along their axes.
 /// \param velocity of each block: rows of four on 32 bytes.
-template <bool with_friction, bool with_tilt>
-BRIO_INLINE void velocities_of(const RowPack<with_friction, with_tilt>& pack, const double* velocity,
-                               Lanes<double> (&in_frame)[with_friction ? 3 : 1]) {
+template <bool with_friction>
+BRIO_INLINE void velocities_of(const RowPack<with_friction>& pack, const PackEntries& entries,
+                               const double* velocity, Lanes<double> (&in_frame)[with_friction ? 3 : 1]) {
   using Number = Lanes<double>;
-  constexpr int entries = RowPack<with_friction, with_tilt>::entries;
   const Number* n = pack.frame;
   Number u[3]{0.0, 0.0, 0.0};
   Number tilted[2]{0.0, 0.0};
-#pragma GCC unroll 5
-  for (int k = 0; k < entries; ++k) {
-    const WideVector<double> wide = gather_rows<double>(velocity, 4, pack.block[k]);
+  const auto tilt_with = [&](std::uint32_t k, const Number(&v)[3]) {
+    const TiltLanes& tilt = entries.tilt[pack.tilt.begin + k];
+    const Number along = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+    tilted[0] += tilt.along[0] * along;
+    tilted[1] += tilt.along[1] * along;
+  };
+  for (std::uint32_t k = 0; k < pack.translation.size(); ++k) {
+    const TranslationLanes& entry = entries.translation[pack.translation.begin + k];
+    const WideVector<double> wide = gather_rows<double>(velocity, 4, entry.block);
     const Number v[3]{Number(wide.x[0]), Number(wide.y[0]), Number(wide.z[0])};
-    for (int axis = 0; axis < 3; ++axis) u[axis] += pack.weight[k] * v[axis];
-    if constexpr (with_tilt) {
-      const Number along = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
-      tilted[0] += pack.tilt[2 * k] * along;
-      tilted[1] += pack.tilt[2 * k + 1] * along;
-    }
+#pragma GCC unroll 3
+    for (int axis = 0; axis < 3; ++axis) u[axis] += entry.weight * v[axis];
+    if constexpr (with_friction)
+      if (k < pack.tilt.size()) tilt_with(k, v);
+  }
+  for (std::uint32_t k = pack.rotation.begin; k < pack.rotation.end; ++k) {
+    const RotationLanes& entry = entries.rotation[k];
+    const WideVector<double> wide = gather_rows<double>(velocity, 4, entry.block);
+    const Number w[3]{Number(wide.x[0]), Number(wide.y[0]), Number(wide.z[0])};
+    u[0] += w[1] * entry.arm[2] - w[2] * entry.arm[1];
+    u[1] += w[2] * entry.arm[0] - w[0] * entry.arm[2];
+    u[2] += w[0] * entry.arm[1] - w[1] * entry.arm[0];
   }
 #pragma GCC unroll 3
   for (int axis = 0; axis < (with_friction ? 3 : 1); ++axis) {
@@ -141,12 +177,13 @@ BRIO_INLINE void velocities_of(const RowPack<with_friction, with_tilt>& pack, co
 
 /// \param velocity of each block, at the extrapolated impulses.
 /// \param given of the rows of the pack: gets their new impulses.
-template <bool with_friction, bool with_tilt>
-BRIO_INLINE void change_impulses(RowPack<with_friction, with_tilt>& pack, const double* velocity,
-                                 double momentum, RowSums<Lanes<double>>& sums, RowImpulse* given) {
+template <bool with_friction>
+BRIO_INLINE void change_impulses(RowPack<with_friction>& pack, const PackEntries& entries,
+                                 const double* velocity, double momentum, double least,
+                                 RowSums<Lanes<double>>& sums, RowImpulse* given) {
   Lanes<double> in_frame[with_friction ? 3 : 1];
-  velocities_of(pack, velocity, in_frame);
-  change_impulse(pack.unknown, in_frame, Lanes<double>(momentum), sums);
+  velocities_of(pack, entries, velocity, in_frame);
+  change_impulse(pack.unknown, in_frame, Lanes<double>(momentum), Lanes<double>(least), sums);
   store_impulses(pack, given);
 }
 
@@ -159,10 +196,11 @@ BRIO_INLINE T work_of(const RowUnknowns<T, with_friction>& row,
     work += row.impulse[axis] * (velocity[axis] - row.offset[axis]);
   return work;
 }
-template <bool with_friction, bool with_tilt>
-BRIO_INLINE double work_of(const RowPack<with_friction, with_tilt>& pack, const double* velocity) {
+template <bool with_friction>
+BRIO_INLINE double work_of(const RowPack<with_friction>& pack, const PackEntries& entries,
+                           const double* velocity) {
   Lanes<double> in_frame[with_friction ? 3 : 1];
-  velocities_of(pack, velocity, in_frame);
+  velocities_of(pack, entries, velocity, in_frame);
   const Lanes<double> work = work_of(pack.unknown, in_frame);
   double sum = 0;
   for (int lane = 0; lane < lane_count<double>; ++lane) sum += work[lane];

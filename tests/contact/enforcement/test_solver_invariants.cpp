@@ -361,6 +361,46 @@ TEST(SolverInvariants, RestCostsOneCheckBesideAnImpact) {
   EXPECT_EQ(report.row_iterations, 30 + alone.row_iterations);
 }
 
+// A heavy block that many light ones hit beside a tangle that is slow to converge.
+TEST(SolverInvariants, RowsThatStillChangeAreSolvedAlone) {
+  RowScene slow = tangle(3, 100, 150, 0.3);
+  RowScene scene = slow;
+  const auto heavy = static_cast<int>(scene.blocks.size());
+  scene.blocks.push_back(moving(1e5, {0, 0, 0}));
+  scene.rows.add_row({0, 0, 1}, 0, 0);
+  scene.rows.add_point(heavy, Side::first);
+  scene.rows.add_point(0, Side::second);
+  RandomNumbers random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const Vector normal = random.direction();
+    const auto light = static_cast<int>(scene.blocks.size());
+    scene.blocks.push_back(moving(1, -1 * normal + random.vector(0.3)));
+    scene.rows.add_row(normal, 0, 0.3);
+    scene.rows.add_point(light, Side::first);
+    scene.rows.add_point(heavy, Side::second);
+  }
+  RowScene exact = scene;
+  EXPECT_TRUE(solve(exact, to_the_end()).converged);
+  const double tolerance = 1e-6;
+  const SolveReport alone = solve(slow, {10000, tolerance});
+  const SolveReport report = solve(scene, {10000, tolerance});
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.islands, 1);
+  const double whole = static_cast<double>(scene.rows.size()) * alone.iterations;
+  EXPECT_LT(static_cast<double>(report.row_iterations), 0.5 * whole);
+  // Over all rows, not over those that were iterated last.
+  for (std::size_t i = 0; i < scene.rows.size(); ++i) {
+    const ConstraintRow& row = scene.rows.row[i];
+    const double velocity = dot(row.normal, scene.relative_velocity(i)) - row.target_velocity;
+    EXPECT_GT(velocity, -30 * tolerance * report.largest_velocity);
+    if (row.impulse > 0) {
+      EXPECT_LT(velocity, 30 * tolerance * report.largest_velocity);
+    }
+  }
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b)
+    EXPECT_LT(norm(scene.blocks[b].velocity - exact.blocks[b].velocity), 1e-3 * report.largest_velocity);
+}
+
 // A floor that is held altogether joins nothing.
 TEST(SolverInvariants, WhatIsHeldDoesNotJoinIslands) {
   RowScene scene;

@@ -222,12 +222,22 @@ void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTea
   remember_all(node_face, kept_node_face_);
   remember_all(edge_edge, kept_edge_edge_);
   node_face.clear();
-  node_box_.find(face_box_.boxes(), team, counts,
-                 [&](std::size_t f, int s) { add_node_face(scene, motion.groups, s, static_cast<int>(f)); });
+  node_box_.find(
+      face_box_.boxes(), team, counts, Spacing::none,
+      [&](std::size_t f, int s) { return node_face_spacing(scene, s, static_cast<int>(f)); },
+      [&](std::size_t f, int s, Spacing spacing) {
+        add_node_face(scene, motion.groups, s, static_cast<int>(f), spacing);
+      });
   edge_edge.clear();
-  edge_box_.find(edge_box_.boxes(), team, counts, [&](std::size_t e, int other) {
-    if (other > static_cast<int>(e)) add_edge_edge(scene, motion.groups, static_cast<int>(e), other);
-  });
+  edge_box_.find(
+      edge_box_.boxes(), team, counts, Spacing::none,
+      [&](std::size_t e, int other) {
+        return other > static_cast<int>(e) ? edge_edge_spacing(scene, static_cast<int>(e), other)
+                                           : Spacing::none;
+      },
+      [&](std::size_t e, int other, Spacing spacing) {
+        add_edge_edge(scene, motion.groups, static_cast<int>(e), other, spacing);
+      });
 }
 
 // \returns whether they are few
@@ -282,32 +292,40 @@ void FeaturePairs::find_leaving(const Scene& scene, FeatureMotion& motion, Threa
   for (int e : edge_) edge_box_.change(e, edge_box(scene, static_cast<std::size_t>(e)));
   drop_dead(scene);
 
-  node_face.remove_if([&](int s, int f, Spacing spacing) {
-    const bool out = leaves(node_leaves_, s) || leaves(face_leaves_, f);
-    if (out) remember(kept_node_face_, s, f, spacing);
-    return out;
-  });
+  node_face.remove_if([&](int s, int f) { return leaves(node_leaves_, s) || leaves(face_leaves_, f); }, team,
+                      [&](int s, int f, Spacing spacing) { remember(kept_node_face_, s, f, spacing); });
   std::sort(kept_node_face_.begin(), kept_node_face_.end());
   gather(face_box_, face_);
-  node_box_.find(query_, team, counts,
-                 [&](std::size_t i, int s) { add_node_face(scene, motion.groups, s, face_[i]); });
+  node_box_.find(
+      query_, team, counts, Spacing::none,
+      [&](std::size_t i, int s) { return node_face_spacing(scene, s, face_[i]); },
+      [&](std::size_t i, int s, Spacing spacing) {
+        add_node_face(scene, motion.groups, s, face_[i], spacing);
+      });
   gather(node_box_, node_);
-  face_box_.find(query_, team, counts, [&](std::size_t i, int f) {
-    if (!leaves(face_leaves_, f)) add_node_face(scene, motion.groups, node_[i], f);
-  });
+  face_box_.find(
+      query_, team, counts, Spacing::none,
+      [&](std::size_t i, int f) {
+        return leaves(face_leaves_, f) ? Spacing::none : node_face_spacing(scene, node_[i], f);
+      },
+      [&](std::size_t i, int f, Spacing spacing) {
+        add_node_face(scene, motion.groups, node_[i], f, spacing);
+      });
 
-  edge_edge.remove_if([&](int a, int b, Spacing spacing) {
-    const bool out = leaves(edge_leaves_, a) || leaves(edge_leaves_, b);
-    if (out) remember(kept_edge_edge_, a, b, spacing);
-    return out;
-  });
+  edge_edge.remove_if([&](int a, int b) { return leaves(edge_leaves_, a) || leaves(edge_leaves_, b); }, team,
+                      [&](int a, int b, Spacing spacing) { remember(kept_edge_edge_, a, b, spacing); });
   std::sort(kept_edge_edge_.begin(), kept_edge_edge_.end());
   gather(edge_box_, edge_);
-  edge_box_.find(query_, team, counts, [&](std::size_t i, int other) {
-    const int own = edge_[i];
-    if (other == own || (leaves(edge_leaves_, other) && other < own)) return;
-    add_edge_edge(scene, motion.groups, std::min(own, other), std::max(own, other));
-  });
+  edge_box_.find(
+      query_, team, counts, Spacing::none,
+      [&](std::size_t i, int other) {
+        const int own = edge_[i];
+        if (other == own || (leaves(edge_leaves_, other) && other < own)) return Spacing::none;
+        return edge_edge_spacing(scene, std::min(own, other), std::max(own, other));
+      },
+      [&](std::size_t i, int other, Spacing spacing) {
+        add_edge_edge(scene, motion.groups, std::min(edge_[i], other), std::max(edge_[i], other), spacing);
+      });
 }
 
 // What is no more has no box; the flags of what changed stay for the removal of pairs.
@@ -320,47 +338,56 @@ void FeaturePairs::drop_dead(const Scene& scene) {
     if (!scene.features.edge[static_cast<std::size_t>(e)].alive()) edge_box_.change(e, empty_box);
 }
 
-void FeaturePairs::add_node_face(const Scene& scene, MotionGroups& groups, int slave, int f) {
+// None: they are not paired.
+Spacing FeaturePairs::node_face_spacing(const Scene& scene, int slave, int f) const {
   const Face& face = scene.surface.face[static_cast<std::size_t>(f)];
   if (face.has(scene.surface.node[static_cast<std::size_t>(slave)]) || scene.surface.never_touch(slave, face))
-    return;
+    return Spacing::none;
   if (face.body == scene.surface.body[static_cast<std::size_t>(slave)] && !scene.depth.empty() &&
       !grown(face_box_.of(f), -0.5 * (scene.depth.of(scene.surface, face) + scene.depth.of(slave)))
            .overlaps(node_box_.of(slave)))
-    return;
+    return Spacing::none;
   const bool spaced = !is_excluded(scene.excluded, slave, f);
-  if (!spaced && !grown(box_of(scene.surface, face), 2 * scene.features.skin + scene.band)
-                      .overlaps(reach_[static_cast<std::size_t>(slave)]))
-    return;
+  if (!spaced) {
+    const CaptureBox near = grown(box_of(scene.surface, face), 2 * scene.features.skin + scene.band);
+    return near.overlaps(reach_[static_cast<std::size_t>(slave)]) ? Spacing::skins : Spacing::none;
+  }
+  const auto& grown_nodes = changes_.grown;
+  if (std::find(grown_nodes.begin(), grown_nodes.end(), slave) != grown_nodes.end()) return Spacing::waiting;
   const double radii = scene.features.node_radius[static_cast<std::size_t>(slave)] +
                        scene.features.face_radius[static_cast<std::size_t>(f)];
-  const auto& grown_nodes = changes_.grown;
-  Spacing spacing = Spacing::skins;
-  if (spaced && std::find(grown_nodes.begin(), grown_nodes.end(), slave) != grown_nodes.end())
-    spacing = Spacing::waiting;
-  else if (spaced)
-    spacing = spacing_of_new(kept_node_face_, slave, f, radii <= 2 * scene.features.skin);
-  node_face.add(slave, f, spacing,
-                groups.relate(slave, scene.features.face_node[static_cast<std::size_t>(f)][0]));
+  return spacing_of_new(kept_node_face_, slave, f, radii <= 2 * scene.features.skin);
 }
 
-void FeaturePairs::add_edge_edge(const Scene& scene, MotionGroups& groups, int first, int second) {
+Spacing FeaturePairs::edge_edge_spacing(const Scene& scene, int first, int second) const {
   const EdgeFeature& a = scene.features.edge[static_cast<std::size_t>(first)];
   const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
-  if (!scene.edges && a.of_face() && b.of_face()) return;
-  if (!may_be_paired(scene.surface, a, b)) return;
+  if (!scene.edges && a.of_face() && b.of_face()) return Spacing::none;
+  if (!may_be_paired(scene.surface, a, b)) return Spacing::none;
   if (a.body == b.body && !scene.depth.empty() &&
       !grown(edge_box_.of(first), -0.5 * (scene.depth.of(a) + scene.depth.of(b)))
            .overlaps(edge_box_.of(second)))
-    return;
+    return Spacing::none;
   const bool spaced = !are_of_one_piece(scene.features, scene.surface, scene.excluded, a, b);
-  if (!spaced && !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b))) return;
+  if (!spaced && !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b)))
+    return Spacing::none;
   const bool only_skins = a.radius + b.radius <= 2 * scene.features.skin;
   const Spacing spacing =
       spaced ? spacing_of_new(kept_edge_edge_, first, second, only_skins) : Spacing::skins;
   const bool radii = spacing == Spacing::radii;
-  if (flat_.pairs(a, radii) && flat_.pairs(b, radii))
-    edge_edge.add(first, second, spacing, groups.relate(a.node[0], b.node[0]));
+  return flat_.pairs(a, radii) && flat_.pairs(b, radii) ? spacing : Spacing::none;
+}
+
+void FeaturePairs::add_node_face(const Scene& scene, MotionGroups& groups, int slave, int f,
+                                 Spacing spacing) {
+  node_face.add(slave, f, spacing,
+                groups.relate(slave, scene.features.face_node[static_cast<std::size_t>(f)][0]));
+}
+
+void FeaturePairs::add_edge_edge(const Scene& scene, MotionGroups& groups, int first, int second,
+                                 Spacing spacing) {
+  const auto node_of = [&](int edge) { return scene.features.edge[static_cast<std::size_t>(edge)].node[0]; };
+  edge_edge.add(first, second, spacing, groups.relate(node_of(first), node_of(second)));
 }
 
 }  // namespace brio

@@ -75,8 +75,10 @@ class FeaturePairs {
   void find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
   void find_leaving(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
   void drop_dead(const Scene& scene);
-  void add_node_face(const Scene& scene, MotionGroups& groups, int slave, int face);
-  void add_edge_edge(const Scene& scene, MotionGroups& groups, int first, int second);
+  Spacing node_face_spacing(const Scene& scene, int slave, int face) const;
+  Spacing edge_edge_spacing(const Scene& scene, int first, int second) const;
+  void add_node_face(const Scene& scene, MotionGroups& groups, int slave, int face, Spacing spacing);
+  void add_edge_edge(const Scene& scene, MotionGroups& groups, int first, int second, Spacing spacing);
 
   std::vector<CaptureBox> reach_;  ///< of each slave node: where it may be until the next search
   FaceFlatness flat_;

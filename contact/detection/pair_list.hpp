@@ -3,11 +3,13 @@
 /// search changes few blocks of the list.
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "src/base/floating_point.hpp"
+#include "src/base/parallel.hpp"
 
 namespace brio {
 
@@ -52,9 +54,10 @@ class PairList {
 
   void clear();
   void add(int first, int second, Spacing spacing, int relation);
-  /// Take out those for which `leaves(first, second, spacing)`.
-  template <class Leaves>
-  void remove_if(const Leaves& leaves);
+  /// Take out those for which `leaves(first, second)`; `removed(first, second, spacing)` is then called for
+  /// each, in the same order for any number of threads.
+  template <class Leaves, class Removed>
+  void remove_if(const Leaves& leaves, ThreadTeam& team, const Removed& removed);
   /// Close up where more than a quarter of the places are vacant.
   void close_up();
 
@@ -62,27 +65,52 @@ class PairList {
   std::uint64_t version(std::size_t block) const { return version_[block]; }
 
  private:
+  static constexpr std::size_t blocks_a_task = 256;
+  /// Of a block, by bit.
+  struct Leaving {
+    std::uint32_t vacant = 0, leaving = 0;
+  };
+
   void change(std::size_t pair) { version_[pair / block_size] = changes_; }
 
   std::vector<PairRecord> record_;
   std::vector<int> vacant_;  ///< descending
+  std::vector<Leaving> leaving_;
   std::vector<std::uint64_t> version_;
   std::uint64_t changes_ = 0;
 };
 
-template <class Leaves>
-void PairList::remove_if(const Leaves& leaves) {
+template <class Leaves, class Removed>
+void PairList::remove_if(const Leaves& leaves, ThreadTeam& team, const Removed& removed) {
   ++changes_;
-  vacant_.clear();
-  for (std::size_t i = size(); i-- > 0;) {
-    PairRecord& pair = record_[i];
-    if (pair.spacing != Spacing::none) {
-      if (!leaves(pair.first, pair.second, pair.spacing)) continue;
-      pair = {};
-      wake[i] = infinity;
-      change(i);
+  leaving_.resize((size() + block_size - 1) / block_size);
+  team.for_ranges(leaving_.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t block = begin; block < end; ++block) {
+      leaving_[block] = {};
+      for (std::size_t i = block * block_size; i < std::min((block + 1) * block_size, size()); ++i) {
+        const PairRecord& pair = record_[i];
+        const std::uint32_t bit = 1U << (i % block_size);
+        if (pair.spacing == Spacing::none)
+          leaving_[block].vacant |= bit;
+        else if (leaves(pair.first, pair.second))
+          leaving_[block].leaving |= bit;
+      }
     }
-    vacant_.push_back(static_cast<int>(i));
+  });
+  vacant_.clear();
+  for (std::size_t block = leaving_.size(); block-- > 0;) {
+    const Leaving& own = leaving_[block];
+    if (own.leaving != 0) version_[block] = changes_;
+    for (std::uint32_t bits = own.vacant | own.leaving; bits != 0;) {
+      const int place = 31 - __builtin_clz(bits);
+      bits ^= 1U << place;
+      const std::size_t i = block * block_size + static_cast<std::size_t>(place);
+      vacant_.push_back(static_cast<int>(i));
+      if ((own.leaving >> place & 1U) == 0) continue;
+      removed(record_[i].first, record_[i].second, record_[i].spacing);
+      record_[i] = {};
+      wake[i] = infinity;
+    }
   }
 }
 

@@ -57,6 +57,15 @@ void check_deletion(const YamlEntry& entry, const Part& part, const Material& ma
                     "debris_radius of nodes that leave the run; it is accepted with free_nodes: keep");
 }
 
+// Two Lobatto points are the surfaces: bending would be three times as stiff.
+void check_rule(const Shell4& shell, const Place& place) {
+  if (shell.quadrature == ThicknessQuadrature::lobatto && shell.thickness_points == 2)
+    throw DeckError(
+        place,
+        "two Lobatto points make bending three times as stiff; accepted are 3 to 9 thickness_points "
+        "with quadrature: lobatto, or quadrature: gauss");
+}
+
 }  // namespace
 
 void read_value(const YamlNode& node, const Slot& slot, Material& material) {
@@ -96,6 +105,7 @@ void read_value(const YamlNode& node, const Slot& slot, Part& part) {
     return;
   }
   if (nodes_per_element(part.element) != nodes_per_element(part.mesh)) refuse_element(part, place);
+  if (const auto* shell = std::get_if<Shell4>(&part.element)) check_rule(*shell, place);
   if (part.deletion) check_deletion(*node.find("deletion"), part, material);
   if (!accepts(part.element, material))
     throw DeckError(place, "the element '" + kind + "' cannot use the material model '" +

@@ -57,10 +57,13 @@ TEST(Preset, ComesFromTheCommandLineAsWellAndIsLessThanIt) {
   EXPECT_GT(deck.time.step_scale, 0.9);
 }
 
-TEST(Preset, AccurateDampsImpactsLessAndHoldsHourglassModesOfShellsLess) {
+TEST(Preset, AccurateDampsImpactsLessAndSeesTheSurfacesOfShells) {
   const Deck deck = with("numerics: {preset: accurate}\n"), plain = with("");
-  EXPECT_LT(std::get<Shell4>(deck.parts[2].element).hourglass_stiffness,
-            std::get<Shell4>(plain.parts[2].element).hourglass_stiffness);
+  const auto &shell = std::get<Shell4>(deck.parts[2].element),
+             &plain_shell = std::get<Shell4>(plain.parts[2].element);
+  EXPECT_EQ(shell.quadrature, ThicknessQuadrature::lobatto);
+  EXPECT_EQ(shell.thickness_points, plain_shell.thickness_points);
+  EXPECT_EQ(shell.hourglass_stiffness, plain_shell.hourglass_stiffness);
   EXPECT_EQ(std::get<Hex8>(deck.parts[0].element).hourglass_stiffness,
             std::get<Hex8>(plain.parts[0].element).hourglass_stiffness);
   EXPECT_LT(std::get<Hex8>(deck.parts[0].element).linear_bulk_viscosity,
@@ -75,6 +78,12 @@ TEST(Preset, AccurateLeavesWhatTheDeckSays) {
   const Deck deck = parse_deck(text + "numerics: {preset: accurate}\n", "deck.yaml", {"time.step_scale=0.6"});
   EXPECT_EQ(std::get<Hex8>(deck.parts[1].element).linear_bulk_viscosity, 0.07);
   EXPECT_EQ(deck.time.step_scale, 0.6);
+}
+
+// Two Lobatto points make bending three times as stiff.
+TEST(Preset, AccurateLeavesTheRuleOfShellsWhoseNumberOfPointsIsGiven) {
+  const Deck deck = with("numerics: {preset: accurate}\n", {"parts.plate.element.thickness_points=2"});
+  EXPECT_EQ(std::get<Shell4>(deck.parts[2].element).quadrature, ThicknessQuadrature::gauss);
 }
 
 TEST(Preset, SwitchesNothingOn) {

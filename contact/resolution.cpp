@@ -220,6 +220,7 @@ class Resolution {
   // direction in which they meet as well.
   void add_constraints(std::size_t ordinary) {
     const std::size_t known = scene_.contacts.size();
+    scene_.added.last_of_node.resize(scene_.surface.slaves(), -1);
     for (const Hit& hit : scene_.guard.hits) {
       const bool again = add(hit.at_start, ordinary);
       if (hit.at_hit && (again || hit.at_start.normal.isZero(0))) add(*hit.at_hit, ordinary);
@@ -240,13 +241,16 @@ class Resolution {
   // \returns whether such a constraint is there already
   bool add(const Contact& wanted, std::size_t ordinary) {
     if (wanted.normal.isZero(0)) return true;
-    for (std::size_t i = ordinary; i < scene_.contacts.size(); ++i) {
-      Contact& known = scene_.contacts[i];
+    int& last = scene_.added.last_of_node[index(wanted.node[0])];
+    for (int i = last; i >= 0; i = scene_.added.before[index(i) - ordinary]) {
+      Contact& known = scene_.contacts[index(i)];
       if (!is_same(known, wanted)) continue;
       known.gap = std::min(known.gap, wanted.gap);
       if (known.gap > 0) known.gap *= 0.5;
       return true;
     }
+    scene_.added.before.push_back(last);
+    last = static_cast<int>(scene_.contacts.size());
     scene_.contacts.push_back(wanted);
     return false;
   }
@@ -262,6 +266,9 @@ class Resolution {
     if (!scene_.zone_impulse.empty()) book_zones();
     if (scene_.step.active > 0 || at_walls) book_rows();
     add_to_totals(scene_);
+    for (std::size_t i = ordinary; i < scene_.contacts.size(); ++i)
+      scene_.added.last_of_node[index(scene_.contacts[i].node[0])] = -1;
+    scene_.added.before.clear();
     scene_.contacts.resize(ordinary);
   }
 

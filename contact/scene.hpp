@@ -88,6 +88,11 @@ struct ContactScene {
 
   ContactRows rows;  ///< of this step
   std::vector<std::size_t> row_of_contact;
+  /// Constraints of this step beyond those that were found ahead: chains by first node.
+  struct {
+    std::vector<int> last_of_node;  ///< in `contacts`, by slave node; -1: none
+    std::vector<int> before;        ///< the one before in its chain, of each
+  } added;
   NodesAtWalls walls;
   ImpulseSolver solver;
   std::vector<Eigen::Vector3d> zone_impulse;  ///< of each slave node, in this step; empty: no zone

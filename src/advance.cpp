@@ -202,7 +202,12 @@ void resolve_contact(Model& model, ThreadTeam& team) {
   const StageTimer timer(model.stages, Stage::contact);
   move_contact_walls(model);
   for (ContactScene& scene : model.contacts) {
-    resolve(scene, model.nodes, model.times.next, team, model.rigid.motion, model.ties, model.contact_walls);
+    try {
+      resolve(scene, model.nodes, model.times.next, team, model.rigid.motion, model.ties,
+              model.contact_walls);
+    } catch (const TooManyNear&) {
+      refuse_crowd(model);
+    }
     expect_driven_bodies_apart(model, scene);
     if (scene.unresolved.steps == 1 && scene.unresolved.time < 0) scene.unresolved.time = model.times.time;
     settle(model.rigid);

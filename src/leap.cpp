@@ -62,4 +62,30 @@ void expect_no_leap(const Model& model, const KineticEnergy& kinetic) {
       "and loads of the deck");
 }
 
+void refuse_crowd(const Model& model) {
+  const Nodes& nodes = model.nodes;
+  Vector3<double> mean{0, 0, 0};
+  const auto velocity = [&](std::size_t i) {
+    const double* v = nodes.record[i].velocity;
+    return Vector3<double>{v[0], v[1], v[2]};
+  };
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    mean = mean + (nodes.mass[i] / model.extent.mass) * velocity(i);
+  std::size_t fastest = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vector3<double> relative = velocity(i) - mean;
+    if (const double squared = dot(relative, relative); squared > largest) {
+      largest = squared;
+      fastest = i;
+    }
+  }
+  throw Breakdown(
+      "everything comes near everything in one step, at time " + written(model.times.time) + ": " +
+      name_of_node(model, fastest) + " moves " +
+      written(std::sqrt(largest) * model.times.next / model.extent.width) +
+      " widths of the scene relative to the mean of all; likely cause: velocities or loads that are "
+      "too large; check units, densities, velocities and loads of the deck");
+}
+
 }  // namespace brio

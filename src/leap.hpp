@@ -22,4 +22,8 @@ SceneExtent scene_extent(const Nodes& nodes);
 /// \throws Breakdown naming element, node, time and the likely cause
 void expect_no_leap(const Model& model, const KineticEnergy& kinetic);
 
+/// Everything came near everything in a step: the node that moves farthest in it, relative to all, is named.
+/// \throws Breakdown
+[[noreturn]] void refuse_crowd(const Model& model);
+
 }  // namespace brio

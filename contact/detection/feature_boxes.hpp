@@ -5,11 +5,17 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 #include "contact/global_search.hpp"
 
 namespace brio {
+
+/// Boxes that meet are so many that their pairs cannot be looked at: everything is near everything.
+struct TooManyNear : std::runtime_error {
+  TooManyNear() : std::runtime_error("contact search: everything is near everything") {}
+};
 
 class FeatureBoxes {
  public:
@@ -34,13 +40,14 @@ class FeatureBoxes {
   /// where it gives anything but `none`, then `visit(i, feature, judgement)`, by i, in the same order for any
   /// number of threads.
   template <class Judgement, class Judge, class Visit>
-  void find(std::span<const CaptureBox> queries, ThreadTeam& team, SearchCounts& counts, Judgement none,
-            const Judge& judge, const Visit& visit) {
+  void find(std::span<const CaptureBox> queries, ThreadTeam& team, SearchCounts& counts,
+            std::uint64_t most_pairs, Judgement none, const Judge& judge, const Visit& visit) {
     static_assert(sizeof(Judgement) == 1);
     for (std::size_t begin = 0; begin < queries.size(); begin += queries_at_once) {
       const auto part = queries.subspan(begin, std::min(queries_at_once, queries.size() - begin));
       tree_.find(part, team, found_, counts);
       find_changed(part, team, counts);
+      if (counts.candidate_pairs > most_pairs) throw TooManyNear();
       const auto each_found = [&](std::size_t i, auto&& call) {
         const auto first = static_cast<std::size_t>(found_.first[i]);
         const auto found = found_.of_box(i);

@@ -22,6 +22,10 @@ constexpr double most_leaving = 0.2;
 /// Of ContactOptions::reach_buffer: both features of a pair have a box that is larger on both sides.
 constexpr double share_of_buffer = 0.25;
 constexpr std::size_t nodes_a_range = 4096;
+/// Boxes that meet in a search, over all features. Neighbours are some tens; where motion takes nodes past
+/// each other, all are.
+constexpr std::size_t most_pairs_a_feature = 150;
+constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
 CaptureBox joined(const CaptureBox& a, const CaptureBox& b) {
   CaptureBox box{};
@@ -118,6 +122,8 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
                     options.edges,
                     depth};
   ++searches_;
+  const std::size_t all = surface.slaves() + surface.face.size() + features.edge.size();
+  most_pairs_ = depth.empty() ? counts.candidate_pairs + most_pairs_a_feature * all : no_limit;
   changed_ = !changes_.empty();
   kept_node_face_.clear();
   kept_edge_edge_.clear();
@@ -223,14 +229,14 @@ void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTea
   remember_all(edge_edge, kept_edge_edge_);
   node_face.clear();
   node_box_.find(
-      face_box_.boxes(), team, counts, Spacing::none,
+      face_box_.boxes(), team, counts, most_pairs_, Spacing::none,
       [&](std::size_t f, int s) { return node_face_spacing(scene, s, static_cast<int>(f)); },
       [&](std::size_t f, int s, Spacing spacing) {
         add_node_face(scene, motion.groups, s, static_cast<int>(f), spacing);
       });
   edge_edge.clear();
   edge_box_.find(
-      edge_box_.boxes(), team, counts, Spacing::none,
+      edge_box_.boxes(), team, counts, most_pairs_, Spacing::none,
       [&](std::size_t e, int other) {
         return other > static_cast<int>(e) ? edge_edge_spacing(scene, static_cast<int>(e), other)
                                            : Spacing::none;
@@ -297,14 +303,14 @@ void FeaturePairs::find_leaving(const Scene& scene, FeatureMotion& motion, Threa
   std::sort(kept_node_face_.begin(), kept_node_face_.end());
   gather(face_box_, face_);
   node_box_.find(
-      query_, team, counts, Spacing::none,
+      query_, team, counts, most_pairs_, Spacing::none,
       [&](std::size_t i, int s) { return node_face_spacing(scene, s, face_[i]); },
       [&](std::size_t i, int s, Spacing spacing) {
         add_node_face(scene, motion.groups, s, face_[i], spacing);
       });
   gather(node_box_, node_);
   face_box_.find(
-      query_, team, counts, Spacing::none,
+      query_, team, counts, most_pairs_, Spacing::none,
       [&](std::size_t i, int f) {
         return leaves(face_leaves_, f) ? Spacing::none : node_face_spacing(scene, node_[i], f);
       },
@@ -317,7 +323,7 @@ void FeaturePairs::find_leaving(const Scene& scene, FeatureMotion& motion, Threa
   std::sort(kept_edge_edge_.begin(), kept_edge_edge_.end());
   gather(edge_box_, edge_);
   edge_box_.find(
-      query_, team, counts, Spacing::none,
+      query_, team, counts, most_pairs_, Spacing::none,
       [&](std::size_t i, int other) {
         const int own = edge_[i];
         if (other == own || (leaves(edge_leaves_, other) && other < own)) return Spacing::none;

@@ -36,7 +36,8 @@ class FeaturePairs {
   bool is_due(const SurfaceFeatures& features, const Surface& surface, const FeatureMotion& motion,
               ThreadTeam& team);
   /// Renew the pairs of what has left its boxes, or where that is much, all; then the paths of the motion
-  /// restart. \param depth to which features of different bodies are paired; not empty: no face is flat
+  /// restart. \throws TooManyNear where there is no depth. \param depth to which features of different bodies
+  /// are paired; not empty: no face is flat
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
             const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
             const SearchedDepth& depth = {});
@@ -97,6 +98,7 @@ class FeaturePairs {
   /// wait.
   std::vector<std::uint64_t> kept_node_face_, kept_edge_edge_;
   std::uint64_t searches_ = 0;
+  std::uint64_t most_pairs_ = 0;  ///< of `counts`, in this search
 };
 
 /// Distance beyond touching at which constraints are formed, over the smallest edge.

@@ -49,6 +49,7 @@ FEATURES = {
                  "contact/step_totals.cpp", "contact/surface.cpp", "contact/enclosed.cpp", "contact/velocity_check.cpp",
                  "contact/edge_check.cpp", "contact/closest_segments.cpp"],
                 ["contact", "contact_search"], ["contact"]),
+    "audit": (["contact/audit/*.cpp"], ["audit"], []),
     "failure and deletion": (["src/erosion.cpp", "contact/erosion.cpp", "contact/surface_topology.cpp",
                               "contact/body_pieces.cpp", "materials/failing.hpp", "elements/lose.hpp"],
                              ["erosion"], ["deletion"]),

@@ -22,9 +22,10 @@ constexpr double most_leaving = 0.2;
 /// Of ContactOptions::reach_buffer: both features of a pair have a box that is larger on both sides.
 constexpr double share_of_buffer = 0.25;
 constexpr std::size_t nodes_a_range = 4096;
-/// Boxes that meet in a search, over all features. Neighbours are some tens; where motion takes nodes past
-/// each other, all are.
+/// Boxes that meet in a search: so many a feature, and so many times those of the last search for all (cells
+/// much finer than they are thick meet hundreds at rest). Where motion takes nodes past each other, all meet.
 constexpr std::size_t most_pairs_a_feature = 150;
+constexpr std::size_t most_growth = 4;
 constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
 CaptureBox joined(const CaptureBox& a, const CaptureBox& b) {
@@ -123,15 +124,18 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
                     depth};
   ++searches_;
   const std::size_t all = surface.slaves() + surface.face.size() + features.edge.size();
-  most_pairs_ = depth.empty() ? counts.candidate_pairs + most_pairs_a_feature * all : no_limit;
+  const std::uint64_t before = counts.candidate_pairs;
+  most_pairs_ = depth.empty() ? before + most_pairs_a_feature * all + most_growth * met_ : no_limit;
   changed_ = !changes_.empty();
   kept_node_face_.clear();
   kept_edge_edge_.clear();
   if (!reach_.empty()) take_in_changes(scene);
-  if (reach_.size() == surface.slaves() && collect_leaving(scene, motion))
+  if (reach_.size() == surface.slaves() && collect_leaving(scene, motion)) {
     find_leaving(scene, motion, team);
-  else
+  } else {
     find_all(scene, motion, team);
+    met_ = counts.candidate_pairs - before;
+  }
   node_face.close_up();
   edge_edge.close_up();
   forget_changes();

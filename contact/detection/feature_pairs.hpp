@@ -99,6 +99,7 @@ class FeaturePairs {
   std::vector<std::uint64_t> kept_node_face_, kept_edge_edge_;
   std::uint64_t searches_ = 0;
   std::uint64_t most_pairs_ = 0;  ///< of `counts`, in this search
+  std::uint64_t met_ = 0;         ///< boxes, in the last search for all
 };
 
 /// Distance beyond touching at which constraints are formed, over the smallest edge.

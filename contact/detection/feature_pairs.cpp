@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "contact/detection/edge_pairs.hpp"
 #include "contact/exclusion.hpp"
@@ -11,7 +12,7 @@ namespace brio {
 namespace {
 
 /// Steps of the present motion that boxes hold: at least so many, and as many as take a node as far as this
-/// share of the mean edge.
+/// share of the scale of the node.
 constexpr double least_steps_ahead = 10;
 constexpr double most_steps_ahead = 200;
 constexpr double way_ahead = 0.6;
@@ -19,13 +20,18 @@ constexpr double way_ahead = 0.6;
 constexpr double steps_of_notice = 4;
 /// Share of the nodes of which more than that leaving means to search for all.
 constexpr double most_leaving = 0.2;
+/// The scale of a node is the mean edge of all, or this times the shortest edge at it: boxes of slender cells
+/// hold a few neighbours, not hundreds.
+constexpr double most_of_own_edge = 4;
 /// Of ContactOptions::reach_buffer: both features of a pair have a box that is larger on both sides.
 constexpr double share_of_buffer = 0.25;
 constexpr std::size_t nodes_a_range = 4096;
-/// Boxes that meet in a search: so many a feature, and so many times those of the last search for all (cells
-/// much finer than they are thick meet hundreds at rest). Where motion takes nodes past each other, all meet.
-constexpr std::size_t most_pairs_a_feature = 150;
-constexpr std::size_t most_growth = 4;
+/// Boxes that meet in a search: so many a feature, and so many times those that do at rest (cells much finer
+/// than they are thick meet hundreds), where what is at rest grows by so much at a search for all. Where
+/// motion takes nodes past each other, all meet.
+constexpr std::uint64_t most_pairs_a_feature = 150;
+constexpr std::uint64_t most_of_rest = 3;
+constexpr double growth_of_rest = 1.1;
 constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
 CaptureBox joined(const CaptureBox& a, const CaptureBox& b) {
@@ -72,19 +78,29 @@ bool FeaturePairs::is_due(const SurfaceFeatures& features, const Surface& surfac
   return any_left || flat_.any_bends(features, motion, team);
 }
 
+double FeaturePairs::scale_of(std::size_t slave, const Scene& scene, const FeatureMotion& motion) {
+  const double* own = motion.node[slave].start;
+  double shortest = infinity;
+  for (int other : scene.features.ring.of(static_cast<int>(slave))) {
+    const double* end = motion.node[static_cast<std::size_t>(other)].start;
+    const Vector3<double> edge{end[0] - own[0], end[1] - own[1], end[2] - own[2]};
+    shortest = std::min(shortest, dot(edge, edge));
+  }
+  return std::min(scene.features.mean_edge, most_of_own_edge * std::sqrt(shortest));
+}
+
 void FeaturePairs::place(std::size_t slave, const Scene& scene, const FeatureMotion& motion) {
   const NodeMotion64& node = motion.node[slave];
   const Eigen::Vector3d step =
       motion.displacement(static_cast<int>(slave)) - Eigen::Map<const Eigen::Vector3d>(motion.frame());
-  const double length = step.norm();
-  const double steps =
-      std::clamp(length > 0 ? way_ahead * scene.features.mean_edge / length : most_steps_ahead,
-                 least_steps_ahead, most_steps_ahead);
+  const double length = step.norm(), scale = scale_of(slave, scene, motion), margin = scene.margin * scale;
+  const double steps = std::clamp(length > 0 ? way_ahead * scale / length : most_steps_ahead,
+                                  least_steps_ahead, most_steps_ahead);
   for (int axis = 0; axis < 3; ++axis) {
     const double x = node.start[axis] - motion.frame_since_restart()[axis];
     const double ahead = steps * step[axis];
-    reach_[slave].lower[axis] = x + std::min(ahead, 0.0) - scene.margin;
-    reach_[slave].upper[axis] = x + std::max(ahead, 0.0) + scene.margin;
+    reach_[slave].lower[axis] = x + std::min(ahead, 0.0) - margin;
+    reach_[slave].upper[axis] = x + std::max(ahead, 0.0) + margin;
   }
 }
 
@@ -118,14 +134,14 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   const Scene scene{features,
                     surface,
                     excluded,
-                    share_of_buffer * options.reach_buffer * features.mean_edge,
+                    share_of_buffer * options.reach_buffer,
                     proximity_band * features.smallest_edge,
                     options.edges,
                     depth};
   ++searches_;
   const std::size_t all = surface.slaves() + surface.face.size() + features.edge.size();
   const std::uint64_t before = counts.candidate_pairs;
-  most_pairs_ = depth.empty() ? before + most_pairs_a_feature * all + most_growth * met_ : no_limit;
+  most_pairs_ = depth.empty() ? before + most_pairs_a_feature * all + most_of_rest * met_at_rest_ : no_limit;
   changed_ = !changes_.empty();
   kept_node_face_.clear();
   kept_edge_edge_.clear();
@@ -134,7 +150,9 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
     find_leaving(scene, motion, team);
   } else {
     find_all(scene, motion, team);
-    met_ = counts.candidate_pairs - before;
+    const std::uint64_t met = counts.candidate_pairs - before;
+    const auto grown_rest = static_cast<std::uint64_t>(growth_of_rest * static_cast<double>(met_at_rest_));
+    met_at_rest_ = depth.empty() && met_at_rest_ > 0 ? std::min(met, grown_rest) : met;
   }
   node_face.close_up();
   edge_edge.close_up();

@@ -45,6 +45,8 @@ class FeaturePairs {
   /// for all features at them. \param grown nodes whose radii have grown
   void change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
               std::span<const int> grown);
+  /// As many boxes meet at rest as in the last search of `other`, which had a depth.
+  void take_rest_of(const FeaturePairs& other) { met_at_rest_ = other.met_at_rest_; }
   /// The next search is for all.
   void expire() { reach_.clear(); }
   std::uint64_t searches() const { return searches_; }
@@ -54,13 +56,15 @@ class FeaturePairs {
     const SurfaceFeatures& features;
     const Surface& surface;
     const Lists& excluded;
-    double margin;  ///< of boxes of nodes
+    double margin;  ///< of boxes of nodes, over the scale of the node
     double band;    ///< half of it for either feature
     bool edges;     ///< whether edges of faces meet
     SearchedDepth depth;
   };
 
   bool is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const;
+  /// Length by which the box of a node exceeds its place.
+  static double scale_of(std::size_t slave, const Scene& scene, const FeatureMotion& motion);
   void place(std::size_t slave, const Scene& scene, const FeatureMotion& motion);
   CaptureBox box_of(const Surface& surface, const Face& face) const;
   CaptureBox box_of(const EdgeFeature& edge) const;
@@ -98,8 +102,8 @@ class FeaturePairs {
   /// wait.
   std::vector<std::uint64_t> kept_node_face_, kept_edge_edge_;
   std::uint64_t searches_ = 0;
-  std::uint64_t most_pairs_ = 0;  ///< of `counts`, in this search
-  std::uint64_t met_ = 0;         ///< boxes, in the last search for all
+  std::uint64_t most_pairs_ = 0;   ///< of `counts`, in this search
+  std::uint64_t met_at_rest_ = 0;  ///< boxes
 };
 
 /// Distance beyond touching at which constraints are formed, over the smallest edge.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "contact/exclusion.hpp"
 #include "contact/face_geometry.hpp"
@@ -15,6 +16,8 @@ namespace brio {
 using Eigen::Vector3d;
 
 namespace {
+
+constexpr std::size_t faces_a_range = 256;
 
 template <class NodesOf>
 CaptureBox box_around(const Nodes& nodes, const NodesOf& global) {
@@ -31,6 +34,25 @@ CaptureBox box_around(const Nodes& nodes, const NodesOf& global) {
 std::array<int, 2> ends_of(const Surface& surface, const EdgeFeature& edge) {
   return {surface.node[static_cast<std::size_t>(edge.node[0])],
           surface.node[static_cast<std::size_t>(edge.node[1])]};
+}
+
+/// Of the largest distance between an edge and a face: far more than the rounding of `is_beside`.
+constexpr double beside_share = 1e-10;
+
+// Whether the edge is on one side of the face, along the normal of its diagonals, beyond rounding.
+bool is_beside(const MovingNode& way, const FaceVertices& at) {
+  const Vector3d first = at[2] - at[0], second = at[3] - at[1], normal = first.cross(second);
+  const double start = normal.dot(way.start - at[0]), end = start + normal.dot(way.displacement);
+  double lower = 0, upper = 0, largest = 0;
+  for (const Vector3d& corner : at) {
+    const double height = normal.dot(corner - at[0]);
+    lower = std::min(lower, height);
+    upper = std::max(upper, height);
+    largest = std::max(largest, (way.start - corner).lpNorm<1>());
+  }
+  const double surplus =
+      beside_share * first.norm() * second.norm() * (largest + way.displacement.lpNorm<1>());
+  return std::min(start, end) > upper + surplus || std::max(start, end) < lower - surplus;
 }
 
 // Share of the edge at which it first meets the face.
@@ -62,56 +84,56 @@ std::optional<double> first_meeting(const MovingNode& way, const FaceVertices& a
 
 }  // namespace
 
-std::vector<Piercing> find_piercings(const SurfaceFeatures& features, const Surface& surface,
-                                     const Lists& excluded, const ContactOptions& options, const Nodes& nodes,
-                                     ThreadTeam& team) {
+std::optional<Piercing> find_piercing(const SurfaceFeatures& features, const Surface& surface,
+                                      const Lists& excluded, const ContactOptions& options,
+                                      const Nodes& nodes, bool shells_alone, ThreadTeam& team) {
   std::vector<CaptureBox> edges(features.edge.size(), empty_box), faces(surface.face.size(), empty_box);
   for (std::size_t e = 0; e < edges.size(); ++e)
     if (!features.edge[e].is_point()) edges[e] = box_around(nodes, ends_of(surface, features.edge[e]));
   for (std::size_t f = 0; f < faces.size(); ++f)
-    if (surface.face[f].alive()) faces[f] = box_around(nodes, surface.face[f].node);
+    if (const Face& face = surface.face[f]; face.alive() && (face.shell || !shells_alone))
+      faces[f] = box_around(nodes, face.node);
   GlobalSearch search(options.search);
   CandidatePairs pairs;
   SearchCounts counts;
   search.find(SearchNodes(edges), faces, team, pairs, counts);
 
-  std::vector<Piercing> found;
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  const auto first_through = [&](std::size_t f) -> std::optional<Piercing> {
     const Face& face = surface.face[f];
-    if (!face.alive()) continue;
+    if (!face.alive()) return {};
+    const FaceVertices at = vertices(nodes, face);
     for (int e : pairs.of_box(f)) {
       const EdgeFeature& edge = features.edge[static_cast<std::size_t>(e)];
       const std::array<int, 2> ends = ends_of(surface, edge);
       if (face.has(ends[0]) || face.has(ends[1]) || surface.pairs.parts_apart(edge.part, face.part)) continue;
+      if (shells_alone && surface.held.one_piece(face.body, edge.body)) continue;
       if (surface.never_touch(edge.node[0], face) || surface.never_touch(edge.node[1], face)) continue;
       const bool spaced = !is_excluded(excluded, edge.node[0], static_cast<int>(f)) &&
                           !is_excluded(excluded, edge.node[1], static_cast<int>(f));
       if (!spaced && edge.kind == EdgeKind::cross_diagonal) continue;
       const Vector3d from = position(nodes, ends[0]), along = position(nodes, ends[1]) - from;
-      if (const auto share = first_meeting({from, along}, vertices(nodes, face), spaced))
-        found.push_back({e, static_cast<int>(f), from + *share * along});
+      if (is_beside({from, along}, at)) continue;
+      if (const auto share = first_meeting({from, along}, at, spaced))
+        return Piercing{e, static_cast<int>(f), from + *share * along};
     }
-  }
-  return found;
+    return {};
+  };
+  std::vector<std::optional<Piercing>> first((faces.size() + faces_a_range - 1) / faces_a_range);
+  team.for_ranges(faces.size(), faces_a_range, [&](std::size_t begin, std::size_t end) {
+    std::optional<Piercing>& own = first[begin / faces_a_range];
+    for (std::size_t f = begin; f < end && !own; ++f) own = first_through(f);
+  });
+  const auto any = std::find_if(first.begin(), first.end(), [](const auto& one) { return one.has_value(); });
+  return any == first.end() ? std::nullopt : *any;
 }
 
 void expect_nothing_crosses(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
                             const ContactOptions& options, const Nodes& nodes, bool shells_alone,
                             ThreadTeam& team) {
-  std::vector<Piercing> found = find_piercings(features, surface, excluded, options, nodes, team);
-  const auto edge_of = [&](const Piercing& one) -> const EdgeFeature& {
-    return features.edge[static_cast<std::size_t>(one.edge)];
-  };
-  const auto face_of = [&](const Piercing& one) -> const Face& {
-    return surface.face[static_cast<std::size_t>(one.face)];
-  };
-  if (shells_alone)
-    std::erase_if(found, [&](const Piercing& one) {
-      return !face_of(one).shell || surface.held.one_piece(face_of(one).body, edge_of(one).body);
-    });
-  if (found.empty()) return;
-  const Piercing& told = found.front();
-  refuse(surface, edge_of(told), face_of(told), told.point);
+  const auto found = find_piercing(features, surface, excluded, options, nodes, shells_alone, team);
+  if (found)
+    refuse(surface, features.edge[static_cast<std::size_t>(found->edge)],
+           surface.face[static_cast<std::size_t>(found->face)], found->point);
 }
 
 }  // namespace brio

@@ -7,7 +7,7 @@
 /// tie joins, or that the deck keeps from touching.
 
 #include <Eigen/Dense>
-#include <vector>
+#include <optional>
 
 #include "contact/detection/features.hpp"
 #include "contact/options.hpp"
@@ -23,13 +23,14 @@ struct Piercing {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
 };
 
-/// All of them, by face and edge. \param excluded pairs of nodes and faces that are one piece
-std::vector<Piercing> find_piercings(const SurfaceFeatures& features, const Surface& surface,
-                                     const Lists& excluded, const ContactOptions& options, const Nodes& nodes,
-                                     ThreadTeam& team);
+/// The first by face and edge. \param excluded pairs of nodes and faces that are one piece \param
+/// shells_alone look only at the middle surfaces of shells, where other bodies cross them: they have no
+/// inside that could be left
+std::optional<Piercing> find_piercing(const SurfaceFeatures& features, const Surface& surface,
+                                      const Lists& excluded, const ContactOptions& options,
+                                      const Nodes& nodes, bool shells_alone, ThreadTeam& team);
 
-/// \param shells_alone look only at the middle surfaces of shells, where other bodies cross them: they have
-/// no inside that could be left. \throws std::invalid_argument naming parts and place of a crossing.
+/// \throws std::invalid_argument naming parts and place of the first piercing, of which the parameters are.
 void expect_nothing_crosses(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
                             const ContactOptions& options, const Nodes& nodes, bool shells_alone,
                             ThreadTeam& team);

@@ -93,6 +93,7 @@ class GapMaker {
     }
     expect_uncrossed(false);
     expect_bodies_apart(scene_, nodes_);
+    scene_.pairs.take_rest_of(pairs_);
     return std::move(report_);
   }
 

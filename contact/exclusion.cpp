@@ -42,11 +42,16 @@ struct PositionKept {
   Vector3d operator[](int node) const { return positions[static_cast<std::size_t>(node)]; }
 };
 
+/// Whether the distance of a point to a face is less than `reach`.
 template <class Reference>
-double squared_distance(const Reference& reference, const Vector3d& from, const Face& face) {
-  const FaceVertices vertices{reference[face.node[0]], reference[face.node[1]], reference[face.node[2]],
-                              reference[face.node[3]]};
-  return closest_point_on_quad(from, vertices).squared_distance;
+bool is_within(const Reference& reference, const Vector3d& from, const Face& face, double reach) {
+  const double square = reach * reach;
+  FaceVertices vertices;
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    vertices[k] = reference[face.node[k]];
+    if ((vertices[k] - from).squaredNorm() < square) return true;
+  }
+  return closest_point_on_quad(from, vertices).squared_distance < square;
 }
 
 }  // namespace
@@ -57,20 +62,19 @@ void ShellWalk::spread(const Surface& surface, const Reference& reference, int s
   visited_.resize(surface.face.size(), -1);
   ++walk_;
   front_.clear();
-  const auto visit = [&](int face) {
-    visited_[static_cast<std::size_t>(face)] = walk_;
-    front_.push_back(face);
-  };
   for (int f : surface.faces_of.of(slave))
-    if (surface.face[static_cast<std::size_t>(f)].shell) visit(f);
+    if (surface.face[static_cast<std::size_t>(f)].shell) {
+      visited_[static_cast<std::size_t>(f)] = walk_;
+      front_.push_back(f);
+    }
   const Vector3d centre = reference[surface.node[static_cast<std::size_t>(slave)]];
   for (std::size_t i = 0; i < front_.size(); ++i)
     for (int corner : surface.face[static_cast<std::size_t>(front_[i])].node)
       for (int next : surface.faces_of.of(surface.slave(corner))) {
         const auto n = static_cast<std::size_t>(next);
         if (!surface.face[n].shell || visited_[n] == walk_) continue;
-        const double reach = within(n);
-        if (squared_distance(reference, centre, surface.face[n]) < reach * reach) visit(next);
+        visited_[n] = walk_;
+        if (is_within(reference, centre, surface.face[n], within(n))) front_.push_back(next);
       }
 }
 

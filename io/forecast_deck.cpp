@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <optional>
 
 #include "io/deck_error.hpp"
@@ -128,9 +127,9 @@ class Exploration {
 
 ScenePrepared prepare_scene(const ForecastOptions& options) {
   ScenePrepared scene;
-  const std::clock_t start = std::clock();
-  scene.deck = load_deck(options.deck, options.overrides, scene.model);
-  scene.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  const double start = work_clock(options.threads);
+  scene.deck = load_deck(options.deck, options.overrides, options.threads, scene.model);
+  scene.seconds = work_clock(options.threads) - start;
   ThreadTeam team(options.threads);
   make_first_step(scene.deck, scene.model, team);
   return scene;

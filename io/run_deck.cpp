@@ -206,13 +206,13 @@ std::string march(const Deck& deck, const RunOptions& options, Model& model, Out
 
 }  // namespace
 
-Model build_scene(const Deck& deck) {
+Model build_scene(const Deck& deck, int threads) {
   check_scene_size(deck);
   try {
     std::vector<Mesh> meshes;
     meshes.reserve(deck.parts.size());
     for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
-    return build(deck, meshes);
+    return build(deck, meshes, threads);
   } catch (const BuildError& fault) {
     throw DeckError((fault.place.empty() ? deck.file : fault.place) + ": " + fault.what());
   } catch (const std::bad_alloc&) {
@@ -220,9 +220,10 @@ Model build_scene(const Deck& deck) {
   }
 }
 
-Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, Model& model) {
+Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads,
+               Model& model) {
   Deck deck = read_deck(path, overrides);
-  model = build_scene(deck);
+  model = build_scene(deck, threads);
   return deck;
 }
 
@@ -240,7 +241,7 @@ void make_first_step(const Deck& deck, Model& model, ThreadTeam& team) {
 RunOutcome run_deck(const RunOptions& options) {
   const auto start = Clock::now();
   Model model;
-  const Deck deck = load_deck(options.deck, options.overrides, model);
+  const Deck deck = load_deck(options.deck, options.overrides, options.threads, model);
   if (options.built) options.built();
   ThreadTeam team(options.threads);
   const std::string fault = fault_of([&] { make_first_step(deck, model, team); });

@@ -50,10 +50,11 @@ struct RunOutcome {
 };
 
 /// Parts of a deck meshed and the scene put together. \throws DeckError
-Model build_scene(const Deck& deck);
+Model build_scene(const Deck& deck, int threads = 1);
 
 /// A deck read, its parts meshed and the scene put together. \throws DeckError
-Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, Model& model);
+Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>& overrides, int threads,
+               Model& model);
 
 /// The first step of a scene, with which it is known how many there will be.
 /// \throws DeckError where these are so many that the time stops advancing, Breakdown

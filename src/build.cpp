@@ -284,7 +284,7 @@ void follow_moved_nodes(const Deck& deck, std::span<const Mesh> meshes, Model& m
 
 // Small initial overlaps are removed by moving nodes; elements that are broken were named before.
 void make_contact(const Deck& deck, std::span<const Mesh> meshes,
-                  const std::vector<std::vector<int>>& connectivity, Model& model) {
+                  const std::vector<std::vector<int>>& connectivity, int threads, Model& model) {
   check_debris_in_contact(deck);
   if (!deck.contact) return;
   std::vector<SurfacePart> surfaces;
@@ -315,7 +315,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     if (!rules.empty()) model.contacts.back().surface.pairs = {rules, surfaces, model.nodes.size()};
     if (!model.ties.empty()) hold(model.contacts.back(), model.ties, part_of_surface);
     if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
-    ThreadTeam team(1);
+    ThreadTeam team(threads);
     for (InitialOverlap& overlap : make_initial_gap(model.contacts.back(), model.nodes, team))
       model.initial_overlaps.push_back(std::move(overlap));
   } catch (const std::invalid_argument& fault) {
@@ -358,7 +358,7 @@ void open_books(Model& model) {
 
 }  // namespace
 
-Model build(const Deck& deck, std::span<const Mesh> meshes) {
+Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   Model model;
   std::vector<std::vector<int>> connectivity;
   SharedNodes shared = share_nodes(deck, meshes);
@@ -373,7 +373,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes) {
   make_ties(deck, meshes, connectivity, model);
   lump_masses(deck, meshes, model);
   const std::size_t of_walls = model.initial_overlaps.size();
-  make_contact(deck, meshes, connectivity, model);
+  make_contact(deck, meshes, connectivity, threads, model);
   if (model.initial_overlaps.size() > of_walls) follow_moved_nodes(deck, meshes, model);
   if (!model.ties.empty()) condense(model.ties, model.nodes);
   expect_nothing_behind_walls(meshes, model);

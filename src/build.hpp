@@ -13,7 +13,7 @@ namespace brio {
 /// \throws BuildError for what only shows when the scene is put together: elements without volume, sets
 /// without nodes,
 ///         initial overlap that is too large.
-Model build(const Deck& deck, std::span<const Mesh> meshes);
+Model build(const Deck& deck, std::span<const Mesh> meshes, int threads = 1);
 
 /// Whether the deck lets a part touch others, or itself.
 bool is_in_contact(const Deck& deck, const std::string& part);

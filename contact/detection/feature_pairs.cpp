@@ -218,10 +218,10 @@ Spacing FeaturePairs::spacing_of_new(const std::vector<std::uint64_t>& kept, int
 
 void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
   motion.restart(scene.features, scene.surface, team);
-  if (scene.depth.empty())
-    flat_.measure(scene.features, motion);
-  else
+  if (scene.depth.bends_faces)
     flat_.forget(scene.surface.face.size());
+  else
+    flat_.measure(scene.features, motion);
   const Surface& surface = scene.surface;
   reach_.assign(surface.slaves(), empty_box);
   node_box_.start(surface.slaves());
@@ -369,11 +369,11 @@ void FeaturePairs::drop_dead(const Scene& scene) {
 // None: they are not paired.
 Spacing FeaturePairs::node_face_spacing(const Scene& scene, int slave, int f) const {
   const Face& face = scene.surface.face[static_cast<std::size_t>(f)];
-  if (face.has(scene.surface.node[static_cast<std::size_t>(slave)]) || scene.surface.never_touch(slave, face))
-    return Spacing::none;
   if (face.body == scene.surface.body[static_cast<std::size_t>(slave)] && !scene.depth.empty() &&
       !grown(face_box_.of(f), -0.5 * (scene.depth.of(scene.surface, face) + scene.depth.of(slave)))
            .overlaps(node_box_.of(slave)))
+    return Spacing::none;
+  if (face.has(scene.surface.node[static_cast<std::size_t>(slave)]) || scene.surface.never_touch(slave, face))
     return Spacing::none;
   const bool spaced = !is_excluded(scene.excluded, slave, f);
   if (!spaced) {
@@ -391,18 +391,19 @@ Spacing FeaturePairs::edge_edge_spacing(const Scene& scene, int first, int secon
   const EdgeFeature& a = scene.features.edge[static_cast<std::size_t>(first)];
   const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
   if (!scene.edges && a.of_face() && b.of_face()) return Spacing::none;
-  if (!may_be_paired(scene.surface, a, b)) return Spacing::none;
   if (a.body == b.body && !scene.depth.empty() &&
       !grown(edge_box_.of(first), -0.5 * (scene.depth.of(a) + scene.depth.of(b)))
            .overlaps(edge_box_.of(second)))
     return Spacing::none;
+  if (!may_be_paired(scene.surface, a, b)) return Spacing::none;
   const bool spaced = !are_of_one_piece(scene.features, scene.surface, scene.excluded, a, b);
   if (!spaced && !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b)))
     return Spacing::none;
   const bool only_skins = a.radius + b.radius <= 2 * scene.features.skin;
   const Spacing spacing =
       spaced ? spacing_of_new(kept_edge_edge_, first, second, only_skins) : Spacing::skins;
-  const bool radii = spacing == Spacing::radii;
+  // At the start nothing may be missing when such a face bends.
+  const bool radii = spacing == Spacing::radii && scene.depth.empty();
   return flat_.pairs(a, radii) && flat_.pairs(b, radii) ? spacing : Spacing::none;
 }
 

@@ -12,6 +12,7 @@ namespace brio {
 
 struct SearchedDepth {
   std::span<const double> of_node;  ///< slave; empty: nothing overlaps
+  bool bends_faces = false;         ///< nodes are going to be moved: no face is flat
 
   bool empty() const { return of_node.empty(); }
   double of(int slave) const { return empty() ? 0 : of_node[static_cast<std::size_t>(slave)]; }

@@ -31,6 +31,9 @@ constexpr int most_rounds = 50;
 /// Where only the gap is missing, it is made for as long as this many rounds halve what is missing.
 constexpr int rounds_to_halve = 10;
 constexpr SolveOptions solve_options{2000, 1e-7};
+/// What boxes hold of the moves of nodes (ContactOptions::reach_buffer): where overlaps are only looked for,
+/// those of retracted faces.
+constexpr double buffer_of_retraction = 0.2;
 /// Of a motion that would make surfaces cross, the share of its first hit.
 constexpr double share_of_hit = 0.5;
 
@@ -79,19 +82,19 @@ class GapMaker {
     search();
     expect_uncrossed(true);
     retract();
+    const bool crosses = any_crosses();
+    if (crosses) search_for_moves();
     find(0);
     while (exclude_within_pieces()) {
-      search();
+      crosses ? search_for_moves() : search();
       find(0);
     }
     expect_within_limit();
     for (const SidedPair& pair : found_)
       if (is_missing(pair) && (!is_held(pair) || must_move(pair))) record(pair);
-    if (!report_.empty()) {
-      make_gap();
-      record_motion();
-    }
-    expect_uncrossed(false);
+    const bool moves = !report_.empty() && make_gap();
+    record_motion();
+    if (crosses || moves) expect_uncrossed(false);
     expect_bodies_apart(scene_, nodes_);
     scene_.pairs.take_rest_of(pairs_);
     return std::move(report_);
@@ -121,16 +124,23 @@ class GapMaker {
     for (double& depth : node_depth_) depth = share * (depth < infinity ? depth : features_.smallest_edge);
   }
 
-  // Boxes hold moves of nodes by the limit.
-  void search() {
+  // Overlaps are looked for as all is drawn. An edge that passes through a flat face is not near a side of
+  // it.
+  void search() { search(buffer_of_retraction, {node_depth_}); }
+  // Nodes are moved by the limit.
+  void search_for_moves() {
+    const ContactOptions& options = scene_.options;
+    search(std::max(options.reach_buffer, 2 * options.initial_overlap_limit), {node_depth_, true});
+  }
+  void search(double reach_buffer, const SearchedDepth& depth) {
     displacements_.clear();
     motion_.forget();
     motion_.begin(features_, surface_, nodes_, team_);
     motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
     ContactOptions grown = scene_.options;
-    grown.reach_buffer = std::max(grown.reach_buffer, 2 * scene_.options.initial_overlap_limit);
+    grown.reach_buffer = reach_buffer;
     pairs_.expire();
-    pairs_.find(features_, surface_, scene_.excluded, grown, motion_, team_, {node_depth_});
+    pairs_.find(features_, surface_, scene_.excluded, grown, motion_, team_, depth);
   }
   void find(double band) {
     find_sided_pairs(features_, surface_, nodes_, pairs_, {node_depth_}, band, found_);
@@ -211,7 +221,14 @@ class GapMaker {
       near_[entry].insert(pair.slave);
       report_[entry].nodes = static_cast<int>(near_[entry].size());
     }
-    if (!touching.empty()) search();
+    if (!touching.empty() && has_left_boxes()) search();
+  }
+
+  // Whether a retracted face may have come near what it is not paired with.
+  bool has_left_boxes() {
+    motion_.begin(features_, surface_, nodes_, team_);
+    motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
+    return pairs_.is_due(features_, surface_, motion_, team_);
   }
 
   std::size_t entry_of(const std::array<int, 2>& parts) {
@@ -262,11 +279,12 @@ class GapMaker {
     return worst;
   }
 
-  void make_gap() {
+  // \returns whether nodes were moved
+  bool make_gap() {
     double missing = 0, missing_before = infinity;
     for (int round = 0;; ++round) {
       const SidedPair* worst = worst_missing();
-      if (worst == nullptr) break;
+      if (worst == nullptr) return round > 0;
       const bool only_gap = !must_move(*worst);
       missing = -worst->contact.gap;
       if (!only_gap && (round >= most_rounds || is_held(*worst))) {
@@ -274,12 +292,13 @@ class GapMaker {
         refuse(*worst, "which moving nodes does not remove");
       }
       if (round % rounds_to_halve == 0) {
-        if (round >= most_rounds || (only_gap && missing > 0.5 * missing_before)) break;
+        if (round >= most_rounds || (only_gap && missing > 0.5 * missing_before)) return true;
         missing_before = missing;
       }
+      if (round == 0) search_for_moves();
       find(deepest() + 2 * features_.skin);
       move_apart();
-      search();
+      search_for_moves();
       find(0);
     }
   }
@@ -379,6 +398,10 @@ class GapMaker {
     return 0;
   }
 
+  bool any_crosses() const {
+    return find_piercing(features_, surface_, scene_.excluded, scene_.options, nodes_, false, team_)
+        .has_value();
+  }
   void expect_uncrossed(bool shells_alone) const {
     expect_nothing_crosses(features_, surface_, scene_.excluded, scene_.options, nodes_, shells_alone, team_);
   }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <compare>
 #include <set>
+#include <span>
 
 #include "contact/closest_segments.hpp"
 #include "contact/detection/sided_look.hpp"
@@ -56,6 +57,11 @@ class Retraction {
   }
 
  private:
+  /// A face of another body near a node.
+  struct ToBody {
+    int slave, body, face;
+    auto operator<=>(const ToBody&) const = default;
+  };
   const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
 
   void look_at_node_and_face(std::size_t p) {
@@ -104,25 +110,36 @@ class Retraction {
 
   // Bodies of which a node of one lies in the other, deeper than the gap, have to be moved apart instead.
   void find_overlapping() {
-    struct Near {
-      int face;
-      ClosestPoint point;
-    };
-    std::map<std::pair<int, int>, Near> nearest;  // of a node to a body
+    std::vector<ToBody> order;
     for (std::size_t p = 0; p < pairs_.node_face.size(); ++p) {
       const int s = pairs_.node_face.first(p), f = pairs_.node_face.second(p);
       const Face& other = face(f);
       if (other.shell || !are_two(surface_.body[static_cast<std::size_t>(s)], other.body)) continue;
-      const ClosestPoint point = closest_point_on_quad(look_.at(s), look_.corners(other));
-      const auto [known, is_new] = nearest.try_emplace({s, other.body}, Near{f, point});
-      if (!is_new && point.squared_distance < known->second.point.squared_distance)
-        known->second = {f, point};
+      order.push_back({s, other.body, f});
     }
-    for (const auto& [pair, near] : nearest) {
-      if (near.point.squared_distance <= 4 * features_.skin * features_.skin) continue;
-      if (!is_outside(surface_, nodes_, near.face, near.point))
-        overlapping_.insert(std::minmax(surface_.body[static_cast<std::size_t>(pair.first)], pair.second));
+    std::sort(order.begin(), order.end());
+    for (auto begin = order.begin(); begin != order.end();) {
+      const auto end = std::find_if(begin, order.end(), [&](const ToBody& one) {
+        return one.slave != begin->slave || one.body != begin->body;
+      });
+      look_whether_inside({begin, end});
+      begin = end;
     }
+  }
+
+  void look_whether_inside(std::span<const ToBody> faces) {
+    const int s = faces.front().slave, body = faces.front().body;
+    int nearest = -1;
+    ClosestPoint point;
+    for (const ToBody& one : faces) {
+      const ClosestPoint here = closest_point_on_quad(look_.at(s), look_.corners(face(one.face)));
+      if (nearest >= 0 && !(here.squared_distance < point.squared_distance)) continue;
+      nearest = one.face;
+      point = here;
+    }
+    if (point.squared_distance <= 4 * features_.skin * features_.skin) return;
+    if (!is_outside(surface_, nodes_, nearest, point))
+      overlapping_.insert(std::minmax(surface_.body[static_cast<std::size_t>(s)], body));
   }
 
   bool are_two(int body, int other) const {

@@ -56,7 +56,7 @@ void run_with_traps(const Shortened& shortened) {
   const FloatingPointTraps traps;
   Model model;
   const Deck deck = load_deck(std::string(BRIO_SOURCE_DIR "/inputs/") + shortened.name + ".yaml",
-                              shortened.overrides, model);
+                              shortened.overrides, 2, model);
   ThreadTeam team(2);
   run(model, deck, team);
   EXPECT_EQ(model.times.time, deck.time.end);

@@ -25,7 +25,9 @@ bool kinds_meet(const EdgeFeature& a, const EdgeFeature& b) {
   return with_node(a, b) && with_node(b, a) && with_particle(a, b) && with_particle(b, a);
 }
 
+// But for opposite sides: a face may collapse until they meet.
 bool on_one_face(const EdgeFeature& a, const EdgeFeature& b) {
+  if (!a.is_diagonal() && !b.is_diagonal()) return false;
   for (int f : a.face)
     for (int g : b.face)
       if (f >= 0 && f == g) return true;

@@ -4,10 +4,11 @@
 /// Every node has a box that holds its motion of some steps ahead, in the frame of the mean motion; features
 /// whose boxes meet are paired. A search is due when the end of a node's step leaves its box, for the
 /// features at such nodes alone: until then no pair is missing, and a fast splinter makes nobody else search.
-/// Left out are pairs that share a node, that are parts of one rigid body, of one face, or that the deck
-/// keeps from touching. Pairs of one piece (the fold of a shell, the sides of one element) are listed too:
-/// not their radii, which overlap as drawn, but two skins are kept between them. What a deletion pairs anew
-/// begins as near as it was: such a pair waits with two skins until it has been apart by its radii.
+/// Left out are pairs that share a node, that are parts of one rigid body, of one face (but for its opposite
+/// sides), or that the deck keeps from touching. Pairs of one piece (the fold of a shell, the sides of one
+/// element) are listed too: not their radii, which overlap as drawn, but two skins are kept between them.
+/// What a deletion pairs anew begins as near as it was: such a pair waits with two skins until it has been
+/// apart by its radii.
 ///
 /// Diagonals of a flat face are not paired (face_flatness.hpp).
 

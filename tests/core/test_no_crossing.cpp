@@ -161,6 +161,34 @@ INSTANTIATE_TEST_SUITE_P(Speeds, BlockOnSheet,
                          ::testing::Values(std::pair(0.02, 0.05), std::pair(0.02, 0.3), std::pair(0.005, 0.3),
                                            std::pair(0.02, 1.0)));
 
+// Faces of the block are crushed until opposite sides of them meet.
+TEST(CrushedBlock, DoesNotCrossItself) {
+  Deck deck;
+  deck.materials = {{"material", ElasticPlastic{.density = 7800,
+                                                .youngs_modulus = 2e11,
+                                                .poissons_ratio = 0.3,
+                                                .yield_stress = 3e8,
+                                                .hardening_modulus = 1e9}}};
+  Part block = box("block", {0.02, 0.02, 0.02}, {4, 4, 4}, {0, 0, 0}, hex8());
+  block.placement.rotate = Rotation{{1, 0.3, 0}, 12};
+  block.placement.translate = {0.001, 0.0005, 0.016};
+  PlateMesh mesh;
+  mesh.size = {0.1, 0.1};
+  mesh.elements = {20, 20};
+  Shell4 element;
+  element.thickness = 2e-3;
+  deck.parts = {block, {"sheet", mesh, {}, element, "material"}};
+  deck.boundary_conditions = {fix("sheet.boundary", {0, 1, 2, 3, 4, 5})};
+  deck.initial_conditions = {moving("block", {0, 0, -1500})};
+  deck.contact = with_friction(0.2);
+  deck.time.end = 2.6e-5;
+  const Outcome outcome = run_looking(deck, 1);
+  EXPECT_GT(outcome.looks, 100);
+  EXPECT_EQ(outcome.crossings, 0);
+  EXPECT_EQ(outcome.unresolved, 0u);
+  EXPECT_LT(outcome.energy_error, 0.01);
+}
+
 // A block that slides without friction over a floor of facets of random shapes meets nothing at their edges.
 TEST(FacetsOfAFloor, DoNotStopABlock) {
   Deck deck;

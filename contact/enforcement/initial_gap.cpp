@@ -287,10 +287,10 @@ class GapMaker {
       if (worst == nullptr) return round > 0;
       const bool only_gap = !must_move(*worst);
       missing = -worst->contact.gap;
-      if (!only_gap && (round >= most_rounds || is_held(*worst))) {
-        expect_bodies_apart(scene_, nodes_);
-        refuse(*worst, "which moving nodes does not remove");
-      }
+      const bool is_last = round >= most_rounds || is_held(*worst);
+      if (!only_gap && (round > 0 || is_last))
+        expect_bodies_apart(scene_, nodes_);  // before many rounds in vain
+      if (!only_gap && is_last) refuse(*worst, "which moving nodes does not remove");
       if (round % rounds_to_halve == 0) {
         if (round >= most_rounds || (only_gap && missing > 0.5 * missing_before)) return true;
         missing_before = missing;

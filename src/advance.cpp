@@ -6,6 +6,7 @@
 
 #include "contact/audit/audit.hpp"
 #include "src/diagnosis.hpp"
+#include "src/laid_open.hpp"
 #include "src/leap.hpp"
 #include "src/motion.hpp"
 #include "src/motion_through_walls.hpp"
@@ -305,12 +306,14 @@ void erode_elements(Model& model) {
   if (!model.erosion) return;
   const StageTimer timer(model.stages, Stage::erosion);
   Erosion& erosion = *model.erosion;
-  erode(erosion, model.schedule, model.sweep_results, model.blocks, model.parts, model.energy);
-  if (erosion.deleted.empty()) return;
-  for (ActiveLoad& load : model.loads) drop_sides(load, erosion.deleted);
-  for (ContactScene& scene : model.contacts) erode(scene, *model.surface_numbers, erosion.deleted);
-  if (release_ties(model.ties, erosion, model.nodes, model.energy, model.momentum))
-    for (ContactScene& scene : model.contacts) let_go(scene, model.ties);
+  do {
+    erode(erosion, model.schedule, model.sweep_results, model.blocks, model.parts, model.energy);
+    if (erosion.deleted.empty()) return;
+    for (ActiveLoad& load : model.loads) drop_sides(load, erosion.deleted);
+    for (ContactScene& scene : model.contacts) erode(scene, *model.surface_numbers, erosion.deleted);
+    if (release_ties(model.ties, erosion, model.nodes, model.energy, model.momentum))
+      for (ContactScene& scene : model.contacts) let_go(scene, model.ties);
+  } while (give_up_crossed(model));
   if (!is_sparse(model.schedule, model.blocks)) return;
   model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());

@@ -84,6 +84,11 @@ std::optional<double> first_meeting(const MovingNode& way, const FaceVertices& a
 
 }  // namespace
 
+bool passes_through(const Vector3d& from, const Vector3d& to, const FaceVertices& face, bool as_hull) {
+  const MovingNode way{from, to - from};
+  return !is_beside(way, face) && first_meeting(way, face, as_hull).has_value();
+}
+
 std::optional<Piercing> find_piercing(const SurfaceFeatures& features, const Surface& surface,
                                       const Lists& excluded, const ContactOptions& options,
                                       const Nodes& nodes, bool shells_alone, ThreadTeam& team) {

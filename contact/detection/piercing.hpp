@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 #include <optional>
 
+#include "contact/closest_point.hpp"
 #include "contact/detection/features.hpp"
 #include "contact/options.hpp"
 #include "contact/surface.hpp"
@@ -22,6 +23,11 @@ struct Piercing {
   int face = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
 };
+
+/// Whether the straight way from one point to another meets a face. \param as_hull of its corners; else of
+/// its two triangles
+bool passes_through(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const FaceVertices& face,
+                    bool as_hull);
 
 /// The first by face and edge. \param excluded pairs of nodes and faces that are one piece \param
 /// shells_alone look only at the middle surfaces of shells, where other bodies cross them: they have no

@@ -27,6 +27,7 @@ struct Outcome {
   double energy_error = 0;
   double momentum_error = 0;  ///< linear, less what walls gave, over the sum of sizes
   double farthest = 0;        ///< coordinate of any node
+  std::int64_t deleted_by_distortion = 0;
   int looks = 0;
 };
 
@@ -52,6 +53,9 @@ Outcome run_looking(Deck& deck, int steps_between_looks = 10, int threads = 1) {
             std::max(before.linear_size, 1e-300));
   outcome.energy_error = std::abs(model.energy.relative_error());
   outcome.unresolved = model.contacts[0].unresolved.steps;
+  if (model.erosion)
+    outcome.deleted_by_distortion =
+        model.erosion->deleted_by_cause[static_cast<std::size_t>(DeletionCause::distortion)];
   return outcome;
 }
 
@@ -188,6 +192,39 @@ TEST(CrushedBlock, DoesNotCrossItself) {
   EXPECT_EQ(outcome.unresolved, 0u);
   EXPECT_LT(outcome.energy_error, 0.01);
 }
+
+// What has been crushed inside of a tile crosses once a deletion lays it open: it is deleted too.
+class BrittleTile : public ::testing::TestWithParam<std::pair<double, double>> {};
+
+TEST_P(BrittleTile, DoesNotCrossItselfWhereItBreaks) {
+  const auto [speed, degrees] = GetParam();
+  Deck deck;
+  deck.materials = {{"material", ElasticPlastic{.density = 2700,
+                                                .youngs_modulus = 7e10,
+                                                .poissons_ratio = 0.3,
+                                                .yield_stress = 1e8,
+                                                .hardening_modulus = 2e8}}};
+  Part anvil = box("anvil", {0.06, 0.06, 0.06}, {2, 2, 2}, {0, 0, 0}, Rigid{});
+  anvil.placement.rotate = Rotation{{1, 0.3, 0.2}, 40};
+  Part tile = box("tile", {0.1, 0.1, 0.01}, {6, 6, 3}, {0, 0, 0}, hex8());
+  tile.deletion.emplace().plastic_strain = 0.3;
+  tile.placement.rotate = Rotation{{0.2, 1, 0}, degrees};
+  tile.placement.translate = {0.003, 0.002, 0.08};
+  deck.parts = {anvil, tile};
+  deck.boundary_conditions = {fix("anvil.all", {0, 1, 2, 3, 4, 5})};
+  deck.initial_conditions = {moving("tile", {0, 0, -speed})};
+  deck.contact = with_friction(0);
+  deck.time.end = 0.15 / speed;
+  const Outcome outcome = run_looking(deck, 5);
+  EXPECT_GT(outcome.looks, 20);
+  EXPECT_GT(outcome.deleted_by_distortion, 0);
+  EXPECT_EQ(outcome.crossings, 0);
+  EXPECT_EQ(outcome.unresolved, 0u);
+  EXPECT_LT(outcome.energy_error, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(Speeds, BrittleTile,
+                         ::testing::Values(std::pair(400.0, 20.0), std::pair(700.0, 5.0)));
 
 // A block that slides without friction over a floor of facets of random shapes meets nothing at their edges.
 TEST(FacetsOfAFloor, DoNotStopABlock) {

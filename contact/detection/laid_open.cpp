@@ -34,6 +34,11 @@ class LaidOpen {
  private:
   const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
 
+  static std::pair<double, double> range(const FaceVertices& at, int axis) {
+    return {std::min({at[0][axis], at[1][axis], at[2][axis], at[3][axis]}),
+            std::max({at[0][axis], at[1][axis], at[2][axis], at[3][axis]})};
+  }
+
   static void sort_out(std::vector<int>& list) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -50,6 +55,11 @@ class LaidOpen {
   bool pierces(int f, int g) const {
     const Face &own = face(f), &other = face(g);
     const FaceVertices from = vertices(nodes_, own), at = vertices(nodes_, other);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [least, most] = range(from, axis);
+      const auto [lower, upper] = range(at, axis);
+      if (least > upper || most < lower) return false;
+    }
     return std::any_of(segments.begin(), segments.end(), [&](const auto& ends) {
       if (own.node[ends[0]] == own.node[ends[1]]) return false;
       if (other.has(own.node[ends[0]]) || other.has(own.node[ends[1]])) return false;

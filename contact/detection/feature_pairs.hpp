@@ -38,8 +38,8 @@ class FeaturePairs {
               ThreadTeam& team);
   /// Renew the pairs of what has left its boxes, or where that is much, all; then the paths of the motion
   /// restart. \throws TooManyNear where there is no depth. \param depth to which features of different bodies
-  /// are paired; not empty: a face is flat for
-  /// all pairs or none
+  /// are paired; not empty: a face is flat
+  /// for all pairs or none
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
             const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
             const SearchedDepth& depth = {});

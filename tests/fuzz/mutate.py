@@ -6,8 +6,7 @@
 A mutant is one of the shipped decks, of the results of a small run, or of the folder of a small study, with one
 to four faults of structure, of numbers, of text or of bytes. The same seed and number make the same mutant.
 What is a failure: a signal, a report of a sanitizer, an exit code that is not documented, 20 s of processor time
-(a run has to end when it is told to; so has a check, and is named then, to be looked at: it may build a large scene),
-a refusal of a deck that names no place, of a file that names no path.
+(a run has to end when it is told to), a refusal of a deck that names no place, of a file that names no path.
 A fault inside the HDF5 library ends the child process that reads (io/read_apart.hpp); it is counted apart.
 Prints a line for each failure and a table at the end; exit code 1 if there were failures.
 """
@@ -390,10 +389,8 @@ class Campaign:
         last = [line for line in errors.strip().split("\n") if line.strip()][-1:] or [""]
         if any(report in errors for report in REPORTS):
             fault = "report"
-        elif code == -signal.SIGTERM and arguments[0] in ("run", "check"):  # while the scene is built nothing is open
+        elif code == -signal.SIGTERM and arguments[0] == "run":  # while the scene is built there is nothing to close
             code = 143
-            if arguments[0] == "check":
-                print(f"{name} {' '.join(arguments)}: was told to end", flush=True)
         elif code in (-signal.SIGXCPU, -signal.SIGKILL) or seconds > LIMIT:
             fault = f"hang, {seconds:.0f} s"
         elif code < 0:
@@ -435,7 +432,7 @@ class Campaign:
         else:
             arguments = ["run", f"{stem}.yaml", "--quiet", "--threads", rng.choice(["1", "1", "1", "2"]), "--set",
                          f"time.end={end * 1e-3 if stem == 'small' else end * 1e-5:.3g}"]
-        self.try_one(name, arguments, folder, True, True)
+        self.try_one(name, arguments, folder, arguments[0] == "run", True)
 
     def base(self, what):
         """A result, or a folder of a study, made once."""

@@ -22,8 +22,11 @@ constexpr double probe_share = 0.2;
 
 class Enclosures {
  public:
-  Enclosures(const ContactScene& scene, const Nodes& nodes)
-      : surface_(scene.surface), nodes_(nodes), faces_(static_cast<std::size_t>(surface_.body_count)) {
+  Enclosures(const ContactScene& scene, const Nodes& nodes, double overlap_limit)
+      : surface_(scene.surface),
+        nodes_(nodes),
+        overlap_limit_(overlap_limit),
+        faces_(static_cast<std::size_t>(surface_.body_count)) {
     for (std::size_t f = 0; f < surface_.face.size(); ++f)
       if (const Face& face = surface_.face[f]; face.alive() && !face.shell)
         faces_[static_cast<std::size_t>(face.body)].push_back(static_cast<int>(f));
@@ -96,6 +99,9 @@ class Enclosures {
       depth = distance;
       edge = shortest_edge(nodes_, face(f));
     }
+    // A ball around the probe is in both: they overlap by its diameter or more.
+    const double own_edge = shortest_edge(nodes_, own);
+    if (2 * std::min(probe_share * own_edge, depth) <= overlap_limit_ * std::max(own_edge, edge)) return;
     if (depth > deep_share * edge && winding(other, probe) > 0.5) refuse(own.part, theirs.part, depth, probe);
   }
 
@@ -109,13 +115,14 @@ class Enclosures {
 
   const Surface& surface_;
   const Nodes& nodes_;
+  double overlap_limit_;
   std::vector<std::vector<int>> faces_;  ///< of each body
 };
 
 }  // namespace
 
-void expect_bodies_apart(const ContactScene& scene, const Nodes& nodes) {
-  Enclosures(scene, nodes).expect_bodies_apart();
+void expect_bodies_apart(const ContactScene& scene, const Nodes& nodes, double overlap_limit) {
+  Enclosures(scene, nodes, overlap_limit).expect_bodies_apart();
 }
 
 }  // namespace brio

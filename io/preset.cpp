@@ -12,6 +12,7 @@ using NodePointer = std::shared_ptr<const YamlNode>;
 struct Setting {
   std::string_view path;
   std::string_view value;
+  bool suits_particles = true;
 };
 struct ElementSetting {
   std::string_view type, key, value;
@@ -25,15 +26,15 @@ struct PresetValues {
 
 // What they cost and buy is told by the knob `preset` of the studies in inputs/studies.
 constexpr Setting fast_settings[] = {
-    {"numerics.precision", "float"}, {"contact.passes", "4"}, {"time.step_scale", "0.95"}};
+    {"numerics.precision", "float", false}, {"contact.passes", "4"}, {"time.step_scale", "0.95"}};
 constexpr ElementSetting fast_elements[] = {{"hex8", "objective_rate", "jaumann"},
                                             {"shell4", "thickness_points", "3"}};
-constexpr Setting accurate_settings[] = {{"time.step_scale", "0.95"}};
+constexpr Setting accurate_settings[] = {{"time.step_scale", "0.95", false}};
 // Bricks keep the hourglass stiffness of the default: with less they bend and touch too softly. Impacts want
 // less viscosity, steps of pressure more; a step closer to the bound disperses the waves of both less, and
 // pays for just so much less viscosity that fronts ring no more than by default (rod_wave; 0.05: 5.1 % for
 // 3.7 %). Five Lobatto points of a shell see the yield of its surfaces (panel 1.4 % off for 2.0 %, can 0.68
-// for 0.72); how few of them would do is for the deck to say.
+// for 0.72); how few of them would do is for the deck to say. Particles gain nothing from the longer step.
 constexpr ElementSetting accurate_elements[] = {{"hex8", "linear_bulk_viscosity", "0.055"},
                                                 {"hex8_full", "linear_bulk_viscosity", "0.055"},
                                                 {"shell4", "quadrature", "lobatto", "thickness_points"}};
@@ -81,11 +82,10 @@ NodePointer with_element_setting(const NodePointer& root, const YamlEntry& part,
 NodePointer with_setting(const NodePointer& root, const Setting& setting) {
   const std::string_view section = setting.path.substr(0, setting.path.find('.'));
   const YamlNode* there = at(*root, section);
-  // A preset switches nothing on; and particles are computed in double alone.
+  // A preset switches nothing on.
   if (there == nullptr || !there->is_map() || at(*root, setting.path) != nullptr) return root;
   const YamlNode* parts = at(*root, "parts");
-  if (setting.path == "numerics.precision" && parts != nullptr && parts->is_map() && has_particles(*parts))
-    return root;
+  if (!setting.suits_particles && parts != nullptr && parts->is_map() && has_particles(*parts)) return root;
   if (setting.path == "time.step_scale" && at(*root, "time.step") != nullptr) return root;
   return override_value(root, joined(setting.path, setting.value));
 }

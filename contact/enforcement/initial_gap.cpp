@@ -90,6 +90,7 @@ class GapMaker {
       find(0);
     }
     expect_within_limit();
+    expect_bodies_apart(scene_, nodes_, scene_.options.initial_overlap_limit);
     for (const SidedPair& pair : found_)
       if (is_missing(pair) && (!is_held(pair) || must_move(pair))) record(pair);
     const bool moves = !report_.empty() && make_gap();

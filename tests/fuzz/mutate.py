@@ -6,13 +6,14 @@
 A mutant is one of the shipped decks, of the results of a small run, or of the folder of a small study, with one
 to four faults of structure, of numbers, of text or of bytes. The same seed and number make the same mutant.
 What is a failure: a signal, a report of a sanitizer, an exit code that is not documented, 20 s of processor time
-(a run has to end when it is told to), a refusal of a deck that names no place, of a file that names no path.
+(a run, and the check of a scene of more than 100,000 elements, have to end when they are told to), a refusal of a deck that names no place, of a file that names no path.
 A fault inside the HDF5 library ends the child process that reads (io/read_apart.hpp); it is counted apart.
 Prints a line for each failure and a table at the end; exit code 1 if there were failures.
 """
 
 import argparse
 import copy
+import math
 import os
 import pathlib
 import random
@@ -30,6 +31,7 @@ import yaml
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CODES = {0: "good", 2: "refused", 3: "numerical failure", 4: "file", 143: "stopped"}
 STOP_AFTER, LIMIT = 8, 20  # s of processor time
+LARGE = 100_000  # elements, which no faults but sizes make of the shipped decks
 PLACE = re.compile(r"^(.+:\d+:\d+: |--set .+: )", re.S)
 UNREADABLE = re.compile(r": (is a folder|cannot be opened|is too long)")  # a file of which no line was read
 REPORTS = ("Sanitizer", "runtime error:", "Assertion", "a defect of this program", "terminate called")
@@ -307,6 +309,16 @@ def mutated_deck(rng, text):
     return text
 
 
+def drawn_elements(text):
+    """Elements of the meshes of a deck, where it says how many it draws."""
+    try:
+        parts = yaml.safe_load(text)["parts"].values()
+        boxes = [mesh["elements"] for part in parts for mesh in part["mesh"].values()]
+        return sum(math.prod(int(n) for n in (box if isinstance(box, list) else [box] * 3)) for box in boxes)
+    except (yaml.YAMLError, ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError):
+        return 0
+
+
 class Campaign:
     def __init__(self, program, seed, keep):
         self.program = str(pathlib.Path(program).resolve())
@@ -384,12 +396,12 @@ class Campaign:
                 own.append(path)
         return own
 
-    def judge(self, name, arguments, code, errors, seconds, is_deck):
+    def judge(self, name, arguments, code, errors, seconds, is_deck, can_be_stopped):
         fault = None
         last = [line for line in errors.strip().split("\n") if line.strip()][-1:] or [""]
         if any(report in errors for report in REPORTS):
             fault = "report"
-        elif code == -signal.SIGTERM and arguments[0] == "run":  # while the scene is built there is nothing to close
+        elif code == -signal.SIGTERM and can_be_stopped:  # while the scene is built there is nothing to close
             code = 143
         elif code in (-signal.SIGXCPU, -signal.SIGKILL) or seconds > LIMIT:
             fault = f"hang, {seconds:.0f} s"
@@ -410,7 +422,7 @@ class Campaign:
 
     def try_one(self, name, arguments, folder, can_be_stopped, is_deck):
         code, errors, seconds = self.brio(arguments, folder, can_be_stopped)
-        failed = self.judge(name, arguments, code, errors, seconds, is_deck)
+        failed = self.judge(name, arguments, code, errors, seconds, is_deck, can_be_stopped)
         if failed and self.keep:
             shutil.copytree(folder, self.keep / name.replace(":", "-"), dirs_exist_ok=True, symlinks=True)
         shutil.rmtree(folder, ignore_errors=True)
@@ -426,13 +438,15 @@ class Campaign:
         rng = random.Random(f"{self.seed} {name}")
         stem, text, end = rng.choice(self.decks)
         folder = self.new_folder(name)
-        (folder / f"{stem}.yaml").write_bytes(mutated_deck(rng, text).encode("utf-8", "surrogatepass"))
+        mutant = mutated_deck(rng, text)
+        (folder / f"{stem}.yaml").write_bytes(mutant.encode("utf-8", "surrogatepass"))
         if rng.random() < 0.35:
             arguments = ["check", f"{stem}.yaml", "--pilot=0", "--threads", "1"]
         else:
             arguments = ["run", f"{stem}.yaml", "--quiet", "--threads", rng.choice(["1", "1", "1", "2"]), "--set",
                          f"time.end={end * 1e-3 if stem == 'small' else end * 1e-5:.3g}"]
-        self.try_one(name, arguments, folder, arguments[0] == "run", True)
+        can_be_stopped = arguments[0] == "run" or drawn_elements(mutant) > LARGE
+        self.try_one(name, arguments, folder, can_be_stopped, True)
 
     def base(self, what):
         """A result, or a folder of a study, made once."""

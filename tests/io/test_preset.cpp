@@ -93,13 +93,24 @@ TEST(Preset, SwitchesNothingOn) {
     EXPECT_FALSE(parse_deck(text, "deck.yaml", {std::string("numerics.preset=") + preset}).contact);
 }
 
-TEST(Preset, KeepsParticlesInDouble) {
+std::string deck_with_particles() {
   std::string text = deck_text;
   const std::string hexahedra = "{mesh: {box: {size: [1, 1, 1], elements: [1, 1, 1]}}, element: hex8";
   text.replace(text.find(hexahedra), hexahedra.size(),
                "{mesh: {particles: {sphere: {radius: 1, spacing: 0.5}}}, element: particle");
-  EXPECT_EQ(parse_deck(text, "deck.yaml", {"numerics.preset=fast"}).numerics.precision,
+  return text;
+}
+
+TEST(Preset, KeepsParticlesInDouble) {
+  EXPECT_EQ(parse_deck(deck_with_particles(), "deck.yaml", {"numerics.preset=fast"}).numerics.precision,
             Precision::double_precision);
+}
+
+// The longer step disperses the waves of bricks less; of particles it does not.
+TEST(Preset, AccurateKeepsTheStepOfParticles) {
+  const std::string text = deck_with_particles();
+  EXPECT_EQ(parse_deck(text, "deck.yaml", {"numerics.preset=accurate"}).time.step_scale,
+            parse_deck(text, "deck.yaml").time.step_scale);
 }
 
 TEST(Preset, ShowsInTheDeckAsRun) {

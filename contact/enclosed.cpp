@@ -33,7 +33,7 @@ class Enclosures {
   }
 
   // A point just inside of each closed body, in no other.
-  void expect_bodies_apart() {
+  void expect_bodies_apart(bool enclosed_alone) {
     std::vector<Vector3<double>> probes;
     std::vector<CaptureBox> boxes;
     std::vector<int> bodies;
@@ -52,7 +52,9 @@ class Enclosures {
     search.find(SearchNodes(probes), boxes, team, pairs, counts);
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (const int other : pairs.of_box(b))
-        if (other != static_cast<int>(b)) expect_apart(bodies[static_cast<std::size_t>(other)], bodies[b]);
+        if (other != static_cast<int>(b) &&
+            (!enclosed_alone || is_within(boxes[static_cast<std::size_t>(other)], boxes[b])))
+          expect_apart(bodies[static_cast<std::size_t>(other)], bodies[b]);
   }
 
  private:
@@ -83,6 +85,12 @@ class Enclosures {
           box.upper[axis] = std::max(box.upper[axis], x[axis]);
         }
     return box;
+  }
+
+  static bool is_within(const CaptureBox& box, const CaptureBox& other) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (box.lower[axis] < other.lower[axis] || box.upper[axis] > other.upper[axis]) return false;
+    return true;
   }
 
   void expect_apart(int body, int other) const {
@@ -122,7 +130,11 @@ class Enclosures {
 }  // namespace
 
 void expect_bodies_apart(const ContactScene& scene, const Nodes& nodes, double overlap_limit) {
-  Enclosures(scene, nodes, overlap_limit).expect_bodies_apart();
+  Enclosures(scene, nodes, overlap_limit).expect_bodies_apart(false);
+}
+
+void expect_none_enclosed(const ContactScene& scene, const Nodes& nodes, double overlap_limit) {
+  Enclosures(scene, nodes, overlap_limit).expect_bodies_apart(true);
 }
 
 }  // namespace brio

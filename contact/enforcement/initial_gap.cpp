@@ -78,6 +78,7 @@ class GapMaker {
 
   std::vector<InitialOverlap> run() {
     for (int node : surface_.node) start_.push_back(position(nodes_, node));
+    expect_none_enclosed(scene_, nodes_, scene_.options.initial_overlap_limit);
     set_depths();
     search();
     expect_uncrossed(true);
@@ -90,13 +91,12 @@ class GapMaker {
       find(0);
     }
     expect_within_limit();
-    expect_bodies_apart(scene_, nodes_, scene_.options.initial_overlap_limit);
     for (const SidedPair& pair : found_)
       if (is_missing(pair) && (!is_held(pair) || must_move(pair))) record(pair);
     const bool moves = !report_.empty() && make_gap();
     record_motion();
     if (crosses || moves) expect_uncrossed(false);
-    expect_bodies_apart(scene_, nodes_);
+    expect_bodies_apart(scene_, nodes_, 0);
     scene_.pairs.take_rest_of(pairs_);
     return std::move(report_);
   }
@@ -289,8 +289,8 @@ class GapMaker {
       const bool only_gap = !must_move(*worst);
       missing = -worst->contact.gap;
       const bool is_last = round >= most_rounds || is_held(*worst);
-      if (!only_gap && (round > 0 || is_last))
-        expect_bodies_apart(scene_, nodes_);  // before many rounds in vain
+      if (!only_gap)  // before many rounds in vain
+        expect_bodies_apart(scene_, nodes_, round > 0 || is_last ? 0 : scene_.options.initial_overlap_limit);
       if (!only_gap && is_last) refuse(*worst, "which moving nodes does not remove");
       if (round % rounds_to_halve == 0) {
         if (round >= most_rounds || (only_gap && missing > 0.5 * missing_before)) return true;

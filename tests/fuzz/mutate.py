@@ -310,13 +310,22 @@ def mutated_deck(rng, text):
 
 
 def drawn_elements(text):
-    """Elements of the meshes of a deck, where it says how many it draws."""
+    """Elements and particles of the meshes of a deck, where it says how many it draws."""
     try:
         parts = yaml.safe_load(text)["parts"].values()
-        boxes = [mesh["elements"] for part in parts for mesh in part["mesh"].values()]
-        return sum(math.prod(int(n) for n in (box if isinstance(box, list) else [box] * 3)) for box in boxes)
-    except (yaml.YAMLError, ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError):
+        return sum(drawn_by(kind, mesh) for part in parts for kind, mesh in part["mesh"].items())
+    except (yaml.YAMLError, ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError, ZeroDivisionError):
         return 0
+
+
+def drawn_by(kind, mesh):
+    if kind != "particles":
+        counts = mesh["elements"]
+        return math.prod(int(n) for n in (counts if isinstance(counts, list) else [counts] * (3 if "sphere" in kind else 1)))
+    lattice = next(iter(mesh.values()))
+    across = 2 * float(lattice.get("radius", 0))
+    size = lattice.get("size") or [across, across, float(lattice.get("height", across))]
+    return math.prod(1 + float(length) / float(lattice["spacing"]) for length in size)
 
 
 class Campaign:

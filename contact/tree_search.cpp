@@ -14,8 +14,8 @@ namespace brio {
 namespace {
 
 constexpr auto width = static_cast<std::size_t>(tree_width);
-constexpr std::size_t group_size = 8;              // boxes that descend together
-constexpr std::size_t most_of_group = 512;         // nodes nearby beyond which a group is halved
+constexpr std::size_t group_size = 4;              // boxes that descend together
+constexpr std::size_t most_of_group = 128;         // nodes nearby beyond which a group is halved
 constexpr std::size_t most_ranked_by_count = 256;  // beyond, sorting costs less
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 constexpr int tests_per_block = 6 * tree_width;

@@ -369,5 +369,33 @@ TEST(Resolution, HasTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
+// The edges of two cubes cross at 4e-6 of their length, are pressed together, and one tilts while the other
+// slides: where they meet then it is by the turn of their normal, of second order.
+TEST(Resolution, OpensEdgesThatNearlyTouchAndTurn) {
+  ThreadTeam team(1);
+  SpringModel model;
+  model.stiffness = 0;
+  const double half = std::sqrt(0.5), tilt = 2e-2, slide = 4e-3, press = 1e-3, dt = 0.1;
+  const int lower = model.add_box({1, 1, 1}, {1, 1, 1}, 1, [&](const Vector3d& x) -> Vector3d {
+    const Vector3d y = x - Vector3d(0.5, 1, 1);
+    return {y[0], half * (y[1] - y[2]), half * (y[1] + y[2])};
+  });
+  const int upper = model.add_box({1, 1, 1}, {1, 1, 1}, 1, [&](const Vector3d& x) -> Vector3d {
+    const Vector3d y = x - Vector3d(0, 0.5, 0);
+    return {half * (y[0] - y[2]), y[1], half * (y[0] + y[2]) + 4e-6};
+  });
+  model.start({});
+  for (int n = lower; n < upper; ++n)
+    model.set_velocity(n, Vector3d(-model.x(n)[2], 0, model.x(n)[0]) * (tilt / dt));
+  for (int n = upper; n < model.count(); ++n) model.set_velocity(n, Vector3d(slide, 0, -press) / dt);
+  const Vector3d momentum = model.momentum(), angular = model.angular_momentum();
+  model.step(dt, team);
+  EXPECT_GE(model.scene.rounds, 1U);
+  EXPECT_LE(model.scene.rounds, 4U);
+  EXPECT_EQ(model.scene.zones, 0U);
+  EXPECT_LT((model.momentum() - momentum).norm(), 1e-13);
+  EXPECT_LT((model.angular_momentum() - angular).norm(), 1e-13);
+}
+
 }  // namespace
 }  // namespace brio::test

@@ -244,8 +244,7 @@ class Resolution {
   // What nearly touches crosses by the turning of the normal alone, whatever its velocity along the normal.
   void open_wider(ConstraintRow& row) const {
     const double separation = separation_share * scene_.features.smallest_edge / dt_;
-    row.target_velocity =
-        std::min(std::max(2 * row.target_velocity, first_opening * separation), separation);
+    row.target_velocity = std::min(std::max(2 * row.target_velocity, first_opening * separation), separation);
   }
   // \returns whether such a constraint is there already
   bool add(const Contact& wanted, std::size_t ordinary) {

@@ -6,17 +6,13 @@
 #include <numbers>
 
 #include "contact/face_geometry.hpp"
+#include "contact/sort_out.hpp"
 
 namespace brio {
 
 using Eigen::Vector3d;
 
 namespace {
-
-void sort_out(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
 
 // As built, faces of the same hexahedron stand side by side in the surface.
 void add_element_of(const Surface& surface, int face, std::vector<int>& found) {

@@ -114,7 +114,7 @@ class Resolution {
   void select() { select_awake(scene_.proximity, scene_.features, scene_.pairs, scene_.motion, team_); }
   // Of pairs that were surely apart in the predicted motion.
   void look_again() {
-    if (scene_.pairs.is_due(scene_.features, scene_.surface, scene_.motion, team_)) {
+    if (scene_.pairs.is_due_after_solution(scene_.features, scene_.surface, scene_.motion, team_)) {
       search();
       select();
     } else if (scene_.motion.exceeds_limits()) {

@@ -302,7 +302,7 @@ void check_books(Model& model, double energy_error_limit) {
 }  // namespace
 
 // After the sweep, whose order of elements it changes, and before contact, whose surfaces it opens.
-void erode_elements(Model& model) {
+void erode_elements(Model& model, ThreadTeam& team) {
   if (!model.erosion) return;
   const StageTimer timer(model.stages, Stage::erosion);
   Erosion& erosion = *model.erosion;
@@ -313,7 +313,7 @@ void erode_elements(Model& model) {
     for (ContactScene& scene : model.contacts) erode(scene, *model.surface_numbers, erosion.deleted);
     if (release_ties(model.ties, erosion, model.nodes, model.energy, model.momentum))
       for (ContactScene& scene : model.contacts) let_go(scene, model.ties);
-  } while (give_up_crossed(model));
+  } while (give_up_crossed(model, team));
   if (!is_sparse(model.schedule, model.blocks)) return;
   model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());
@@ -330,7 +330,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   apply_loads(model);
   sweep_elements(model, team);
   add_mass(model);
-  erode_elements(model);
+  erode_elements(model, team);
   gather_tied_forces(model);
   choose_step(model);
   energy.external.before += load_work(model);

@@ -14,7 +14,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
 
 /// Deletes what `model.sweep_results` gave up, with all that follows from it: loads, contact surfaces,
 /// chunks. Part of `update_velocities`.
-void erode_elements(Model& model);
+void erode_elements(Model& model, ThreadTeam& team);
 
 /// Audits contact at the present positions if the deck asks for it (contact/audit/audit.hpp). Called where
 /// fields are written.

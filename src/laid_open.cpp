@@ -34,17 +34,16 @@ void give_up(Model& model, std::size_t b, std::span<const int> places) {
 
 }  // namespace
 
-bool give_up_crossed(Model& model) {
+bool give_up_crossed(Model& model, ThreadTeam& team) {
   for (SweepResult& result : model.sweep_results) {
     result.lost = 0;
     result.lost_by = {};
   }
   bool any = false;
   if (!model.surface_numbers || model.surface_numbers->deleted.empty()) return any;
-  for (const ContactScene& scene : model.contacts) {
-    const ContactErosion& erosion = *scene.erosion;
-    const std::vector<SurfaceElement> crossed =
-        find_crossed_elements(scene.surface, erosion.topology, model.nodes, erosion.change.new_face);
+  for (ContactScene& scene : model.contacts) {
+    const std::vector<SurfaceElement> crossed = find_crossed_elements(
+        scene.surface, scene.pairs, scene.motion, model.nodes, scene.erosion->change.new_face, team);
     for (std::size_t part = 0; part < model.parts.size(); ++part) {
       if (!model.blocks[part].loses_elements) continue;
       std::vector<int> places;

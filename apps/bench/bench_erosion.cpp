@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
     const double stepped = seconds();
     give_up(model, places);
     const double chosen = seconds();
-    erode_elements(model);
+    erode_elements(model, team);
     const double end = seconds();
     for (Sums* s : {&sums, &total}) {
       s->step += end - chosen + stepped - start;

@@ -29,10 +29,14 @@ Flatness flatness_of(const SurfaceFeatures& features, std::size_t face, const Fe
   const Corners start = at_start(features, face, motion), end = at_end(features, face, motion);
   for (const Flatness flatness : {Flatness::all, Flatness::radii}) {
     const double thickness = share_to_become_flat * flat_thickness(features, face, flatness);
-    if (flat_slack(start, thickness) > 0 && flat_slack(end, thickness) > 0) return flatness;
+    if (flat_slack(start, thickness).least() > 0 && flat_slack(end, thickness).least() > 0) return flatness;
   }
   return Flatness::none;
 }
+
+// The hull is no thicker: its thickness is the distance of the lines along the diagonals, this that of their
+// middles.
+double between_middles(const Corners& at) { return 0.5 * (at[0] - at[1] + at[2] - at[3]).norm(); }
 
 }  // namespace
 
@@ -42,11 +46,11 @@ double flat_thickness(const SurfaceFeatures& features, std::size_t face, Flatnes
                                    : std::max(for_all, share_of_radius * features.face_radius[face]);
 }
 
-double flat_slack(const Corners& at, double thickness) {
+FlatSlack flat_slack(const Corners& at, double thickness) {
   const Vector3d a = at[2] - at[0], b = at[3] - at[1];
   const Vector3d across = a.cross(b);
   const double area = across.norm();
-  if (!(area > 0)) return -1;
+  if (!(area > 0)) return {-1, -1};
   const double hull = std::abs((at[1] - at[0]).dot(across)) / area;
   // Of each corner from the other diagonal, in the mean plane.
   const auto beside = [&](const Vector3d& diagonal, const Vector3d& arm) {
@@ -54,12 +58,12 @@ double flat_slack(const Corners& at, double thickness) {
   };
   const double convex = std::min({beside(a, at[3] - at[0]), -beside(a, at[1] - at[0]),
                                   beside(b, at[0] - at[1]), -beside(b, at[2] - at[1])});
-  return std::min(0.5 * (thickness - hull), 0.25 * convex);
+  return {0.5 * (thickness - hull), 0.25 * convex};
 }
 
 void FaceFlatness::forget(std::size_t faces) {
   flat_.assign(faces, Flatness::none);
-  until_.assign(faces, 0);
+  until_.assign(faces, {});
 }
 
 void FaceFlatness::measure(const SurfaceFeatures& features, const FeatureMotion& motion) {
@@ -70,31 +74,43 @@ void FaceFlatness::measure(const SurfaceFeatures& features, const FeatureMotion&
 
 void FaceFlatness::change(std::size_t faces, std::span<const int> changed) {
   flat_.resize(faces, Flatness::none);
-  until_.resize(faces, 0);
+  until_.resize(faces, {});
   for (int f : changed) flat_[static_cast<std::size_t>(f)] = Flatness::none;
 }
 
 // Paths and looks ahead are of the prediction; of corners that contact has moved, where it has taken them.
-bool FaceFlatness::may_bend(const SurfaceFeatures& features, std::size_t face,
-                            const FeatureMotion& motion) const {
-  if (flat_[face] == Flatness::none) return false;
-  if (motion.of_face.ahead[face] > until_[face]) return true;
-  const double left = until_[face] - motion.of_face.path[face];
+bool FaceFlatness::may_reach(double path, const SurfaceFeatures& features, std::size_t face,
+                             const FeatureMotion& motion) {
+  if (motion.of_face.ahead[face] > path) return true;
+  const double left = path - motion.of_face.path[face];
   const std::array<int, 4>& corner = features.face_node[face];
   return std::any_of(corner.begin(), corner.end(),
                      [&](int slave) { return motion.is_corrected(slave) && !motion.is_within(slave, left); });
 }
 
+bool FaceFlatness::bends(const SurfaceFeatures& features, int face, const FeatureMotion& motion) {
+  const auto f = static_cast<std::size_t>(face);
+  if (flat_[f] == Flatness::none) return false;
+  Until& until = until_[f];
+  const auto may = [&](double path) { return may_reach(path, features, f, motion); };
+  if (!may(std::min(until.thin, until.convex))) return false;
+  const double thickness = flat_thickness(features, f, flat_[f]), path = motion.of_face.path[f];
+  const Corners start = at_start(features, f, motion), end = at_end(features, f, motion);
+  if (!may(until.convex)) {
+    until.thin = path + 0.5 * (thickness - between_middles(start));
+    if (!may(until.thin) || between_middles(end) <= thickness) return false;
+  }
+  const FlatSlack slack = flat_slack(start, thickness);
+  until = {path + slack.thin, path + slack.convex};
+  return may(path + slack.least()) && !(flat_slack(end, thickness).least() >= 0);
+}
+
 bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team) {
   std::atomic<bool> any = false;
   team.for_ranges(flat_.size(), faces_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      if (!may_bend(features, f, motion)) continue;
-      const double thickness = flat_thickness(features, f, flat_[f]);
-      until_[f] = motion.of_face.path[f] + flat_slack(at_start(features, f, motion), thickness);
-      if (may_bend(features, f, motion) && !(flat_slack(at_end(features, f, motion), thickness) >= 0))
-        any.store(true, std::memory_order_relaxed);
-    }
+    bool bent = false;
+    for (std::size_t f = begin; f < end; ++f) bent = bends(features, static_cast<int>(f), motion) || bent;
+    if (bent) any.store(true, std::memory_order_relaxed);
   });
   return any;
 }
@@ -102,7 +118,9 @@ bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotio
 void FaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion,
                              std::vector<std::uint8_t>& joins) {
   for (std::size_t f = 0; f < flat_.size(); ++f) {
-    if (!may_bend(features, f, motion)) continue;
+    if (flat_[f] == Flatness::none ||
+        !may_reach(std::min(until_[f].thin, until_[f].convex), features, f, motion))
+      continue;
     const Flatness now = flatness_of(features, f, motion);
     if (now <= flat_[f]) continue;
     flat_[f] = now;

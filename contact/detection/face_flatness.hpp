@@ -6,6 +6,7 @@
 /// radius, than 0.03 of that.
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -22,9 +23,13 @@ enum class Flatness : std::uint8_t { all, radii, none };
 /// Thickness of the hull of a face below which it is flat.
 double flat_thickness(const SurfaceFeatures& features, std::size_t face, Flatness flatness);
 
-/// How far every corner of a quadrilateral may move until it is not convex or its hull, between both
-/// diagonals, is thicker than that; negative: it is.
-double flat_slack(const std::array<Eigen::Vector3d, 4>& at, double thickness);
+/// How far every corner of a quadrilateral may move until its hull, between both diagonals, is thicker than
+/// that, and until it is not convex; negative: it is.
+struct FlatSlack {
+  double thin, convex;
+  double least() const { return std::min(thin, convex); }
+};
+FlatSlack flat_slack(const std::array<Eigen::Vector3d, 4>& at, double thickness);
 
 class FaceFlatness {
  public:
@@ -36,6 +41,7 @@ class FaceFlatness {
   void change(std::size_t faces, std::span<const int> changed);
   /// Whether a face is no longer as flat as it was at the end of the step.
   bool any_bends(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team);
+  bool bends(const SurfaceFeatures& features, int face, const FeatureMotion& motion);
   /// Take over what faces have become that bend more. \param joins of each edge: set where it is a diagonal
   /// of such a face
   void take_over(const SurfaceFeatures& features, const FeatureMotion& motion,
@@ -49,10 +55,15 @@ class FaceFlatness {
   }
 
  private:
-  bool may_bend(const SurfaceFeatures& features, std::size_t face, const FeatureMotion& motion) const;
+  /// Path of a face until which its hull surely is as thin, and until which it surely is convex.
+  struct Until {
+    double thin = 0, convex = 0;
+  };
+  static bool may_reach(double path, const SurfaceFeatures& features, std::size_t face,
+                        const FeatureMotion& motion);
 
   std::vector<Flatness> flat_;
-  std::vector<double> until_;  ///< path of each face until which it is surely so
+  std::vector<Until> until_;
 };
 
 }  // namespace brio

@@ -58,6 +58,15 @@ class FeatureMotion {
     return is_solution_ && (corrected_ == nullptr || corrected_->contains(slave));
   }
 
+  /// Whether the ends of all nodes are as predicted but for those that `for_each_corrected` visits.
+  bool knows_corrected() const { return is_solution_ && corrected_ != nullptr; }
+  /// Slave nodes that the solution has moved, and those of rigid bodies.
+  template <class Visit>
+  void for_each_corrected(Visit&& visit) const {
+    corrected_->for_each(visit);
+    for (int slave : driven_) visit(index(slave));
+  }
+
   /// Whether a node's displacement in the frame of its group, to its last position at the end of the step, is
   /// no longer than that.
   bool is_within(int slave, double length) const;

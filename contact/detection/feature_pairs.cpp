@@ -78,6 +78,18 @@ bool FeaturePairs::is_due(const SurfaceFeatures& features, const Surface& surfac
   return any_left || flat_.any_bends(features, motion, team);
 }
 
+bool FeaturePairs::is_due_after_solution(const SurfaceFeatures& features, const Surface& surface,
+                                         const FeatureMotion& motion, ThreadTeam& team) {
+  if (!motion.knows_corrected() || motion.exceeds_limits()) return is_due(features, surface, motion, team);
+  bool due = false;
+  motion.for_each_corrected([&](std::size_t s) {
+    if (surface.node[s] < 0) return;
+    due = due || !is_inside(s, motion, 1);
+    for (int f : surface.faces_of.of(static_cast<int>(s))) due = flat_.bends(features, f, motion) || due;
+  });
+  return due;
+}
+
 double FeaturePairs::scale_of(std::size_t slave, const Scene& scene, const FeatureMotion& motion) {
   const double* own = motion.node[slave].start;
   double shortest = infinity;
@@ -184,6 +196,24 @@ void FeaturePairs::change(std::span<const int> nodes, std::span<const int> faces
   append(changes_.face, faces);
   append(changes_.edge, edges);
   append(changes_.grown, grown);
+}
+
+std::vector<std::pair<std::size_t, int>> FeaturePairs::find_faces(std::vector<CaptureBox> boxes,
+                                                                  const FeatureMotion& motion,
+                                                                  ThreadTeam& team) {
+  std::vector<std::pair<std::size_t, int>> found;
+  if (reach_.empty()) return found;
+  for (CaptureBox& box : boxes)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double moved = motion.frame_since_restart()[axis] + motion.frame()[axis];
+      box.lower[axis] -= moved;
+      box.upper[axis] -= moved;
+    }
+  SearchCounts apart;
+  face_box_.find(
+      boxes, team, apart, no_limit, false, [](std::size_t, int) { return true; },
+      [&](std::size_t i, int f, bool) { found.emplace_back(i, f); });
+  return found;
 }
 
 void FeaturePairs::take_in_changes(const Scene& scene) {

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contact/detection/face_flatness.hpp"
@@ -36,6 +37,9 @@ class FeaturePairs {
   /// search since `expire`.
   bool is_due(const SurfaceFeatures& features, const Surface& surface, const FeatureMotion& motion,
               ThreadTeam& team);
+  /// The same after the solution of a step at whose start no search was due, or was made.
+  bool is_due_after_solution(const SurfaceFeatures& features, const Surface& surface,
+                             const FeatureMotion& motion, ThreadTeam& team);
   /// Renew the pairs of what has left its boxes, or where that is much, all; then the paths of the motion
   /// restart. \throws TooManyNear where there is no depth. \param depth to which features of different bodies
   /// are paired; not empty: a face is flat
@@ -47,6 +51,10 @@ class FeaturePairs {
   /// for all features at them. \param grown nodes whose radii have grown
   void change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
               std::span<const int> grown);
+  /// Faces of the last search that may be in boxes laid where the last step has taken the nodes; dead ones
+  /// too. \returns numbers of box and face
+  std::vector<std::pair<std::size_t, int>> find_faces(std::vector<CaptureBox> boxes,
+                                                      const FeatureMotion& motion, ThreadTeam& team);
   /// As many boxes meet at rest as in the last search of `other`, which had a depth.
   void take_rest_of(const FeaturePairs& other) { met_at_rest_ = other.met_at_rest_; }
   /// The next search is for all.

@@ -6,6 +6,7 @@
 
 #include "contact/detection/piercing.hpp"
 #include "contact/face_geometry.hpp"
+#include "contact/sort_out.hpp"
 
 namespace brio {
 
@@ -15,51 +16,53 @@ namespace {
 constexpr std::array<std::array<std::size_t, 2>, 6> segments{
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}, {1, 3}}};
 
+CaptureBox bounds_of(const FaceVertices& at) {
+  Bounds bounds;
+  for (const Eigen::Vector3d& x : at) bounds.include({{x[0], x[1], x[2]}, {x[0], x[1], x[2]}});
+  return bounds;
+}
+
 class LaidOpen {
  public:
-  LaidOpen(const Surface& surface, const SurfaceTopology& topology, const Nodes& nodes)
-      : surface_(surface), topology_(topology), nodes_(nodes) {}
+  LaidOpen(const Surface& surface, const Nodes& nodes, std::span<const int> laid_open)
+      : surface_(surface), nodes_(nodes) {
+    for (int f : laid_open)
+      if (is_side(f)) open_.push_back(f);
+  }
 
-  bool crosses_another(int f) {
-    near_.clear();
-    add_faces_at(element_of(topology_, face(f)));
-    sort_out(near_);
-    const std::vector<int> first = near_;
-    for (int g : first) add_faces_at(element_of(topology_, face(g)));
-    sort_out(near_);
-    return std::any_of(near_.begin(), near_.end(),
-                       [&](int g) { return g != f && (pierces(f, g) || pierces(g, f)); });
+  // The other faces by the boxes of the last search, those laid open by their own.
+  void find_near(FeaturePairs& pairs, const FeatureMotion& motion, ThreadTeam& team) {
+    std::vector<CaptureBox> boxes;
+    for (int f : open_) boxes.push_back(bounds_of(vertices(nodes_, face(f))));
+    TreeSearch search;
+    CandidatePairs found;
+    SearchCounts counts;
+    search.find(SearchNodes(boxes), boxes, team, found, counts);
+    for (std::size_t i = 0; i < open_.size(); ++i)
+      for (int other : found.of_box(i)) near_.emplace_back(open_[i], open_[static_cast<std::size_t>(other)]);
+    for (const auto& [i, g] : pairs.find_faces(boxes, motion, team)) near_.emplace_back(open_[i], g);
+  }
+
+  std::vector<SurfaceElement> crossed() const {
+    std::vector<std::pair<int, int>> elements;
+    for (const auto& [f, g] : near_)
+      if (is_side(g) && f != g && (pierces(f, g) || pierces(g, f)))
+        elements.emplace_back(face(f).part, face(f).element);
+    sort_out(elements);
+    std::vector<SurfaceElement> found;
+    for (const auto& [part, element] : elements) found.push_back({part, element});
+    return found;
   }
 
  private:
   const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
-
-  static std::pair<double, double> range(const FaceVertices& at, int axis) {
-    return {std::min({at[0][axis], at[1][axis], at[2][axis], at[3][axis]}),
-            std::max({at[0][axis], at[1][axis], at[2][axis], at[3][axis]})};
-  }
-
-  static void sort_out(std::vector<int>& list) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-
-  void add_faces_at(int element) {
-    for (int node : nodes_of(topology_, element))
-      if (const int slave = surface_.slave(node); slave >= 0)
-        for (int f : surface_.faces_of.of(slave))
-          if (face(f).alive() && !face(f).shell) near_.push_back(f);
-  }
+  bool is_side(int f) const { return face(f).alive() && !face(f).shell; }
 
   // Whether a segment of the first face passes through the second.
   bool pierces(int f, int g) const {
     const Face &own = face(f), &other = face(g);
     const FaceVertices from = vertices(nodes_, own), at = vertices(nodes_, other);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto [least, most] = range(from, axis);
-      const auto [lower, upper] = range(at, axis);
-      if (least > upper || most < lower) return false;
-    }
+    if (!bounds_of(from).overlaps(bounds_of(at))) return false;
     return std::any_of(segments.begin(), segments.end(), [&](const auto& ends) {
       if (own.node[ends[0]] == own.node[ends[1]]) return false;
       if (other.has(own.node[ends[0]]) || other.has(own.node[ends[1]])) return false;
@@ -68,26 +71,19 @@ class LaidOpen {
   }
 
   const Surface& surface_;
-  const SurfaceTopology& topology_;
   const Nodes& nodes_;
-  std::vector<int> near_;
+  std::vector<int> open_;
+  std::vector<std::pair<int, int>> near_;
 };
 
 }  // namespace
 
-std::vector<SurfaceElement> find_crossed_elements(const Surface& surface, const SurfaceTopology& topology,
-                                                  const Nodes& nodes, std::span<const int> laid_open) {
-  LaidOpen look(surface, topology, nodes);
-  std::vector<std::pair<int, int>> crossed;
-  for (int f : laid_open) {
-    const Face& face = surface.face[static_cast<std::size_t>(f)];
-    if (face.alive() && !face.shell && look.crosses_another(f)) crossed.emplace_back(face.part, face.element);
-  }
-  std::sort(crossed.begin(), crossed.end());
-  crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
-  std::vector<SurfaceElement> elements;
-  for (const auto& [part, element] : crossed) elements.push_back({part, element});
-  return elements;
+std::vector<SurfaceElement> find_crossed_elements(const Surface& surface, FeaturePairs& pairs,
+                                                  const FeatureMotion& motion, const Nodes& nodes,
+                                                  std::span<const int> laid_open, ThreadTeam& team) {
+  LaidOpen look(surface, nodes, laid_open);
+  look.find_near(pairs, motion, team);
+  return look.crossed();
 }
 
 }  // namespace brio

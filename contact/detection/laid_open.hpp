@@ -5,16 +5,18 @@
 #include <span>
 #include <vector>
 
+#include "contact/detection/feature_pairs.hpp"
 #include "contact/surface.hpp"
-#include "contact/surface_topology.hpp"
 #include "src/base/nodes.hpp"
+#include "src/base/parallel.hpp"
 
 namespace brio {
 
-/// Of hexahedra whose faces a deletion has laid open, those of which such a face crosses a face of the same
-/// or of a neighbouring element, ascending. The work is proportional to the faces. \param laid_open numbers
-/// of living faces
-std::vector<SurfaceElement> find_crossed_elements(const Surface& surface, const SurfaceTopology& topology,
-                                                  const Nodes& nodes, std::span<const int> laid_open);
+/// Of hexahedra whose faces a deletion has laid open, those of which such a face crosses a face of a
+/// hexahedron, ascending. The work is proportional to the faces laid open. \pre the nodes are where the last
+/// step of contact has taken them. \param laid_open numbers of living faces
+std::vector<SurfaceElement> find_crossed_elements(const Surface& surface, FeaturePairs& pairs,
+                                                  const FeatureMotion& motion, const Nodes& nodes,
+                                                  std::span<const int> laid_open, ThreadTeam& team);
 
 }  // namespace brio

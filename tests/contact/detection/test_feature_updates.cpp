@@ -79,7 +79,8 @@ bool is_flat(const ContactScene& scene, const FeatureMotion& still, int e, bool 
   const double thickness = flat_thickness(scene.features, f, radii ? Flatness::radii : Flatness::all);
   return flat_slack(
              {still.start(corner[0]), still.start(corner[1]), still.start(corner[2]), still.start(corner[3])},
-             thickness) > 0;
+             thickness)
+             .least() > 0;
 }
 
 // What is near where the nodes are now is listed, but for diagonals of flat faces; nothing listed is dead.

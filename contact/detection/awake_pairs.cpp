@@ -15,21 +15,53 @@ constexpr std::size_t blocks_a_range = 64;
 /// Of the lengths added, by which a block's wake is rounded down.
 constexpr double rounding = 1e-14;
 
-struct Slack {
-  std::uint64_t awake = 0;  ///< bit i: pair i of the block
-  double least = infinity;  ///< wake minus looks ahead
+/// Looks ahead of the features of pairs and of the frames of their relations.
+struct Ahead {
+  const double *first, *second, *frames;
+  double surplus;
+
+  /// What a pair has left before it has to be looked at.
+  double left_of(const PairList& pairs, std::size_t i) const {
+    const PairRecord& pair = pairs[i];
+    return pairs.wake[i] - (first[pair.first] + second[pair.second] + frames[pair.relation]);
+  }
+  bool is_awake(double left) const { return !(left > surplus); }
 };
 
-Slack look_into(const PairList& pairs, const double* first, const double* second, const double* frames,
-                double surplus, std::size_t begin, std::size_t end) {
-  Slack slack;
-  for (std::size_t i = begin; i < end; ++i) {
-    const PairRecord& pair = pairs[i];
-    const double left = pairs.wake[i] - (first[pair.first] + second[pair.second] + frames[pair.relation]);
-    slack.least = std::min(slack.least, left);
-    slack.awake |= std::uint64_t{!(left > surplus)} << (i - begin);
+void lay_down(PairBlock& block, const PathAndAhead& total, double left) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(block.relations); ++k) {
+    const auto r = static_cast<std::size_t>(block.relation[k]);
+    block.wake[k] =
+        std::min(block.wake[k], total.path[r] + left - rounding * (total.ahead[r] + std::abs(left)));
   }
-  return slack;
+}
+
+// All pairs of the block.
+void look_into(PairBlock& block, const PairList& pairs, const Ahead& ahead, const PathAndAhead& total,
+               std::size_t begin, std::size_t end) {
+  double least = infinity;
+  block.awake = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double left = ahead.left_of(pairs, i);
+    const bool awake = ahead.is_awake(left);
+    block.awake |= std::uint32_t{awake} << (i - begin);
+    if (!awake) least = std::min(least, left);
+  }
+  block.sleeps = block.relations >= 0;
+  if (!block.sleeps) return;
+  block.wake.fill(infinity);
+  lay_down(block, total, least);
+}
+
+// Those that were awake.
+void look_at_awake(PairBlock& block, const PairList& pairs, const Ahead& ahead, const PathAndAhead& total,
+                   std::size_t begin) {
+  for (std::uint32_t bits = block.awake; bits != 0; bits &= bits - 1) {
+    const double left = ahead.left_of(pairs, begin + static_cast<std::size_t>(std::countr_zero(bits)));
+    if (ahead.is_awake(left)) continue;
+    block.awake &= ~(bits & -bits);
+    lay_down(block, total, left);
+  }
 }
 
 bool still_sleeps(const PairBlock& block, const PathAndAhead& total, double surplus) {
@@ -57,15 +89,6 @@ void find_relations(PairBlock& block, const PairList& pairs, std::size_t begin, 
   block.relations = static_cast<std::int8_t>(count);
 }
 
-// A block of which no pair is awake.
-void lay_down(PairBlock& block, const PathAndAhead& total, double least) {
-  block.sleeps = block.relations >= 0;
-  for (std::size_t k = 0; block.sleeps && k < static_cast<std::size_t>(block.relations); ++k) {
-    const auto r = static_cast<std::size_t>(block.relation[k]);
-    block.wake[k] = total.path[r] + least - rounding * (total.ahead[r] + std::abs(least));
-  }
-}
-
 void join(const PairBlocks& blocks, std::vector<int>& awake) {
   std::size_t total = 0;
   for (std::size_t count : blocks.count) total += count;
@@ -87,23 +110,22 @@ void select_awake_pairs(PairBlocks& blocks, const PairList& pairs, const PathAnd
   if (blocks.found.size() < pairs.size()) blocks.found.resize(pairs.size());
   blocks.count.assign((count + blocks_a_range - 1) / blocks_a_range, 0);
   const MotionGroups& groups = motion.groups;
+  const Ahead ahead{first.ahead.data(), second.ahead.data(), groups.relation.ahead.data(), surplus};
   team.for_ranges(count, blocks_a_range, [&](std::size_t begin, std::size_t end) {
     int* const start = &blocks.found[begin * pairs_a_block];
     int* to = start;
     for (std::size_t b = begin; b < end; ++b) {
       PairBlock& block = blocks.block[b];
       const std::size_t from = b * pairs_a_block, last = std::min(from + pairs_a_block, pairs.size());
-      if (block.version != pairs.version(b)) {
+      const bool is_known = block.version == pairs.version(b);
+      if (is_known && still_sleeps(block, groups.total, surplus)) {
+        look_at_awake(block, pairs, ahead, groups.total, from);
+      } else {
         block.version = pairs.version(b);
-        find_relations(block, pairs, from, last);
-      } else if (still_sleeps(block, groups.total, surplus)) {
-        continue;
+        if (!is_known) find_relations(block, pairs, from, last);
+        look_into(block, pairs, ahead, groups.total, from, last);
       }
-      const Slack slack = look_into(pairs, first.ahead.data(), second.ahead.data(),
-                                    groups.relation.ahead.data(), surplus, from, last);
-      block.sleeps = false;
-      if (slack.awake == 0) lay_down(block, groups.total, slack.least);
-      for (std::uint64_t left = slack.awake; left != 0; left &= left - 1)
+      for (std::uint32_t left = block.awake; left != 0; left &= left - 1)
         *to++ = static_cast<int>(from) + std::countr_zero(left);
     }
     blocks.count[begin / blocks_a_range] = static_cast<std::size_t>(to - start);

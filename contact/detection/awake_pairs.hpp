@@ -4,7 +4,8 @@
 /// Pairs sleep in blocks. What a block's least sleepy pair has left, put on top of the longest paths of the
 /// pairs of a relation, is a sum that their longest look ahead must reach before any pair of that relation in
 /// the block can wake: until then the block costs one comparison for each of its few relations. It is exact:
-/// no pair's path grows by more than the longest of its relation.
+/// no pair's path grows by more than the longest of its relation. Pairs of the block that are awake are
+/// looked at by themselves until they sleep as the others do.
 
 #include <array>
 #include <cstdint>
@@ -18,10 +19,11 @@ namespace brio {
 /// What is known of a block of pairs.
 struct alignas(64) PairBlock {
   std::uint64_t version = 0;  ///< of the list, for which the relations were found
+  std::uint32_t awake = 0;    ///< bit i: pair i of the block was awake in the last step
   std::int8_t relations = 0;  ///< -1: too many
-  bool sleeps = false;
-  std::array<int, 4> relation{};
-  std::array<double, 4> wake{};  ///< longest look ahead of the relation at which it is looked into
+  bool sleeps = false;        ///< all others
+  std::array<int, 12> relation{};
+  std::array<double, 12> wake{};  ///< longest look ahead of the relation at which it is looked into
 };
 
 /// Of all blocks of one list of pairs, and working space.

@@ -55,6 +55,8 @@ class FeaturePairs {
   /// too. \returns numbers of box and face
   std::vector<std::pair<std::size_t, int>> find_faces(std::vector<CaptureBox> boxes,
                                                       const FeatureMotion& motion, ThreadTeam& team);
+  /// Faces that have joined or died since that search.
+  std::span<const int> faces_since_search() const { return changes_.face; }
   /// As many boxes meet at rest as in the last search of `other`, which had a depth.
   void take_rest_of(const FeaturePairs& other) { met_at_rest_ = other.met_at_rest_; }
   /// The next search is for all.

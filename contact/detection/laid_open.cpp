@@ -30,16 +30,20 @@ class LaidOpen {
       if (is_side(f)) open_.push_back(f);
   }
 
-  // The other faces by the boxes of the last search, those laid open by their own.
+  // The other faces by the boxes of the last search, those laid open since then by their own.
   void find_near(FeaturePairs& pairs, const FeatureMotion& motion, ThreadTeam& team) {
-    std::vector<CaptureBox> boxes;
-    for (int f : open_) boxes.push_back(bounds_of(vertices(nodes_, face(f))));
+    const std::span<const int> since = pairs.faces_since_search();
+    std::vector<int> young(since.begin(), since.end());
+    young.insert(young.end(), open_.begin(), open_.end());
+    std::erase_if(young, [&](int f) { return !is_side(f); });
+    sort_out(young);
+    const std::vector<CaptureBox> boxes = boxes_of(open_), boxes_of_young = boxes_of(young);
     TreeSearch search;
     CandidatePairs found;
     SearchCounts counts;
-    search.find(SearchNodes(boxes), boxes, team, found, counts);
+    search.find(SearchNodes(boxes_of_young), boxes, team, found, counts);
     for (std::size_t i = 0; i < open_.size(); ++i)
-      for (int other : found.of_box(i)) near_.emplace_back(open_[i], open_[static_cast<std::size_t>(other)]);
+      for (int other : found.of_box(i)) near_.emplace_back(open_[i], young[static_cast<std::size_t>(other)]);
     for (const auto& [i, g] : pairs.find_faces(boxes, motion, team)) near_.emplace_back(open_[i], g);
   }
 
@@ -57,6 +61,11 @@ class LaidOpen {
  private:
   const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
   bool is_side(int f) const { return face(f).alive() && !face(f).shell; }
+  std::vector<CaptureBox> boxes_of(const std::vector<int>& faces) const {
+    std::vector<CaptureBox> boxes;
+    for (int f : faces) boxes.push_back(bounds_of(vertices(nodes_, face(f))));
+    return boxes;
+  }
 
   // Whether a segment of the first face passes through the second.
   bool pierces(int f, int g) const {

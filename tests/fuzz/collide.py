@@ -6,8 +6,8 @@
 A scene has two to six bodies of bricks, shells, beams or particles, of one to some hundreds of elements, elastic,
 plastic, brittle (bricks that are deleted) or rigid, turned at random, that meet in one place at 20 to 1500 m/s. The
 same seed and number make the same scene. What is a failure: a crossing at any dump, a body swallowed by another, a
-step that ended unresolved, an exit code that is neither 0 nor 3, 60 s without an end. Distances below the touching
-distance and impact zones are counted. Prints a line for each failure and a table at the end; exit code 1 if there
+step that ended unresolved, an exit code that is not 0, 2 or 3, 60 s without an end. Distances below the touching
+distance, impact zones and scenes that are refused (they overlap as drawn, or all is rigid) are counted. Prints a line for each failure and a table at the end; exit code 1 if there
 were failures.
 """
 
@@ -115,6 +115,8 @@ def look_at(program, deck, folder):
         return "has no end", {}
     last = run.stderr.strip().split("\n")[-1]
     summaries = list(results.glob("*.summary.json"))
+    if run.returncode == 2:
+        return "", {"refused": 1}
     if run.returncode not in (0, 3) or not summaries:
         return f"exit code {run.returncode}: {last}", {}
     contact = json.loads(summaries[0].read_text())["contact"]
@@ -133,7 +135,7 @@ def main():
     parser.add_argument("--keep", help="folder for the decks that failed")
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())
-    failures, audited, too_close, zones = 0, 0, 0, 0
+    failures, audited, too_close, zones, refused = 0, 0, 0, 0, 0
     for number in range(options.first, options.first + options.scenes):
         with tempfile.TemporaryDirectory(prefix="brio-collide-") as name:
             folder = pathlib.Path(name)
@@ -149,8 +151,9 @@ def main():
         audited += contact.get("audited_dumps", 0)
         too_close += contact.get("too_close", 0)
         zones += contact.get("last_resort_uses", 0)
+        refused += contact.get("refused", 0)
     print(f"{options.scenes} scenes of seed {options.seed}, {failures} failures; {audited} dumps audited, "
-          f"{too_close} distances too close, {zones} impact zones")
+          f"{too_close} distances too close, {zones} impact zones, {refused} scenes refused")
     sys.exit(1 if failures else 0)
 
 

@@ -77,9 +77,6 @@ class Resolution {
   static constexpr int most_zone_rounds = 60;
   static constexpr double same_weight = 0.01;
   static constexpr double same_direction = 0.9999;
-  /// Opening in this step of what is hit again though it does not approach, over the separation of hits: at
-  /// first, then twice as much.
-  static constexpr double first_opening = 0.1;
   /// Over the smallest edge: less is rounding of positions.
   static constexpr double behind_wall = 1e-9;
   /// Iterations of the solver for one pass of the options.
@@ -241,10 +238,17 @@ class Resolution {
     for (std::size_t k = 0; k < 5; ++k) apart = std::max(apart, std::abs(a.weight[k] - b.weight[k]));
     return a.node == b.node && apart < same_weight && a.normal.dot(b.normal) > same_direction;
   }
-  // What nearly touches crosses by the turning of the normal alone, whatever its velocity along the normal.
-  void open_wider(ConstraintRow& row) const {
-    const double separation = separation_share * scene_.features.smallest_edge / dt_;
-    row.target_velocity = std::min(std::max(2 * row.target_velocity, first_opening * separation), separation);
+  // What nearly touches crosses by the turn of the normal alone, whatever its velocity along the normal: by
+  // as much as the nodes move against each other, times the angle by which that turns an edge.
+  void open_wider(const Contact& contact, ConstraintRow& row) const {
+    const double edge = scene_.features.smallest_edge;
+    double squared = 0;
+    for (int slave : contact.node)
+      squared = std::max(
+          squared,
+          (scene_.motion.displacement(slave) - scene_.motion.displacement(contact.node[0])).squaredNorm());
+    row.target_velocity =
+        std::min(std::max(2 * row.target_velocity, squared / edge / dt_), separation_share * edge / dt_);
   }
   // \returns whether such a constraint is there already
   bool add(const Contact& wanted, std::size_t ordinary) {
@@ -257,7 +261,7 @@ class Resolution {
       if (known.gap > 0)
         known.gap *= 0.5;
       else
-        open_wider(row_of(index(i)));
+        open_wider(known, row_of(index(i)));
       return true;
     }
     scene_.added.before.push_back(last);

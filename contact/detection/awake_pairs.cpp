@@ -48,9 +48,8 @@ void look_into(PairBlock& block, const PairList& pairs, const Ahead& ahead, cons
     if (!awake) least = std::min(least, left);
   }
   block.sleeps = block.relations >= 0;
-  if (!block.sleeps) return;
   block.wake.fill(infinity);
-  lay_down(block, total, least);
+  if (block.sleeps && least < infinity) lay_down(block, total, least);
 }
 
 // Those that were awake.

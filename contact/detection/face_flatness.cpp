@@ -38,6 +38,14 @@ Flatness flatness_of(const SurfaceFeatures& features, std::size_t face, const Fe
 // middles.
 double between_middles(const Corners& at) { return 0.5 * (at[0] - at[1] + at[2] - at[3]).norm(); }
 
+// Take over the shape at the start of the step. \returns whether the face may bend in it
+template <class Until, class May>
+bool renew(Until& until, const Corners& start, double thickness, double path, const May& may) {
+  const FlatSlack slack = flat_slack(start, thickness);
+  until = {path + slack.thin, path + slack.convex};
+  return may(path + slack.least());
+}
+
 }  // namespace
 
 double flat_thickness(const SurfaceFeatures& features, std::size_t face, Flatness flatness) {
@@ -100,9 +108,7 @@ bool FaceFlatness::bends(const SurfaceFeatures& features, int face, const Featur
     until.thin = path + 0.5 * (thickness - between_middles(start));
     if (!may(until.thin) || between_middles(end) <= thickness) return false;
   }
-  const FlatSlack slack = flat_slack(start, thickness);
-  until = {path + slack.thin, path + slack.convex};
-  return may(path + slack.least()) && !(flat_slack(end, thickness).least() >= 0);
+  return renew(until, start, thickness, path, may) && !(flat_slack(end, thickness).least() >= 0);
 }
 
 bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team) {
@@ -118,8 +124,10 @@ bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotio
 void FaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion,
                              std::vector<std::uint8_t>& joins) {
   for (std::size_t f = 0; f < flat_.size(); ++f) {
-    if (flat_[f] == Flatness::none ||
-        !may_reach(std::min(until_[f].thin, until_[f].convex), features, f, motion))
+    const auto may = [&](double path) { return may_reach(path, features, f, motion); };
+    if (flat_[f] == Flatness::none || !may(std::min(until_[f].thin, until_[f].convex))) continue;
+    if (!renew(until_[f], at_start(features, f, motion), flat_thickness(features, f, flat_[f]),
+               motion.of_face.path[f], may))
       continue;
     const Flatness now = flatness_of(features, f, motion);
     if (now <= flat_[f]) continue;

@@ -1,8 +1,6 @@
 #pragma once
 /// Bricks for the tests: shapes, shape functions, and a single element driven through a prescribed motion.
 
-// GCC 12 warns of its own AVX-512 headers where Eigen uses them.
-#define EIGEN_DONT_VECTORIZE
 #include <Eigen/Dense>
 #include <array>
 #include <random>

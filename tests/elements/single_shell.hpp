@@ -1,8 +1,6 @@
 #pragma once
 /// One shell element driven by hand: the kernel on plain doubles.
 
-// GCC 12 warns of its own AVX-512 headers where Eigen uses them.
-#define EIGEN_DONT_VECTORIZE
 #include <Eigen/Dense>
 #include <array>
 #include <random>

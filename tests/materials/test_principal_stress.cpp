@@ -1,7 +1,5 @@
 // Largest principal values against Eigen's eigenvalues, on plain numbers and on lanes.
 
-// GCC 12 warns of its own AVX-512 headers where Eigen uses them.
-#define EIGEN_DONT_VECTORIZE
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

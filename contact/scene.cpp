@@ -6,6 +6,13 @@ namespace brio {
 
 using Eigen::Vector3d;
 
+ContactScene::ContactScene() = default;
+ContactScene::ContactScene(const ContactScene&) = default;
+ContactScene::ContactScene(ContactScene&&) noexcept = default;
+ContactScene& ContactScene::operator=(const ContactScene&) = default;
+ContactScene& ContactScene::operator=(ContactScene&&) noexcept = default;
+ContactScene::~ContactScene() = default;
+
 ContactScene make_contact_scene(const ContactOptions& options, std::span<const SurfacePart> parts,
                                 const Nodes& nodes) {
   ContactScene scene;

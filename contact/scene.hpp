@@ -72,6 +72,14 @@ struct ContactTotals {
 };
 
 struct ContactScene {
+  // Compiled once: they are a third of the code of a source that takes them.
+  ContactScene();
+  ContactScene(const ContactScene&);
+  ContactScene(ContactScene&&) noexcept;
+  ContactScene& operator=(const ContactScene&);
+  ContactScene& operator=(ContactScene&&) noexcept;
+  ~ContactScene();
+
   ContactOptions options;
   Surface surface;
   Lists excluded;

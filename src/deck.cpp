@@ -17,6 +17,13 @@ std::size_t next_point(const std::vector<std::array<double, 2>>& points, double 
 
 }  // namespace
 
+Deck::Deck() = default;
+Deck::Deck(const Deck&) = default;
+Deck::Deck(Deck&&) noexcept = default;
+Deck& Deck::operator=(const Deck&) = default;
+Deck& Deck::operator=(Deck&&) noexcept = default;
+Deck::~Deck() = default;
+
 double WedgeMesh::shoulder() const {
   const double height_of_flanks =
       (thickness - tip_width) / (2 * std::tan(half_angle * std::numbers::pi / 180));

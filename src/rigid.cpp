@@ -112,6 +112,7 @@ Vector3d given_turn(RigidBody& body, RigidMotion& motion, double step) {
   const Quaterniond attitude = body.attitude;
   const Vector3d start = motion.angular_velocity;
   Vector3d end = start;
+  double last_change = HUGE_VAL;
   for (int i = 0; i < most_iterations; ++i) {
     body.attitude = normalized(turn_by(0.5 * step * (start + end)) * attitude);
     motion.inertia = turned(body.inertia, body.attitude);
@@ -119,7 +120,10 @@ Vector3d given_turn(RigidBody& body, RigidMotion& motion, double step) {
     const Vector3d next = angular_velocity_of(motion, body.angular_momentum, start);
     const double change = (next - end).norm();
     end = next;
-    if (change <= converged_change * start.norm()) {
+    // Below the rounding of what it is computed from, a change does not get smaller.
+    const bool is_rounding = change <= newton_share * start.norm() && change >= last_change;
+    last_change = change;
+    if (is_rounding || change <= converged_change * start.norm()) {
       Vector3d added = motion.inertia * end - body.angular_momentum;
       body.angular_momentum += added;
       return added;

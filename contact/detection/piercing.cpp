@@ -1,6 +1,7 @@
 #include "contact/detection/piercing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -36,23 +37,42 @@ std::array<int, 2> ends_of(const Surface& surface, const EdgeFeature& edge) {
           surface.node[static_cast<std::size_t>(edge.node[1])]};
 }
 
-/// Of the largest distance between an edge and a face: far more than the rounding of `is_beside`.
+/// Of the largest distance between an edge and a face: far more than the rounding of `is_beyond`.
 constexpr double beside_share = 1e-10;
 
-// Whether the edge is on one side of the face, along the normal of its diagonals, beyond rounding.
-bool is_beside(const MovingNode& way, const FaceVertices& at) {
-  const Vector3d first = at[2] - at[0], second = at[3] - at[1], normal = first.cross(second);
-  const double start = normal.dot(way.start - at[0]), end = start + normal.dot(way.displacement);
-  double lower = 0, upper = 0, largest = 0;
+// Whether the edge is beyond all corners of the face along a direction, whatever its rounding. \param size no
+// less than the terms of which the direction was computed, \param reach than the distances
+bool is_beyond(const MovingNode& way, const FaceVertices& at, const Vector3d& direction, double size,
+               double reach) {
+  const double start = direction.dot(way.start - at[0]), end = start + direction.dot(way.displacement);
+  double lower = 0, upper = 0;
   for (const Vector3d& corner : at) {
-    const double height = normal.dot(corner - at[0]);
+    const double height = direction.dot(corner - at[0]);
     lower = std::min(lower, height);
     upper = std::max(upper, height);
-    largest = std::max(largest, (way.start - corner).lpNorm<1>());
   }
-  const double surplus =
-      beside_share * first.norm() * second.norm() * (largest + way.displacement.lpNorm<1>());
+  const double surplus = beside_share * size * reach;
   return std::min(start, end) > upper + surplus || std::max(start, end) < lower - surplus;
+}
+
+// Whether a plane separates the edge from the face, of those that hold two of their directions (Gottschalk,
+// Lin and Manocha 1996): nearly all that come near each other are told apart so.
+bool is_beside(const MovingNode& way, const FaceVertices& at) {
+  const Vector3d &along = way.displacement, normal = (at[2] - at[0]).cross(at[3] - at[1]);
+  const double length = along.norm(), area = (at[2] - at[0]).norm() * (at[3] - at[1]).norm();
+  double reach = 0;
+  for (const Vector3d& corner : at) reach = std::max(reach, (way.start - corner).lpNorm<1>());
+  reach += along.lpNorm<1>();
+  if (is_beyond(way, at, normal, area, reach)) return true;
+  std::array<Vector3d, 4> side;
+  for (std::size_t k = 0; k < 4; ++k) side[k] = at[(k + 1) % 4] - at[k];
+  const auto beyond_side = [&](const Vector3d& one) {
+    const double size = one.norm();
+    return is_beyond(way, at, along.cross(one), length * size, reach) ||
+           is_beyond(way, at, one.cross(normal), size * area, reach);
+  };
+  return std::any_of(side.begin(), side.end(), beyond_side) ||
+         is_beyond(way, at, along.cross(normal), length * area, reach);
 }
 
 // Share of the edge at which it first meets the face.

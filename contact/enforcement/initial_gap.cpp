@@ -1,6 +1,7 @@
 #include "contact/enforcement/initial_gap.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -233,16 +234,12 @@ class GapMaker {
   }
 
   std::size_t entry_of(const std::array<int, 2>& parts) {
-    const std::string &first = part_name(parts[0]), &second = part_name(parts[1]);
-    std::size_t entry = 0;
-    while (entry < report_.size() &&
-           (report_[entry].node_part != first || report_[entry].face_part != second))
-      ++entry;
-    if (entry == report_.size()) {
-      report_.push_back({.node_part = first, .face_part = second});
+    const auto [known, is_new] = entry_.try_emplace(parts, report_.size());
+    if (is_new) {
+      report_.push_back({.node_part = part_name(parts[0]), .face_part = part_name(parts[1])});
       near_.emplace_back();
     }
-    return entry;
+    return known->second;
   }
 
   void record(const SidedPair& pair) {
@@ -419,7 +416,8 @@ class GapMaker {
   std::vector<Vector3d> start_;     ///< of each slave node
   std::vector<SidedPair> found_;
   std::vector<InitialOverlap> report_;
-  std::vector<std::set<int>> near_;  ///< nodes of each entry
+  std::map<std::array<int, 2>, std::size_t> entry_;  ///< of two parts, in `report_`
+  std::vector<std::set<int>> near_;                  ///< nodes of each entry
   ConstraintRows rows_;
   std::vector<VelocityBlock> blocks_;
   std::vector<int> block_;  ///< of each slave node, while rows are formed

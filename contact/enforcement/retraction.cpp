@@ -36,6 +36,8 @@ class Retraction {
         nodes_(nodes),
         look_(features, surface, nodes, {}),
         set_back_(surface.face.size(), 0.0),
+        normal_(surface.face.size(), Vector3d::Zero()),
+        box_(static_cast<std::size_t>(surface.body_count), empty_box),
         firmness_(static_cast<std::size_t>(surface.body_count), Firmness::is_free) {
     for (std::size_t s = 0; s < surface.slaves(); ++s) {
       const auto node = static_cast<std::size_t>(surface.node[s]);
@@ -47,6 +49,7 @@ class Retraction {
   }
 
   std::vector<TouchingPair> run() {
+    measure();
     find_overlapping();
     for (std::size_t p = 0; p < pairs_.node_face.size(); ++p) look_at_node_and_face(p);
     for (std::size_t p = 0; p < pairs_.edge_edge.size(); ++p) look_at_edges(p);
@@ -62,6 +65,22 @@ class Retraction {
     int slave, body, face;
     auto operator<=>(const ToBody&) const = default;
   };
+  // Normals of faces and boxes around bodies.
+  void measure() {
+    for (std::size_t f = 0; f < normal_.size(); ++f) {
+      const Face& one = surface_.face[f];
+      if (!one.alive()) continue;
+      const FaceVertices at = look_.corners(one);
+      normal_[f] = unit_or((at[2] - at[0]).cross(at[3] - at[1]), Vector3d::Zero());
+      CaptureBox& box = box_[static_cast<std::size_t>(one.body)];
+      for (const Vector3d& corner : at)
+        for (int axis = 0; axis < 3; ++axis) {
+          box.lower[axis] = std::min(box.lower[axis], corner[axis]);
+          box.upper[axis] = std::max(box.upper[axis], corner[axis]);
+        }
+    }
+  }
+
   const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
 
   void look_at_node_and_face(std::size_t p) {
@@ -115,7 +134,7 @@ class Retraction {
       const int s = pairs_.node_face.first(p), f = pairs_.node_face.second(p);
       const Face& other = face(f);
       if (other.shell || !are_two(surface_.body[static_cast<std::size_t>(s)], other.body)) continue;
-      order.push_back({s, other.body, f});
+      if (is_deep_in_box(s, other.body)) order.push_back({s, other.body, f});
     }
     std::sort(order.begin(), order.end());
     for (auto begin = order.begin(); begin != order.end();) {
@@ -127,17 +146,29 @@ class Retraction {
     }
   }
 
+  // Elsewhere a node in the body is no deeper than the gap.
+  bool is_deep_in_box(int s, int body) const {
+    const Vector3d x = look_.at(s);
+    const CaptureBox& box = box_[static_cast<std::size_t>(body)];
+    for (int axis = 0; axis < 3; ++axis)
+      if (x[axis] <= box.lower[axis] + 2 * features_.skin || x[axis] >= box.upper[axis] - 2 * features_.skin)
+        return false;
+    return true;
+  }
+
   void look_whether_inside(std::span<const ToBody> faces) {
     const int s = faces.front().slave, body = faces.front().body;
     int nearest = -1;
     ClosestPoint point;
     for (const ToBody& one : faces) {
+      if (nearest >= 0 && look_.surely_farther(s, face(one.face), std::sqrt(point.squared_distance)))
+        continue;
       const ClosestPoint here = closest_point_on_quad(look_.at(s), look_.corners(face(one.face)));
       if (nearest >= 0 && !(here.squared_distance < point.squared_distance)) continue;
       nearest = one.face;
       point = here;
+      if (point.squared_distance <= 4 * features_.skin * features_.skin) return;
     }
-    if (point.squared_distance <= 4 * features_.skin * features_.skin) return;
     if (!is_outside(surface_, nodes_, nearest, point))
       overlapping_.insert(std::minmax(surface_.body[static_cast<std::size_t>(s)], body));
   }
@@ -176,10 +207,7 @@ class Retraction {
     }
   }
 
-  Vector3d normal(int f) const {
-    const FaceVertices at = look_.corners(face(f));
-    return unit_or((at[2] - at[0]).cross(at[3] - at[1]), Vector3d::Zero());
-  }
+  const Vector3d& normal(int f) const { return normal_[static_cast<std::size_t>(f)]; }
 
   void move() {
     std::vector<Vector3d> displacement(surface_.slaves(), Vector3d::Zero());
@@ -217,6 +245,8 @@ class Retraction {
   Nodes& nodes_;
   SidedLook look_;
   std::vector<double> set_back_;               ///< of each face; 0: it stays
+  std::vector<Vector3d> normal_;               ///< of each face, as drawn
+  std::vector<CaptureBox> box_;                ///< of each body
   std::set<std::pair<int, int>> overlapping_;  ///< bodies
   std::vector<Firmness> firmness_;             ///< of each body
   std::vector<TouchingPair> touching_;

@@ -97,8 +97,8 @@ class Resolution {
     select();
     scene_.motion.set_limits(2, allowed_surplus(scene_.features));
     scene_.last.swap(scene_.contacts);
-    find_proximities(scene_.proximity, scene_.features, scene_.surface, scene_.options, scene_.pairs,
-                     scene_.motion, team_, scene_.contacts);
+    find_proximities(scene_.proximity, scene_.features, scene_.surface, scene_.excluded, scene_.options,
+                     scene_.pairs, scene_.motion, team_, scene_.contacts);
     inherit_impulses(scene_.last, step_ratio(), scene_.contacts, rows_.taken);
   }
 

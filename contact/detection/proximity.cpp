@@ -202,10 +202,10 @@ void select_awake(Proximity& proximity, const SurfaceFeatures& features, const F
 }
 
 void find_proximities(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
-                      const ContactOptions& options, FeaturePairs& pairs, const FeatureMotion& motion,
-                      ThreadTeam& team, std::vector<Contact>& contacts) {
+                      const Lists& excluded, const ContactOptions& options, FeaturePairs& pairs,
+                      const FeatureMotion& motion, ThreadTeam& team, std::vector<Contact>& contacts) {
   contacts.clear();
-  const ProximityFilter filter(features, surface, options, pairs, motion);
+  const ProximityFilter filter(features, surface, excluded, options, pairs, motion);
   const NodesAndFaces nodes_and_faces{features, motion, pairs.node_face};
   find_of_kind(proximity, nodes_and_faces, filter, proximity.node_face, team, contacts);
   const EdgesAndEdges edges_and_edges{features, motion, pairs.edge_edge};

@@ -47,10 +47,11 @@ void select_awake(Proximity& proximity, const SurfaceFeatures& features, const F
                   const FeatureMotion& motion, ThreadTeam& team);
 
 /// Replace `contacts` by the constraints of this step, those of nodes and faces by node, then those of edges.
-/// Directions and wakes of the pairs are renewed. The same bits for any number of threads.
+/// Directions and wakes of the pairs are renewed. The same bits for any number of threads. \param excluded
+/// pairs of nodes and faces that are one piece
 void find_proximities(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
-                      const ContactOptions& options, FeaturePairs& pairs, const FeatureMotion& motion,
-                      ThreadTeam& team, std::vector<Contact>& contacts);
+                      const Lists& excluded, const ContactOptions& options, FeaturePairs& pairs,
+                      const FeatureMotion& motion, ThreadTeam& team, std::vector<Contact>& contacts);
 
 /// Of all pairs: how far the solution may move a node beyond twice its predicted step before pairs that were
 /// surely apart have to be looked at again.

@@ -6,6 +6,7 @@
 
 #include "contact/closest_segments.hpp"
 #include "contact/detection/hull_point.hpp"
+#include "contact/exclusion.hpp"
 
 namespace brio {
 
@@ -75,17 +76,24 @@ double ProximityFilter::rounding_of_foot(double slack, double distance) const {
   return std::max(no_weight, slack * distance / features_.smallest_edge);
 }
 
+// Where a shell folds onto itself, neighbours towards the fold are the nearer the closer they are to it:
+// those within the tightest fold are kept apart by nothing.
+bool ProximityFilter::is_one_piece(int neighbour, OtherSide other) const {
+  return std::any_of(other.begin(), other.end(),
+                     [&](int f) { return f >= 0 && is_excluded(excluded_, neighbour, f); });
+}
+
 // Whether no neighbour in the list comes nearer than the foot along the direction away from the other side:
 // at the start of the step, or where the motion leads, so that what carries is not let go for a step in which
 // a neighbour is a little nearer.
 template <class List>
 bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away,
-                                double slack) const {
+                                double slack, OtherSide other) const {
   const auto look = [&](const Vector3d& from, double share) {
     return std::all_of(neighbours.begin(), neighbours.end(), [&](int neighbour) {
       if (neighbour < 0) return true;
       const Vector3d arm = motion_.start(neighbour) + share * motion_.displacement(neighbour) - from;
-      return arm.dot(away) >= -slack * arm.norm();
+      return arm.dot(away) >= -slack * arm.norm() || is_one_piece(neighbour, other);
     });
   };
   return look(foot.start, 0) || look(foot.end, 1);
@@ -104,7 +112,7 @@ bool ProximityFilter::is_near(const Contact& contact) const {
 // Whether the foot on the face is a local minimum on the union of faces; what it lies on: a node, two nodes,
 // or the face.
 bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& weights, const MovingPoint& foot,
-                                         const Vector3d& normal, double slack,
+                                         const Vector3d& normal, double slack, OtherSide other,
                                          std::array<int, 2>& support) const {
   const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
   std::array<std::size_t, 4> on{};
@@ -114,14 +122,14 @@ bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& wei
     if (weights[k] > no_weight) on[count++] = k;
   if (count == 1) {
     support = {corner[on[0]], -1};
-    return look_away(features_.ring.of(corner[on[0]]), foot, -normal, slack);
+    return look_away(features_.ring.of(corner[on[0]]), foot, -normal, slack, other);
   }
   support = {-2 - f, -1};
   if (count != 2 || (corners == 4 && on[1] == on[0] + 2)) return true;
   const std::size_t side = on[1] == on[0] + 1 ? on[0] : on[1];
   support = {std::min(corner[on[0]], corner[on[1]]), std::max(corner[on[0]], corner[on[1]])};
-  return look_away(edge(features_.edge_of_face[static_cast<std::size_t>(f)][side]).wing, foot, -normal,
-                   slack);
+  return look_away(edge(features_.edge_of_face[static_cast<std::size_t>(f)][side]).wing, foot, -normal, slack,
+                   other);
 }
 
 // Both faces at a side of a face.
@@ -211,15 +219,21 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   foot.end = foot.start;
   for (std::size_t k = 0; k < 4; ++k) foot.end += near.at[k] * motion_.displacement(corner[k]);
   const double slack = slack_of(foot.start, near.distance);
-  if (!is_minimum_on_face(f, near.at, foot, near.normal, slack, support)) return;
+  const bool own = face.shell && face.body == surface_.body[static_cast<std::size_t>(s)];
+  const OtherSide faces_of_node = own ? OtherSide(surface_.faces_of.of(s)) : OtherSide();
+  if (!is_minimum_on_face(f, near.at, foot, near.normal, slack, faces_of_node, support)) return;
   // Beside a side or a corner the direction is no normal of the face: a node that its own neighbours come
-  // nearer than, as one of a flat surface ahead of a rim, is no minimum.
+  // nearer than, as one of a flat surface ahead of a rim, is no minimum. Not where a shell folds onto itself:
+  // the nearest towards the fold are one piece with each other and would leave the rest to come nearer than
+  // they may.
   const bool inside = support[0] < -1;
   bool in_plane = false;
   if (!inside) {
-    if (!look_away(features_.ring.of(s), point_of(s), near.normal, slack)) return;
-    const Edginess of_face = support[1] >= 0 ? edginess(faces_of_side(f, support), near.normal)
-                                             : edginess(surface_.faces_of.of(support[0]), near.normal);
+    const std::array<int, 2> beside = support[1] >= 0 ? faces_of_side(f, support) : std::array{-1, -1};
+    const std::span<const int> at_foot =
+        support[1] >= 0 ? std::span<const int>(beside) : surface_.faces_of.of(support[0]);
+    if (!own && !look_away(features_.ring.of(s), point_of(s), near.normal, slack, {})) return;
+    const Edginess of_face = edginess(at_foot, near.normal);
     const Edginess of_node = edginess(surface_.faces_of.of(s), Vector3d(-near.normal));
     in_plane = lay_in_plane(near, slack, contact);
     const double tilt = in_plane ? 0 : tilt_of(std::max(of_face.cosine, of_node.cosine));
@@ -242,20 +256,21 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
 // Whether the foot on an edge is a local minimum on the union of edges and faces. Ends of edges of faces are
 // nodes, which have their own constraints. \param on the number of the edge, or of the end's node below -1
 bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const MovingPoint& foot,
-                                         const Vector3d& away, double slack, double distance, int& on) const {
+                                         const Vector3d& away, double slack, double distance, OtherSide other,
+                                         int& on) const {
   const EdgeFeature& own = edge(e);
   on = e;
   if (own.is_point()) return true;
   const int end = own.node[parameter > 0.5 ? 1 : 0];
   if (parameter > no_weight && parameter < 1 - no_weight) {
     const bool at_end = std::min(parameter, 1 - parameter) <= rounding_of_foot(slack, distance);
-    if (at_end && own.of_face() && look_away(features_.ring.of(end), point_of(end), away, slack))
+    if (at_end && own.of_face() && look_away(features_.ring.of(end), point_of(end), away, slack, other))
       return false;
-    return own.faces > 2 || look_away(own.wing, foot, away, slack);
+    return own.faces > 2 || look_away(own.wing, foot, away, slack, other);
   }
   if (own.of_face()) return false;
   on = -2 - end;
-  return look_away(features_.ring.of(end), foot, away, slack);
+  return look_away(features_.ring.of(end), foot, away, slack, other);
 }
 
 // How the faces beside the edge lie in the plane at right angles to the direction.
@@ -293,8 +308,11 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const double slack = slack_of(foot_a.start, near.distance);
   if (are_parallel(a, b, rounding_of_foot(slack, near.distance))) return;
   int on_a = 0, on_b = 0;
-  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, on_a) ||
-      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, on_b))
+  const bool own = a.shell && b.shell && a.body == b.body;
+  const OtherSide faces_of_a = own ? OtherSide(a.face) : OtherSide();
+  const OtherSide faces_of_b = own ? OtherSide(b.face) : OtherSide();
+  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, faces_of_b, on_a) ||
+      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, faces_of_a, on_b))
     return;
   const Flatness flat_a = flatness(a, foot_a.start, near.normal),
                  flat_b = flatness(b, foot_b.start, near.normal);

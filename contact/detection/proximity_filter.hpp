@@ -2,6 +2,8 @@
 /// From closest points that are near to constraints: what is a local minimum of distance on the union of the
 /// surfaces, and approaches enough to matter in this step (proximity.hpp).
 
+#include <span>
+
 #include "contact/detection/proximity.hpp"
 
 namespace brio {
@@ -21,10 +23,11 @@ struct NearPair {
 
 class ProximityFilter {
  public:
-  ProximityFilter(const SurfaceFeatures& features, const Surface& surface, const ContactOptions& options,
-                  const FeaturePairs& pairs, const FeatureMotion& motion)
+  ProximityFilter(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
+                  const ContactOptions& options, const FeaturePairs& pairs, const FeatureMotion& motion)
       : features_(features),
         surface_(surface),
+        excluded_(excluded),
         options_(options),
         pairs_(pairs),
         motion_(motion),
@@ -40,17 +43,21 @@ class ProximityFilter {
   struct MovingPoint {
     Eigen::Vector3d start, end;
   };
+  /// The other side, where it is of the same shell: neighbours that are one piece with it do not count.
+  using OtherSide = std::span<const int>;
+  bool is_one_piece(int neighbour, OtherSide other) const;
   template <class List>
-  bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away,
-                 double slack) const;
+  bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away, double slack,
+                 OtherSide other) const;
   MovingPoint point_of(int node) const;
   static double slack_of(const Eigen::Vector3d& foot, double distance);
   bool is_near(const Contact& contact) const;
   double rounding_of_foot(double slack, double distance) const;
   bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const MovingPoint& foot,
-                          const Eigen::Vector3d& normal, double slack, std::array<int, 2>& support) const;
+                          const Eigen::Vector3d& normal, double slack, OtherSide other,
+                          std::array<int, 2>& support) const;
   bool is_minimum_on_edge(int edge, double parameter, const MovingPoint& foot, const Eigen::Vector3d& away,
-                          double slack, double distance, int& on) const;
+                          double slack, double distance, OtherSide other, int& on) const;
   bool lay_in_plane(const NearPair<4>& near, double slack, Contact& contact) const;
   /// Of the faces at an edge or a node: the largest cosine of a normal and a direction; whether they bend.
   struct Edginess {
@@ -72,6 +79,7 @@ class ProximityFilter {
 
   const SurfaceFeatures& features_;
   const Surface& surface_;
+  const Lists& excluded_;
   const ContactOptions& options_;
   const FeaturePairs& pairs_;
   const FeatureMotion& motion_;

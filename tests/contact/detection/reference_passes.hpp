@@ -33,7 +33,8 @@ class Reference {
   std::vector<Contact> contacts() const {
     std::vector<Contact> contacts;
     std::vector<FoundContact> found;
-    const ProximityFilter filter(scene_.features, scene_.surface, scene_.options, all_, motion_);
+    const ProximityFilter filter(scene_.features, scene_.surface, scene_.excluded, scene_.options, all_,
+                                 motion_);
     for (std::size_t i = 0; i < all_.node_face.size(); ++i) {
       if (all_.node_face.spacing(i) == Spacing::none) continue;
       const NearPair<4> near = closest_node_face(i);

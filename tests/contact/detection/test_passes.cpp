@@ -27,7 +27,8 @@ struct Detector {
     if (pairs.is_due(scene.features, scene.surface, motion, team)) search();
     select_awake(proximity, scene.features, pairs, motion, team);
     motion.set_limits(2, allowed_surplus(scene.features));
-    find_proximities(proximity, scene.features, scene.surface, scene.options, pairs, motion, team, contacts);
+    find_proximities(proximity, scene.features, scene.surface, scene.excluded, scene.options, pairs, motion,
+                     team, contacts);
   }
   void search() { pairs.find(scene.features, scene.surface, scene.excluded, scene.options, motion, team); }
 
@@ -171,8 +172,8 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
     detector.motion.begin(scene.features, scene.surface, scene.nodes, team);
     detector.motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
     select_awake(detector.proximity, scene.features, detector.pairs, detector.motion, team);
-    find_proximities(detector.proximity, scene.features, scene.surface, scene.options, detector.pairs,
-                     detector.motion, team, detector.contacts);
+    find_proximities(detector.proximity, scene.features, scene.surface, scene.excluded, scene.options,
+                     detector.pairs, detector.motion, team, detector.contacts);
     detector.find();
   };
   detector.begin();

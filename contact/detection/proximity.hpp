@@ -7,6 +7,8 @@
 /// Where a node is closest to an edge or a corner of a face, the faces beside it must look away; two edges
 /// form a constraint where both are closest inside of them and the faces at both look away. So a node or an
 /// edge that slides over inner edges of a flat surface meets nothing there.
+/// Of a shell that meets itself, neighbours that are one piece with the other side do not count, nor those of
+/// a node: towards a fold each is nearer than the one before.
 
 #include <span>
 #include <vector>

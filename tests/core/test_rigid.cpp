@@ -309,6 +309,19 @@ TEST(PrescribedRigidBody, OneForbiddenRotationDoesNoWork) {
   EXPECT_LE(error, 1e-5);
 }
 
+// The turn is sought until its change is rounding, which may stay at a few units in the last place.
+TEST(PrescribedRigidBody, AnyTurnIsFound) {
+  for (int k = 0; k < 60; ++k) {
+    Deck deck = lone_box(5, 1e-3);
+    deck.initial_conditions = {
+        spinning("box", {0, 0, 0}, {5 + 0.37 * k, -4 + 0.21 * k, 3 - 0.53 * k}, {0, 2, 1})};
+    deck.boundary_conditions = {fix("box", {3 + k % 3})};
+    Model model = build_model(deck);
+    ThreadTeam team(1);
+    EXPECT_NO_THROW(run(model, deck, team)) << k;
+  }
+}
+
 // ---- walls
 
 TEST(RigidBodyOnAWall, StopsFlatAndTurnsWhenHitBesideItsCentre) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,130 +15,126 @@ namespace brio {
 namespace {
 
 constexpr auto width = static_cast<std::size_t>(tree_width);
-constexpr std::size_t group_size = 4;              // boxes that descend together
-constexpr std::size_t most_of_group = 128;         // nodes nearby beyond which a group is halved
-constexpr std::size_t most_ranked_by_count = 256;  // beyond, sorting costs less
+constexpr std::size_t group_size = 4;                 // boxes that descend together
+constexpr std::size_t bundle_size = 16 * group_size;  // boxes whose groups begin at the same branches
+constexpr std::size_t most_branches = 16;             // of a bundle, that give way to those below
+constexpr std::size_t most_of_group = 128;            // nodes nearby beyond which a group is halved
+constexpr std::size_t most_ranked_by_count = 256;     // beyond, sorting costs less
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 constexpr int tests_per_block = 6 * tree_width;
 
 /// The first `count` bits of sixteen.
 constexpr unsigned first_bits(std::size_t count) { return count >= width ? 0xffffu : (1u << count) - 1u; }
 
-/// Which of sixteen boxes overlap `box`.
-BRIO_INLINE unsigned overlap_bits_of_sixteen(const double (&lower)[3][tree_width],
-                                             const double (&upper)[3][tree_width], const BoxLanes& box) {
-  unsigned bits = 0;
-  for (int half = 0; half < tree_width; half += bits_lanes) {
-    const double* const from[3] = {lower[0] + half, lower[1] + half, lower[2] + half};
-    const double* const to[3] = {upper[0] + half, upper[1] + half, upper[2] + half};
-    bits |= overlap_bits(from, to, box) << half;
-  }
-  return bits;
+/// Which of the sixteen boxes of a block overlap `box`, or nearly do.
+BRIO_INLINE unsigned overlap_bits(const TreeBlock& block, const CaptureBox& box) {
+  const auto all_of = [](const float(&source)[tree_width]) {
+    Lanes<float> values;
+    __builtin_memcpy(&values.v, source, sizeof values.v);
+    return values;
+  };
+  const auto meets = [&](int axis) {
+    return (all_of(block.lower[axis]) <= Lanes<float>(block.seen(box.upper[axis], axis))) &
+           (all_of(block.upper[axis]) >= Lanes<float>(block.seen(box.lower[axis], axis)));
+  };
+  return bits_of_lanes((meets(0) & meets(1) & meets(2)).v);
 }
 
+/// Of a box that is not there.
+constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
 constexpr CaptureBox everywhere{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
 
 }  // namespace
 
 void NodeTree::build(const SearchNodes& nodes, ThreadTeam& team) {
+  constexpr std::size_t places_per_task = 8192;
   holds_points_ = nodes.are_points();
   lay_centres(nodes, everywhere, team, centres_);
   order_.sort(centres_, team);
-  fill_leaves(nodes, team);
-  branches_.clear();
-  levels_.clear();
-  while (bounds_.size() > 1 || (levels_.empty() && !bounds_.empty())) add_level(team);
+  range_.resize(order_.size());
+  team.for_ranges(order_.size(), places_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) range_[i] = nodes.range(static_cast<std::size_t>(order_[i]));
+  });
+  blocks_.clear();
+  first_.clear();
+  bounds_.clear();
+  if (range_.empty()) return;
+  add_level(range_, team);
+  while (bounds_.size() > 1) {
+    bounds_.swap(below_);
+    add_level(below_, team);
+  }
 }
 
-void NodeTree::fill_leaves(const SearchNodes& nodes, ThreadTeam& team) {
-  constexpr std::size_t leaves_per_task = 512;
-  constexpr CaptureBox nowhere{{infinity, infinity, infinity}, {infinity, infinity, infinity}};
-  const std::size_t leaves = (order_.size() + width - 1) / width;
-  leaves_.resize(leaves);
-  bounds_.resize(leaves);
-  team.for_ranges(leaves, leaves_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t l = begin; l < end; ++l) {
-      TreeLeaf& leaf = leaves_[l];
+/// Put blocks over `boxes`, and their bounds into `bounds_`.
+void NodeTree::add_level(std::span<const CaptureBox> boxes, ThreadTeam& team) {
+  constexpr std::size_t blocks_per_task = 512;
+  constexpr double far = std::numeric_limits<double>::max() / 4;
+  const std::size_t first = blocks_.size();
+  const std::size_t added = (boxes.size() + width - 1) / width;
+  blocks_.resize(first + added);
+  bounds_.resize(added);
+  first_.push_back(first);
+  team.for_ranges(added, blocks_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const auto inside = boxes.subspan(b * width, std::min(width, boxes.size() - b * width));
       Bounds bounds;
-      for (std::size_t i = 0; i < width; ++i) {
-        const bool present = l * width + i < order_.size();
-        const int node = present ? order_[l * width + i] : 0;
-        const CaptureBox range = present ? nodes.range(static_cast<std::size_t>(node)) : nowhere;
-        for (int axis = 0; axis < 3; ++axis) {
-          leaf.lower[axis][i] = range.lower[axis];
-          if (!holds_points_) leaf.upper[axis][i] = range.upper[axis];
-        }
-        leaf.node[i] = node;
-        if (present) bounds.include(range);
+      for (const CaptureBox& box : inside) bounds.include(box);
+      bounds_[b] = bounds;
+      TreeBlock& block = blocks_[first + b];
+      double extent = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        block.origin[axis] = std::clamp(bounds.lower[axis], -far, far);
+        extent = std::max(extent, std::min(bounds.upper[axis], far) - block.origin[axis]);
       }
-      bounds_[l] = bounds;
+      block.per_length = extent > std::numeric_limits<double>::min() ? 1 / extent : 1;
+      for (std::size_t i = 0; i < width; ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+          block.lower[axis][i] = i < inside.size() ? block.seen(inside[i].lower[axis], axis) : nowhere;
+          block.upper[axis][i] = i < inside.size() ? block.seen(inside[i].upper[axis], axis) : nowhere;
+        }
     }
   });
 }
 
-/// Put branches over `bounds_`, and replace these by the bounds of the branches.
-void NodeTree::add_level(ThreadTeam& team) {
-  constexpr std::size_t branches_per_task = 512;
-  const std::size_t children = bounds_.size();
-  const std::size_t first = branches_.size();
-  const std::size_t added = (children + width - 1) / width;
-  branches_.resize(first + added);
-  levels_.push_back({first, children});
-  team.for_ranges(added, branches_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n)
-      for (std::size_t i = 0; i < width; ++i) {
-        const Bounds bounds = n * width + i < children ? bounds_[n * width + i] : Bounds();
-        for (int axis = 0; axis < 3; ++axis) {
-          branches_[first + n].lower[axis][i] = bounds.lower[axis];
-          branches_[first + n].upper[axis][i] = bounds.upper[axis];
-        }
-      }
-  });
-  for (std::size_t n = 0; n < added; ++n) {
-    Bounds bounds;
-    for (std::size_t i = n * width; i < std::min(children, (n + 1) * width); ++i) bounds.include(bounds_[i]);
-    bounds_[n] = bounds;
+std::span<const NodeTree::Branch> NodeTree::narrow(const CaptureBox& box, std::vector<Branch>& room,
+                                                   std::uint64_t& comparisons) const {
+  room.clear();
+  if (!first_.empty()) room.push_back({first_.size() - 1, 0});
+  // Level by level, branches give way to those below them that meet the box while these are few.
+  std::span<const Branch> branches(room);
+  while (!branches.empty() && branches.front().level > 1) {
+    const std::size_t begin = room.size() - branches.size(), end = room.size();
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [level, number] = room[i];
+      comparisons += tests_per_block;
+      for (unsigned bits = overlap_bits(blocks_[first_[level] + number], box); bits != 0; bits &= bits - 1)
+        room.push_back({level - 1, number * width + static_cast<std::size_t>(std::countr_zero(bits))});
+    }
+    if (room.size() - end > most_branches) return std::span(room).subspan(begin, end - begin);
+    branches = std::span(room).subspan(end);
   }
-  bounds_.resize(added);
+  return branches;
 }
 
-std::size_t NodeTree::collect(const CaptureBox& box, std::size_t most, std::vector<int>& nodes,
+std::size_t NodeTree::collect(const CaptureBox& box, std::span<const Branch> branches, std::size_t most,
                               std::vector<int>& places, std::uint64_t& comparisons) const {
-  struct Block {
-    int level;  // -1 for a leaf
-    std::size_t number;
-  };
-  std::array<Block, 10 * width>
-      stack;  // fifteen siblings of each ancestor: a tree of 2^31 nodes has 8 levels
-  std::size_t waiting = 0;
+  std::array<Branch, 10 * width> below;  // fifteen siblings of each ancestor: 2^31 nodes make 8 levels
   std::size_t found = 0;
-  if (!levels_.empty()) stack[waiting++] = {static_cast<int>(levels_.size()) - 1, 0};
-  const BoxLanes lanes(box);
-  while (waiting > 0 && found <= most) {
-    const Block block = stack[--waiting];
-    comparisons += tests_per_block;
-    if (block.level >= 0) {
-      const Level& level = levels_[static_cast<std::size_t>(block.level)];
-      const TreeBranch& branch = branches_[level.first + block.number];
-      unsigned bits = overlap_bits_of_sixteen(branch.lower, branch.upper, lanes) &
-                      first_bits(level.children - block.number * width);
-      for (; bits != 0; bits &= bits - 1)
-        stack[waiting++] = {block.level - 1,
-                            block.number * width + static_cast<std::size_t>(__builtin_ctz(bits))};
-    } else {
-      const TreeLeaf& leaf = leaves_[block.number];
-      const unsigned bits =
-          overlap_bits_of_sixteen(leaf.lower, holds_points_ ? leaf.lower : leaf.upper, lanes) &
-          first_bits(order_.size() - block.number * width);
-      if (bits == 0) continue;
-      make_room(nodes, found + width + bits_lanes);
-      make_room(places, found + width + bits_lanes);
-      int place[tree_width];
-      std::iota(place, place + tree_width, static_cast<int>(block.number * width));
-      for (int half = 0; half < tree_width; half += bits_lanes) {
-        const unsigned here = (bits >> half) & 0xffu;
-        append_selected(places.data() + found, place + half, here);
-        found += static_cast<std::size_t>(append_selected(nodes.data() + found, leaf.node + half, here));
+  for (const Branch& start : branches) {
+    std::size_t waiting = 0;
+    below[waiting++] = start;
+    while (waiting > 0 && found <= most) {
+      const auto [level, number] = below[--waiting];
+      comparisons += tests_per_block;
+      unsigned bits = overlap_bits(blocks_[first_[level] + number], box);
+      if (level > 0) {
+        for (; bits != 0; bits &= bits - 1)
+          below[waiting++] = {level - 1, number * width + static_cast<std::size_t>(std::countr_zero(bits))};
+      } else {
+        make_room(places, found + width);
+        for (; bits != 0; bits &= bits - 1)
+          places[found++] = static_cast<int>(number * width) + std::countr_zero(bits);
       }
     }
   }
@@ -165,6 +162,8 @@ void rank(const int* numbers, std::size_t count, NodesNearby& nearby) {
 
 /// Lay out the first `count` nodes found in ascending order.
 void lay_out(const NodeTree& tree, std::size_t count, NodesNearby& nearby) {
+  make_room(nearby.found, count);
+  for (std::size_t i = 0; i < count; ++i) nearby.found[i] = tree.node(nearby.place[i]);
   rank(nearby.found.data(), count, nearby);
   make_room(nearby.node, count + bits_lanes);
   for (int axis = 0; axis < 3; ++axis) {
@@ -173,12 +172,11 @@ void lay_out(const NodeTree& tree, std::size_t count, NodesNearby& nearby) {
   }
   for (std::size_t i = 0; i < count; ++i) {
     const auto to = static_cast<std::size_t>(nearby.rank[i]);
-    const int place = nearby.place[i];
-    const TreeLeaf& leaf = tree.leaf(place / tree_width);
+    const CaptureBox& range = tree.range(nearby.place[i]);
     nearby.node[to] = nearby.found[i];
     for (int axis = 0; axis < 3; ++axis) {
-      nearby.lower[axis][to] = leaf.lower[axis][place % tree_width];
-      if (!tree.holds_points()) nearby.upper[axis][to] = leaf.upper[axis][place % tree_width];
+      nearby.lower[axis][to] = range.lower[axis];
+      if (!tree.holds_points()) nearby.upper[axis][to] = range.upper[axis];
     }
   }
 }
@@ -204,12 +202,24 @@ void add_nodes_inside(const CaptureBox& box, int box_number, const NodesNearby& 
 
 }  // namespace
 
-void TreeSearch::find_in_group(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end,
-                               NodesNearby& nearby, PairPiece& piece) const {
+Bounds TreeSearch::bounds_of(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end) const {
   Bounds bounds;
   for (std::size_t i = begin; i < end; ++i) bounds.include(boxes[static_cast<std::size_t>(box_order_[i])]);
+  return bounds;
+}
+
+void TreeSearch::find_in_groups(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end,
+                                NodesNearby& nearby, PairPiece& piece) const {
+  nearby.branches = tree_.narrow(bounds_of(boxes, begin, end), nearby.room, piece.comparisons);
+  for (std::size_t i = begin; i < end; i += group_size)
+    find_in_group(boxes, i, std::min(end, i + group_size), nearby, piece);
+}
+
+void TreeSearch::find_in_group(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end,
+                               NodesNearby& nearby, PairPiece& piece) const {
   const std::size_t most = end - begin > 1 ? most_of_group : no_limit;
-  const std::size_t count = tree_.collect(bounds, most, nearby.found, nearby.place, piece.comparisons);
+  const std::size_t count =
+      tree_.collect(bounds_of(boxes, begin, end), nearby.branches, most, nearby.place, piece.comparisons);
   if (count > most) {
     const std::size_t middle = begin + (end - begin) / 2;
     find_in_group(boxes, begin, middle, nearby, piece);
@@ -232,15 +242,15 @@ void TreeSearch::find(std::span<const CaptureBox> boxes, ThreadTeam& team, Candi
                       SearchCounts& counts) {
   lay_centres(boxes, tree_.bounds(), team, centres_);
   box_order_.sort(centres_, team);
-  const std::size_t groups = (box_order_.size() + group_size - 1) / group_size;
-  const std::size_t tasks = piece_count(groups, 16);
+  const std::size_t bundles = (box_order_.size() + bundle_size - 1) / bundle_size;
+  const std::size_t tasks = piece_count(bundles, 1);
   if (pieces_.size() < tasks) pieces_.resize(tasks);
   if (nearby_.size() < tasks) nearby_.resize(tasks);
   team.for_each(tasks, [&](std::size_t task) {
     pieces_[task].clear();
-    for (std::size_t group = groups * task / tasks; group < groups * (task + 1) / tasks; ++group)
-      find_in_group(boxes, group * group_size, std::min(box_order_.size(), (group + 1) * group_size),
-                    nearby_[task], pieces_[task]);
+    for (std::size_t bundle = bundles * task / tasks; bundle < bundles * (task + 1) / tasks; ++bundle)
+      find_in_groups(boxes, bundle * bundle_size, std::min(box_order_.size(), (bundle + 1) * bundle_size),
+                     nearby_[task], pieces_[task]);
   });
   merge({pieces_.data(), tasks}, boxes.size(), team, pairs, counts);
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// Search by a tree. The points are laid along a space-filling curve and cut into leaves of 16, sixteen
-/// leaves or nodes to a node. The boxes are laid along a curve too; 16 neighbours at a time descend together
-/// by their common bounds, and each of them then tests only the few points found. The cost grows like n log
-/// n.
+/// leaves or branches to a branch. The boxes are laid along a curve too; groups of neighbours descend
+/// together by their common bounds, and each box then tests only the few points found. The cost grows like n
+/// log n.
 
 #include <cstdint>
 #include <span>
@@ -17,17 +17,17 @@ namespace brio {
 
 inline constexpr int tree_width = 16;
 
-/// Nodes in the order of the curve: where each may be. Of points only the lower bounds are filled in.
-struct alignas(64) TreeLeaf {
-  double lower[3][tree_width];
-  double upper[3][tree_width];
-  int node[tree_width];
-};
+/// Sixteen boxes in single precision, as they lie beside `origin`, over a length. Both the difference and the
+/// roundings keep the order of coordinates: boxes that meet meet here too, and few others do.
+struct alignas(64) TreeBlock {
+  float lower[3][tree_width];
+  float upper[3][tree_width];
+  double origin[3];
+  double per_length;
 
-/// Bounds of up to sixteen leaves or branches.
-struct alignas(64) TreeBranch {
-  double lower[3][tree_width];
-  double upper[3][tree_width];
+  BRIO_INLINE float seen(double coordinate, int axis) const {
+    return static_cast<float>((coordinate - origin[axis]) * per_length);
+  }
 };
 
 class NodeTree {
@@ -35,41 +35,48 @@ class NodeTree {
   void build(const SearchNodes& nodes, ThreadTeam& team);
 
   /// Of all nodes; holds nothing where there is none.
-  Bounds bounds() const { return bounds_.empty() ? Bounds() : bounds_.front(); }
+  CaptureBox bounds() const { return bounds_.empty() ? Bounds() : bounds_.front(); }
   bool holds_points() const { return holds_points_; }
-  const TreeLeaf& leaf(int number) const { return leaves_[static_cast<std::size_t>(number)]; }
+  /// The node at a place in the order of the tree, and where it may be.
+  int node(int place) const { return order_[static_cast<std::size_t>(place)]; }
+  const CaptureBox& range(int place) const { return range_[static_cast<std::size_t>(place)]; }
 
-  /// The nodes inside `box`, in the order of the tree, and into `places` 16 times the leaf's number plus the
-  /// place in the leaf. Stops as soon as there are more than `most`. Returns how many.
-  std::size_t collect(const CaptureBox& box, std::size_t most, std::vector<int>& nodes,
+  struct Branch {
+    std::size_t level, block;
+  };
+  /// Branches that hold all nodes inside `box`, where boxes inside it may begin; they are kept in `room`.
+  std::span<const Branch> narrow(const CaptureBox& box, std::vector<Branch>& room,
+                                 std::uint64_t& comparisons) const;
+  /// The places of all nodes of `branches` inside `box`, and of some beside it. Stops as soon as there are
+  /// more than `most`. Returns how many.
+  std::size_t collect(const CaptureBox& box, std::span<const Branch> branches, std::size_t most,
                       std::vector<int>& places, std::uint64_t& comparisons) const;
 
  private:
-  struct Level {
-    std::size_t first;     ///< in branches_
-    std::size_t children;  ///< leaves, or branches of the level below
-  };
-  void fill_leaves(const SearchNodes& nodes, ThreadTeam& team);
-  void add_level(ThreadTeam& team);
+  void add_level(std::span<const CaptureBox> boxes, ThreadTeam& team);
 
   std::vector<Vector3<double>> centres_;
   SpatialOrder order_;
   bool holds_points_ = true;
-  std::vector<TreeLeaf> leaves_;
-  std::vector<TreeBranch> branches_;
-  std::vector<Level> levels_;   ///< from the leaves up
-  std::vector<Bounds> bounds_;  ///< of the leaves, or of the branches of the level last added
+  std::vector<CaptureBox> range_;   ///< of each place
+  std::vector<TreeBlock> blocks_;   ///< level by level, from the leaves up
+  std::vector<std::size_t> first_;  ///< block of each level
+  std::vector<CaptureBox> bounds_;  ///< of the blocks of the level last added
+  std::vector<CaptureBox> below_;   ///< of the level before
 };
 
-/// The nodes within the common bounds of a group of boxes, in ascending order.
+/// The nodes about the common bounds of a group of boxes, in ascending order.
 struct NodesNearby {
+  std::vector<NodeTree::Branch> room;
+  std::span<const NodeTree::Branch> branches;  ///< about several groups
+
   std::vector<int> node;
   std::vector<double> lower[3];
   std::vector<double> upper[3];  ///< empty for points
 
-  std::vector<int> found;  ///< the same nodes in the order of the tree
-  std::vector<int> place;  ///< of a found node in the tree
-  std::vector<int> rank;   ///< of a found node among the found
+  std::vector<int> place;  ///< of the same nodes in the tree
+  std::vector<int> found;  ///< their numbers, in the same order
+  std::vector<int> rank;   ///< of each of them among all
 };
 
 class TreeSearch {
@@ -88,8 +95,11 @@ class TreeSearch {
   void find(std::span<const CaptureBox> boxes, ThreadTeam& team, CandidatePairs& pairs, SearchCounts& counts);
 
  private:
+  void find_in_groups(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end,
+                      NodesNearby& nearby, PairPiece& piece) const;
   void find_in_group(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end,
                      NodesNearby& nearby, PairPiece& piece) const;
+  Bounds bounds_of(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end) const;
 
   NodeTree tree_;
   std::vector<Vector3<double>> centres_;

@@ -35,7 +35,7 @@ CheckReport check_deck(const ForecastOptions& options, const std::function<void(
   report.threads = options.threads;
   look(report);
   report.forecast = forecast(options, scene);
-  report.built = built_features(deck, model);  // after the peak of memory was read
+  report.built = built_features(deck, std::move(scene.model));  // after the peak of memory was read
   return report;
 }
 

@@ -162,25 +162,25 @@ void add_conditions(const Deck& deck, const Model& model, Features& features) {
   }
 }
 
-void add_contact(const Deck& deck, const Model& model, Features& features) {
-  for (const ContactScene& scene : model.contacts) {
+void add_contact(const Deck& deck, std::vector<ContactScene>&& contacts, Features& features) {
+  for (ContactScene& scene : contacts) {
     const Surface& surface = scene.surface;
-    features.push_back(
-        {"contact", "contact.surfaces",
-         counted(surface.part_name.size(), "part") + ", " + counted(surface.face.size(), "face") + ", " +
-             counted(surface.node.size(), "node") + ", " +
-             (surface.body_count == 1 ? "1 body" : std::to_string(surface.body_count) + " bodies"),
-         bytes_held(scene)});
+    const std::string detail =
+        counted(surface.part_name.size(), "part") + ", " + counted(surface.face.size(), "face") + ", " +
+        counted(surface.node.size(), "node") + ", " +
+        (surface.body_count == 1 ? "1 body" : std::to_string(surface.body_count) + " bodies");
+    const bool audit = scene.options.audit;
+    features.push_back({"contact", "contact.surfaces", detail, bytes_freed(std::move(scene))});
     if (deck.contact->options.friction > 0) features.push_back({"friction", "contact.friction", "", 0});
     if (!deck.contact->pairs.empty())
       features.push_back({"pairs", "contact.pairs", counted(deck.contact->pairs.size(), "pair"), 0});
-    if (scene.options.audit) features.push_back({"audit", "contact.audit", "", 0});
+    if (audit) features.push_back({"audit", "contact.audit", "", 0});
   }
 }
 
 }  // namespace
 
-std::vector<BuiltFeature> built_features(const Deck& deck, const Model& model) {
+std::vector<BuiltFeature> built_features(const Deck& deck, Model&& model) {
   Features features;
   features.push_back({"nodes", "parts", counted(model.nodes.size(), "node"), bytes_held(model.nodes)});
   if (model.nodes.has_rotations())
@@ -193,7 +193,7 @@ std::vector<BuiltFeature> built_features(const Deck& deck, const Model& model) {
   add_failure(deck, model, features);
   add_joints(deck, model, features);
   add_conditions(deck, model, features);
-  add_contact(deck, model, features);
+  add_contact(deck, std::move(model.contacts), features);
   return features;
 }
 

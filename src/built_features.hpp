@@ -16,8 +16,8 @@ struct BuiltFeature {
   std::size_t bytes = 0;  ///< 0: none of its own
 };
 
-/// In the order of the model. Copies what it measures.
-std::vector<BuiltFeature> built_features(const Deck& deck, const Model& model);
+/// In the order of the model. Copies what it measures, or ends it.
+std::vector<BuiltFeature> built_features(const Deck& deck, Model&& model);
 
 /// Names of what is not.
 std::vector<std::string> features_not_built(const Model& model);

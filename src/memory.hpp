@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <utility>
 
 namespace brio {
 
@@ -16,6 +17,15 @@ std::size_t bytes_held(const T& object) {
   const T copy = object;
   const std::size_t after = heap_bytes();
   return after > before ? after - before : 0;
+}
+
+/// The same of an object that is no longer needed: those that its end gives back.
+template <class T>
+std::size_t bytes_freed(T&& object) {
+  const std::size_t before = heap_bytes();
+  { const T gone = std::move(object); }
+  const std::size_t after = heap_bytes();
+  return before > after ? before - after : 0;
 }
 
 double resident_memory_mb();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <set>
 #include <tuple>
 
@@ -32,21 +33,28 @@ class NodesAndFaces {
         coincident_(coincident_share * look.features.smallest_edge) {}
 
   void run() {
-    std::vector<int> order(list_.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-    const auto key = [&](int pair) {
-      const auto p = static_cast<std::size_t>(pair);
-      return std::tuple(list_.first(p), face(list_.second(p)).body, face(list_.second(p)).shell,
-                        list_.second(p));
+    struct OfNode {
+      int node, body;
+      bool shell;
+      int face, pair;
+      auto operator<=>(const OfNode&) const = default;
     };
-    std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
-    const auto group = [&](int pair) {
-      const auto [node, body, shell, f] = key(pair);
-      return std::tuple(node, body, shell);
+    std::vector<OfNode> order;
+    order.reserve(list_.size());
+    for (std::size_t p = 0; p < list_.size(); ++p) {
+      const int f = list_.second(p);
+      order.push_back({list_.first(p), face(f).body, face(f).shell, f, static_cast<int>(p)});
+    }
+    std::sort(order.begin(), order.end());
+    const auto is_same_group = [](const OfNode& a, const OfNode& b) {
+      return a.node == b.node && a.body == b.body && a.shell == b.shell;
     };
+    std::vector<int> group;
     for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-      while (end < order.size() && group(order[end]) == group(order[begin])) ++end;
-      look_at({order.data() + begin, end - begin});
+      group.clear();
+      for (; end < order.size() && is_same_group(order[begin], order[end]); ++end)
+        group.push_back(order[end].pair);
+      look_at(group);
     }
   }
 

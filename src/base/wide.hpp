@@ -72,6 +72,9 @@ BRIO_INLINE bool any_bit(Mask mask) {
 BRIO_INLINE unsigned bits_of_lanes(Wide<std::int64_t> mask) {
   return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask));
 }
+BRIO_INLINE unsigned bits_of_lanes(Wide<std::int32_t> mask) {
+  return _mm512_movepi32_mask(reinterpret_cast<__m512i>(mask));
+}
 
 #else
 
@@ -172,6 +175,18 @@ BRIO_INLINE unsigned bits_of_lanes(Wide<std::int64_t> mask) {
 #else
   unsigned bits = 0;
   for (int lane = 0; lane < 8; ++lane) bits |= (mask[lane] != 0 ? 1U : 0U) << lane;
+  return bits;
+#endif
+}
+BRIO_INLINE unsigned bits_of_lanes(Wide<std::int32_t> mask) {
+#if defined(__AVX__)
+  const auto of = [](Wide<std::int32_t>::Half half) {
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(half)));
+  };
+  return of(mask.low) | of(mask.high) << 8;
+#else
+  unsigned bits = 0;
+  for (int lane = 0; lane < 16; ++lane) bits |= (mask[lane] != 0 ? 1U : 0U) << lane;
   return bits;
 #endif
 }

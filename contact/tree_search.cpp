@@ -40,8 +40,6 @@ BRIO_INLINE unsigned overlap_bits(const TreeBlock& block, const CaptureBox& box)
   return bits_of_lanes((meets(0) & meets(1) & meets(2)).v);
 }
 
-/// Of a box that is not there.
-constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
 constexpr CaptureBox everywhere{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
 
 }  // namespace
@@ -70,6 +68,7 @@ void NodeTree::build(const SearchNodes& nodes, ThreadTeam& team) {
 void NodeTree::add_level(std::span<const CaptureBox> boxes, ThreadTeam& team) {
   constexpr std::size_t blocks_per_task = 512;
   constexpr double far = std::numeric_limits<double>::max() / 4;
+  constexpr float infinite = std::numeric_limits<float>::infinity();  // of a box that is not there
   const std::size_t first = blocks_.size();
   const std::size_t added = (boxes.size() + width - 1) / width;
   blocks_.resize(first + added);
@@ -90,8 +89,8 @@ void NodeTree::add_level(std::span<const CaptureBox> boxes, ThreadTeam& team) {
       block.per_length = extent > std::numeric_limits<double>::min() ? 1 / extent : 1;
       for (std::size_t i = 0; i < width; ++i)
         for (int axis = 0; axis < 3; ++axis) {
-          block.lower[axis][i] = i < inside.size() ? block.seen(inside[i].lower[axis], axis) : nowhere;
-          block.upper[axis][i] = i < inside.size() ? block.seen(inside[i].upper[axis], axis) : nowhere;
+          block.lower[axis][i] = i < inside.size() ? block.seen(inside[i].lower[axis], axis) : infinite;
+          block.upper[axis][i] = i < inside.size() ? block.seen(inside[i].upper[axis], axis) : -infinite;
         }
     }
   });

@@ -4,6 +4,7 @@
 /// together by their common bounds, and each box then tests only the few points found. The cost grows like n
 /// log n.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -26,8 +27,9 @@ struct alignas(64) TreeBlock {
   double per_length;
 
   BRIO_INLINE float seen(double coordinate, int axis) const {
-    return static_cast<float>((coordinate - origin[axis]) * per_length);
+    return static_cast<float>(std::clamp((coordinate - origin[axis]) * per_length, -farthest, farthest));
   }
+  static constexpr double farthest = 1e30;  ///< beyond, order does not matter: within single precision
 };
 
 class NodeTree {

@@ -8,8 +8,8 @@ A mutant is one of the shipped decks, of the results of a small run, or of the f
 to four faults of structure, of numbers, of text or of bytes. The same seed and number make the same mutant.
 What is a failure: a signal, a report of a sanitizer, an exit code that is not documented, 20 s of processor time
 (a run has to end when it is told to), a refusal of a deck that names no place, of a file that names no path.
-Under sanitizers everything takes about ten times as long: there a mutant has ten times the time, and what takes more
-than 20 s is run again by the optimized program, whose time counts.
+Under sanitizers everything takes ten to twenty times as long: there a mutant has twenty times the time, and what
+takes more than 20 s is run again by the optimized program, whose time counts.
 A fault inside the HDF5 library ends the child process that reads (io/read_apart.hpp); it is counted apart.
 Prints a line for each failure and a table at the end; exit code 1 if there were failures.
 """
@@ -34,7 +34,7 @@ import yaml
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 CODES = {0: "good", 2: "refused", 3: "numerical failure", 4: "file", 143: "stopped"}
 STOP_AFTER, LIMIT = 8, 20  # s of processor time
-SLOWDOWN = 10  # by sanitizers
+SLOWDOWN = 20  # by sanitizers, at most
 PLACE = re.compile(r"^(.+:\d+:\d+: |--set .+: )", re.S)
 UNREADABLE = re.compile(r": (is a folder|cannot be opened|is too long)")  # a file of which no line was read
 REPORTS = ("Sanitizer", "runtime error:", "Assertion", "a defect of this program", "terminate called")

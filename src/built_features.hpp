@@ -16,7 +16,7 @@ struct BuiltFeature {
   std::size_t bytes = 0;  ///< 0: none of its own
 };
 
-/// In the order of the model. Copies what it measures, or ends it.
+/// In the order of the model. Copies what it measures, and ends the scenes of contact, which are large.
 std::vector<BuiltFeature> built_features(const Deck& deck, Model&& model);
 
 /// Names of what is not.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <type_traits>
 #include <utility>
 
 namespace brio {
@@ -21,7 +22,7 @@ std::size_t bytes_held(const T& object) {
 
 /// The same of an object that is no longer needed: those that its end gives back.
 template <class T>
-std::size_t bytes_freed(T&& object) {
+requires(!std::is_reference_v<T>) std::size_t bytes_freed(T&& object) {
   const std::size_t before = heap_bytes();
   { const T gone = std::move(object); }
   const std::size_t after = heap_bytes();

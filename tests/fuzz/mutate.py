@@ -359,7 +359,8 @@ class Campaign:
         with open(folder / "stderr.txt", "wb") as errors, open(folder / "stdout.txt", "wb") as output:
             before = resource.getrusage(resource.RUSAGE_CHILDREN)
             process = subprocess.Popen([program, *arguments], cwd=folder, stdin=subprocess.DEVNULL, stdout=output,
-                                       stderr=errors, preexec_fn=lambda: self.limits(program), env=environment, start_new_session=True)
+                                       stderr=errors, preexec_fn=lambda: self.limits(program), env=environment,
+                                       start_new_session=True)
             ticks, told, wait, begin = os.sysconf("SC_CLK_TCK"), False, 0.002, time.monotonic()
             while process.poll() is None:
                 time.sleep(wait)
@@ -393,7 +394,9 @@ class Campaign:
                 own.append(path)
         return own
 
-    def judge(self, name, arguments, code, errors, seconds, limit, is_deck):
+    @staticmethod
+    def judge(arguments, code, errors, seconds, limit, is_deck):
+        """What is wrong, or nothing; and the exit code, of a run that was told to end before it heeds signals too."""
         fault = None
         last = [line for line in errors.strip().split("\n") if line.strip()][-1:] or [""]
         if any(report in errors for report in REPORTS):
@@ -410,21 +413,21 @@ class Campaign:
             fault = "refusal without a place"
         elif code in (2, 3, 4) and not last[0] and arguments[0] != "study":  # its table tells what failed
             fault = "ends without a message"
+        return fault, code
+
+    def try_one(self, name, arguments, folder, can_be_stopped, is_deck):
+        code, errors, seconds = self.brio(self.program, arguments, folder, can_be_stopped)
+        fault, code = self.judge(arguments, code, errors, seconds, self.limit_of(self.program), is_deck)
+        if not fault and seconds > LIMIT:
+            code, errors, seconds = self.brio(self.optimized, arguments, folder, can_be_stopped)
+            print(f"{name} {' '.join(arguments)}: {seconds:.0f} s of the optimized program", flush=True)
+            fault, code = self.judge(arguments, code, errors, seconds, LIMIT, is_deck)
         key = (name.split(":")[0], arguments[0], fault.split(",")[0] if fault else CODES[code])
         self.counts[key] = self.counts.get(key, 0) + 1
         if fault:
             self.failures += 1
             print(f"{name} {' '.join(arguments)}: {fault}: {' | '.join(errors.strip().split(chr(10))[:3])[:400]}", flush=True)
-        return fault is not None
-
-    def try_one(self, name, arguments, folder, can_be_stopped, is_deck):
-        code, errors, seconds = self.brio(self.program, arguments, folder, can_be_stopped)
-        failed = self.judge(name, arguments, code, errors, seconds, self.limit_of(self.program), is_deck)
-        if not failed and seconds > LIMIT:
-            code, errors, seconds = self.brio(self.optimized, arguments, folder, can_be_stopped)
-            print(f"{name} {' '.join(arguments)}: {seconds:.0f} s of the optimized program", flush=True)
-            failed = self.judge(name, arguments, code, errors, seconds, LIMIT, is_deck)
-        if failed and self.keep:
+        if fault and self.keep:
             shutil.copytree(folder, self.keep / name.replace(":", "-"), dirs_exist_ok=True, symlinks=True)
         shutil.rmtree(folder, ignore_errors=True)
 

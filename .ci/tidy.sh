@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 # A build folder of its own: headers precompiled by GCC are not read by clang.
-cmake --preset release -B build/tidy -G Ninja -DBRIO_TESTS=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
+cmake --preset release -B build/tidy -G Ninja -DBRIO_TESTS=OFF -DBRIO_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 files=("$@")
 [ $# -gt 0 ] || mapfile -t files < <(git ls-files '*.cpp' | grep -v '^tests/')
 printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet --extra-arg=-Wno-unused-command-line-argument

@@ -64,7 +64,7 @@ void print_built(const CheckReport& report) {
   if (!report.not_built.empty()) write_out("  not built: {}\n", fmt::join(report.not_built, ", "));
 }
 
-std::string duration(double seconds) {
+std::string rounded_duration(double seconds) {
   if (seconds < 9.95) return fmt::format("{:.2g} s", seconds);
   if (seconds < 600) return fmt::format("{:.0f} s", seconds);
   if (seconds < 36000) return fmt::format("{:.0f} min", seconds / 60);
@@ -108,11 +108,11 @@ void print_forecast(const Forecast& forecast, int threads) {
             threads == 1 ? "" : "s", march.steps.size(), march.time, march.wall_seconds);
   if (!march.breakdown.empty()) write_out("  breakdown  {}\n", march.breakdown);
   print_steps(forecast);
-  write_out("  wall time  {}: {} to build, {} for steps, {} for output", duration(forecast.seconds()),
-            duration(forecast.build_seconds), duration(forecast.steps.seconds),
-            duration(forecast.output.seconds()));
+  write_out("  wall time  {}: {} to build, {} for steps, {} for output", rounded_duration(forecast.seconds()),
+            rounded_duration(forecast.build_seconds), rounded_duration(forecast.steps.seconds),
+            rounded_duration(forecast.output.seconds()));
   if (march.waiting() > 1.1)
-    write_out("; with the machine as busy as now {}", duration(forecast.seconds() * march.waiting()));
+    write_out("; with the machine as busy as now {}", rounded_duration(forecast.seconds() * march.waiting()));
   write_out("\n  memory     {:.1f} MB at its peak\n", forecast.peak_memory_mb);
   print_results(forecast);
   if (!forecast.steps.exact)
@@ -125,7 +125,7 @@ void print_forecast(const Forecast& forecast, int threads) {
 void tell_wait(const ForecastOptions& options) {
   if (!(options.pilot_s > 0 && options.pilot_share > 0) || isatty(STDERR_FILENO) == 0) return;
   std::string limits;
-  if (options.pilot_s < HUGE_VAL) limits = duration(options.pilot_s);
+  if (options.pilot_s < HUGE_VAL) limits = rounded_duration(options.pilot_s);
   if (options.pilot_share < HUGE_VAL)
     limits += fmt::format("{}{:g} % of the run", limits.empty() ? "" : " or ", 100 * options.pilot_share);
   write_error("marching to foretell the run, at most {} (--pilot=0: not at all)\n", limits);

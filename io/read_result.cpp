@@ -14,7 +14,7 @@ namespace brio {
 
 namespace {
 
-const std::string root = "/VTKHDF/";
+const std::string root_group = "/VTKHDF/";
 const std::string steps = "/VTKHDF/Steps/";
 
 std::int64_t number(const Hdf5File& file, const std::string& table, std::size_t row) {
@@ -25,7 +25,7 @@ std::int64_t number(const Hdf5File& file, const std::string& table, std::size_t 
 
 // Numbers of points, cells and corners stand by part of the file, of which a new topology makes a new one.
 std::int64_t count(const Hdf5File& file, const std::string& what, std::size_t dump) {
-  return number(file, root + what, static_cast<std::size_t>(number(file, steps + "PartOffsets", dump)));
+  return number(file, root_group + what, static_cast<std::size_t>(number(file, steps + "PartOffsets", dump)));
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -63,19 +63,19 @@ ReadField ResultReader::field(const std::string& name, std::size_t dump) const {
   ReadField result;
   std::int64_t rows = points;
   if (name == "position") {
-    result.values = file.read_rows(root + "Points", number(file, steps + "PointOffsets", dump), points);
+    result.values = file.read_rows(root_group + "Points", number(file, steps + "PointOffsets", dump), points);
   } else {
     std::string group = "PointData";
-    if (!file.contains(root + group + "/" + name)) {
+    if (!file.contains(root_group + group + "/" + name)) {
       group = "CellData";
       result.of_points = false;
       rows = cells;
     }
-    if (!file.contains(root + group + "/" + name))
+    if (!file.contains(root_group + group + "/" + name))
       throw FileError(file_, "there is no field '" + name + "'; of points there are position, " +
-                                 listed(file.members(root + "PointData")) + "; of cells " +
-                                 listed(file.members(root + "CellData")));
-    result.values = file.read_rows(root + group + "/" + name,
+                                 listed(file.members(root_group + "PointData")) + "; of cells " +
+                                 listed(file.members(root_group + "CellData")));
+    result.values = file.read_rows(root_group + group + "/" + name,
                                    number(file, steps + group + "Offsets/" + name, dump), rows);
   }
   result.rows = static_cast<std::size_t>(rows);
@@ -88,14 +88,14 @@ ReadCells ResultReader::cells(std::size_t dump) const {
   const std::int64_t cells = count(file, "NumberOfCells", dump);
   ReadCells result;
   result.connectivity =
-      file.read_integers(root + "Connectivity", number(file, steps + "ConnectivityIdOffsets", dump),
+      file.read_integers(root_group + "Connectivity", number(file, steps + "ConnectivityIdOffsets", dump),
                          count(file, "NumberOfConnectivityIds", dump));
   // Each part of the file has one offset more than cells.
   const std::int64_t before = number(file, steps + "PartOffsets", dump);
-  result.offset =
-      file.read_integers(root + "Offsets", number(file, steps + "CellOffsets", dump) + before, cells + 1);
-  result.part =
-      file.read_integers(root + "CellData/part", number(file, steps + "CellDataOffsets/part", dump), cells);
+  result.offset = file.read_integers(root_group + "Offsets",
+                                     number(file, steps + "CellOffsets", dump) + before, cells + 1);
+  result.part = file.read_integers(root_group + "CellData/part",
+                                   number(file, steps + "CellDataOffsets/part", dump), cells);
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace brio::test {
 namespace {
 
 constexpr double thickness = 0.1;
-constexpr double friction = 0.5;
+constexpr double usual_friction = 0.5;
 
 enum class Kind { solid, shell, beam, particle, rigid };
 constexpr Kind all_kinds[] = {Kind::solid, Kind::shell, Kind::beam, Kind::particle, Kind::rigid};
@@ -186,7 +186,7 @@ class FreePieces {
   ThreadTeam team_{1};
 };
 
-ContactOptions by_distance(double coefficient = friction) {
+ContactOptions by_distance(double coefficient = usual_friction) {
   ContactOptions options;
   options.friction = coefficient;
   options.passes = 100;

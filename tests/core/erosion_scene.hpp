@@ -14,6 +14,7 @@ namespace brio::test {
 inline constexpr double yield = 1e6;
 inline constexpr double hardening = 1e7;
 
+/// Yields at a strain of 0.001.
 inline ElasticPlastic tough() {
   return {.density = 1000,
           .youngs_modulus = 1e9,

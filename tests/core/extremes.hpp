@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "contact/audit/audit.hpp"
+#include "tests/core/erosion_scene.hpp"
 #include "tests/core/floating_point_traps.hpp"
 #include "tests/core/scene.hpp"
 
@@ -57,22 +58,6 @@ inline Part body(Kind kind, const std::string& name, const std::string& material
       return {name, mesh, {}, Particle{}, material};
     }
   }
-}
-
-/// Yields at a strain of 0.001.
-inline ElasticPlastic soft() {
-  return {.density = 1000,
-          .youngs_modulus = 1e9,
-          .poissons_ratio = 0.3,
-          .yield_stress = 1e6,
-          .hardening_modulus = 1e7};
-}
-inline ElasticPlastic brittle(double strain, double opening) {
-  ElasticPlastic law = soft();
-  law.failure.emplace();
-  law.failure->strain = strain;
-  law.failure->opening_strain = opening;
-  return law;
 }
 
 /// Distance from its nodes at which a body touches.

@@ -1,7 +1,7 @@
-// Newton's cradle: five equal bars in a row that touch, the first of which comes with a speed. With nu = 0 it
-// is a matter of one dimension: the pulse is two bars long, so when its front has come back from the free
-// end, its tail enters the last bar, which flies off without stress and with all of the speed. The others
-// stand still.
+// Newton's cradle: five equal bars in a row that touch, the first of which comes with a first_speed. With nu
+// = 0 it is a matter of one dimension: the pulse is two bars long, so when its front has come back from the
+// free end, its tail enters the last bar, which flies off without stress and with all of the first_speed. The
+// others stand still.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr double speed = 1;  // wave speed 1000
+constexpr double first_speed = 1;  // wave first_speed 1000
 
 Deck cradle(int along, const std::vector<int>& across, const Hex8& element, double gap = 0) {
   Deck deck;
@@ -22,13 +22,13 @@ Deck cradle(int along, const std::vector<int>& across, const Hex8& element, doub
   for (std::size_t bar = 0; bar < across.size(); ++bar)
     deck.parts.push_back(box("bar" + std::to_string(bar), {1, 0.1, 0.1}, {along, across[bar], across[bar]},
                              {(1 + gap) * static_cast<double>(bar), 0, 0}, element));
-  deck.initial_conditions = {moving("bar0", {speed, 0, 0})};
+  deck.initial_conditions = {moving("bar0", {first_speed, 0, 0})};
   deck.contact.emplace();
   deck.time.end = 8e-3;  // the last leaves at 5e-3
   return deck;
 }
 
-struct Outcome {
+struct CradleRun {
   std::array<double, 5> bar{};  ///< mean speeds at the end
   double parted_at = 0;         ///< last time at which contact pushed
   double momentum = 0;          ///< error, over that of the first bar
@@ -37,14 +37,14 @@ struct Outcome {
   double energy = 0;            ///< largest error of the books
 };
 
-Outcome swing(const Deck& deck) {
+CradleRun swing(const Deck& deck) {
   Model model = build_model(deck);
   ThreadTeam team(1);
-  Outcome outcome;
+  CradleRun outcome;
   run(model, deck, team, [&](Model& m) {
     if (m.contacts[0].step.active > 0) outcome.parted_at = m.times.time;
     const Momentum now = momentum(m.nodes);
-    const double first = m.parts[0].mass * speed;
+    const double first = m.parts[0].mass * first_speed;
     const Vector error{now.total.linear[0] - first, now.total.linear[1], now.total.linear[2]};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       outcome.momentum = std::max(outcome.momentum, std::abs(error[axis]) / first);
@@ -65,7 +65,7 @@ TEST(NewtonsCradleSlow, LastOfFiveBarsLeavesWithTheSpeedAndTheMoreSoTheFinerTheM
       SCOPED_TRACE(testing::Message() << across[0] << ' ' << across[1] << " across, viscous " << viscous);
       double missing = 1;
       for (int along : {10, 20, 40}) {
-        const Outcome outcome = swing(cradle(along, across, viscous ? hex8() : inviscid_hex8()));
+        const CradleRun outcome = swing(cradle(along, across, viscous ? hex8() : inviscid_hex8()));
         EXPECT_GE(outcome.bar[4], viscous ? 0.94 : 0.95) << along;
         EXPECT_LE(outcome.bar[4], 1) << along;
         EXPECT_LE(1 - outcome.bar[4], 0.95 * missing) << along;
@@ -85,7 +85,7 @@ TEST(NewtonsCradleSlow, PassesTheSpeedOnOverGaps) {
   for (bool viscous : {true, false}) {
     Deck deck = cradle(20, meshes[1], viscous ? hex8() : inviscid_hex8(), 0.01);
     deck.time.end = 0.05;
-    const Outcome outcome = swing(deck);
+    const CradleRun outcome = swing(deck);
     EXPECT_GE(outcome.bar[4], 0.85);
     EXPECT_LE(outcome.bar[4], 1);
     for (std::size_t bar : {0, 1, 2, 3}) EXPECT_NEAR(outcome.bar[bar], 0, 0.03);

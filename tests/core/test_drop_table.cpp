@@ -15,19 +15,19 @@ namespace {
 
 using namespace test;
 
-constexpr double speed = 10;  // 0.01 of the wave speed
+constexpr double impact_speed = 10;  // 0.01 of the wave impact_speed
 
-enum class Kind { solid, shell, beam, particles, rigid };
+enum class Dropped { solid, shell, beam, particles, rigid };
 constexpr std::array names{"hex8", "shell4", "beam2", "particle", "rigid"};
 
 /// A body about the origin, 0.4 to 0.6 wide.
-Part body(Kind kind, const std::string& name) {
+Part body(Dropped kind, const std::string& name) {
   switch (kind) {
-    case Kind::solid:
+    case Dropped::solid:
       return box(name, {0.4, 0.4, 0.4}, {4, 4, 4}, {0, 0, 0}, hex8());
-    case Kind::rigid:
+    case Dropped::rigid:
       return box(name, {0.4, 0.4, 0.4}, {2, 2, 2}, {0, 0, 0}, Rigid{});
-    case Kind::shell: {
+    case Dropped::shell: {
       PlateMesh mesh;
       mesh.size = {0.5, 0.5};
       mesh.elements = {6, 6};
@@ -35,7 +35,7 @@ Part body(Kind kind, const std::string& name) {
       element.thickness = 0.03;
       return {name, mesh, {}, element, "material"};
     }
-    case Kind::beam: {
+    case Dropped::beam: {
       LineMesh mesh;
       mesh.start = {-0.3, 0, 0};
       mesh.end = {0.3, 0, 0};
@@ -52,13 +52,13 @@ Part body(Kind kind, const std::string& name) {
   }
 }
 
-double reach(Kind kind) {
+double reach(Dropped kind) {
   constexpr std::array half{0.0, 0.015, 0.04, 0.025, 0.0};
   return half[static_cast<std::size_t>(kind)];
 }
 
 /// Put the lowest node of the upper body over the highest of the lower, aside by a little, just not touching.
-void stack(Part& lower, Kind lower_kind, Part& upper, Kind upper_kind) {
+void stack(Part& lower, Dropped lower_kind, Part& upper, Dropped upper_kind) {
   lower.placement.rotate = Rotation{{0.3, 1, 0}, 11};
   upper.placement.rotate = Rotation{{1, 0.4, 0.7}, 37};
   const auto by_height = [](const Triple& a, const Triple& b) { return a[2] < b[2]; };
@@ -71,9 +71,9 @@ void stack(Part& lower, Kind lower_kind, Part& upper, Kind upper_kind) {
   upper.placement.translate = {0.02 - lowest[0], 0.013 - lowest[1], height - lowest[2]};
 }
 
-class Drop : public testing::TestWithParam<std::tuple<Kind, Kind>> {};
+class Drop : public testing::TestWithParam<std::tuple<Dropped, Dropped>> {};
 
-struct Outcome {
+struct DropRun {
   double restitution = 0;
   double linear_error = 0, angular_error = 0;  ///< of momentum
   double overlap = 0;                          ///< over the size of a body
@@ -83,21 +83,21 @@ struct Outcome {
   int most_contacts = 0;
 };
 
-Outcome drop(Kind upper_kind, Kind lower_kind, double friction) {
+DropRun drop(Dropped upper_kind, Dropped lower_kind, double friction) {
   Part lower = body(lower_kind, "lower");
   Part upper = body(upper_kind, "upper");
   stack(lower, lower_kind, upper, upper_kind);
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
   deck.parts = {lower, upper};
-  deck.initial_conditions = {moving("upper", {0, 0, -speed})};
+  deck.initial_conditions = {moving("upper", {0, 0, -impact_speed})};
   deck.contact = ContactSection{};
   deck.contact->options.friction = friction;
   deck.time.end = 30e-3;
-  if (upper_kind == Kind::rigid && lower_kind == Kind::rigid) deck.time.step = 5e-5;
+  if (upper_kind == Dropped::rigid && lower_kind == Dropped::rigid) deck.time.step = 5e-5;
   Model model = build_model(deck);
   ThreadTeam team(2);
-  Outcome outcome;
+  DropRun outcome;
   int step = 0;
   run(model, deck, team, [&](Model& m) {
     if (step++ % 50 != 0) return;
@@ -115,7 +115,7 @@ Outcome drop(Kind upper_kind, Kind lower_kind, double friction) {
     return rigid < 0 ? mean_velocity(model, part, 2)
                      : model.rigid.motion[static_cast<std::size_t>(rigid)].velocity[2];
   };
-  outcome.restitution = (velocity(1) - velocity(0)) / speed;
+  outcome.restitution = (velocity(1) - velocity(0)) / impact_speed;
   const ContactTotals& totals = model.contacts[0].totals;
   outcome.overlap = totals.deepest_overlap / 0.4;
   outcome.energy_error = model.energy.error_max;
@@ -126,8 +126,8 @@ Outcome drop(Kind upper_kind, Kind lower_kind, double friction) {
 
 TEST_P(Drop, OfOneKindOnAnother) {
   const auto [upper, lower] = GetParam();
-  const Outcome smooth = drop(upper, lower, 0);
-  const Outcome rough = drop(upper, lower, 0.2);
+  const DropRun smooth = drop(upper, lower, 0);
+  const DropRun rough = drop(upper, lower, 0.2);
   std::printf("| %s | %s | %.2f | %.0e, %.0e | %.0e | %ld | %.0e | %.2f | %.0e, %.0e | %.0e | %ld |\n",
               names[static_cast<std::size_t>(upper)], names[static_cast<std::size_t>(lower)],
               smooth.restitution, smooth.linear_error, smooth.angular_error, smooth.overlap, smooth.missed,
@@ -136,7 +136,7 @@ TEST_P(Drop, OfOneKindOnAnother) {
   // A touch found along the motion pushes along the normal of that moment, a little aside of the line through
   // both places at the beginning of the step.
   EXPECT_LT(smooth.angular_error, 1e-6);
-  for (const Outcome& outcome : {smooth, rough}) {
+  for (const DropRun& outcome : {smooth, rough}) {
     EXPECT_GT(outcome.most_contacts, 0);
     EXPECT_EQ(outcome.deep, 0);
     EXPECT_EQ(outcome.missed, 0);
@@ -149,12 +149,12 @@ TEST_P(Drop, OfOneKindOnAnother) {
   }
 }
 
-std::string name_of_drop(const testing::TestParamInfo<std::tuple<Kind, Kind>>& drop) {
+std::string name_of_drop(const testing::TestParamInfo<std::tuple<Dropped, Dropped>>& drop) {
   return std::string(names[static_cast<std::size_t>(std::get<0>(drop.param))]) + "_on_" +
          names[static_cast<std::size_t>(std::get<1>(drop.param))];
 }
 
-constexpr std::array all{Kind::solid, Kind::shell, Kind::beam, Kind::particles, Kind::rigid};
+constexpr std::array all{Dropped::solid, Dropped::shell, Dropped::beam, Dropped::particles, Dropped::rigid};
 INSTANTIATE_TEST_SUITE_P(EachKind, Drop, testing::Combine(testing::ValuesIn(all), testing::ValuesIn(all)),
                          name_of_drop);
 

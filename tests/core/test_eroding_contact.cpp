@@ -60,7 +60,7 @@ Deck punched_sheet() {
   return deck;
 }
 
-struct Outcome {
+struct ErodingRun {
   std::int64_t deleted = 0;
   double first_deletion = 0, first_contact = 0;
   int contacts_while_deleting = 0;
@@ -69,10 +69,10 @@ struct Outcome {
   std::vector<double> positions;
 };
 
-Outcome run_scene(const Deck& deck, int threads, int audit_every) {
+ErodingRun run_scene(const Deck& deck, int threads, int audit_every) {
   Model model = build_model(deck);
   ThreadTeam team(threads);
-  Outcome outcome;
+  ErodingRun outcome;
   run(model, deck, team, [&](Model& m) {
     if (outcome.deleted == 0 && !m.erosion->deleted.empty()) outcome.first_deletion = m.times.time;
     outcome.deleted += std::ssize(m.erosion->deleted);
@@ -98,7 +98,7 @@ Outcome run_scene(const Deck& deck, int threads, int audit_every) {
 }
 
 TEST(ErodingContact, HalvesOfABarMeetWhereTheMiddleWas) {
-  const Outcome outcome = run_scene(crushed_bar(), 1, 10);
+  const ErodingRun outcome = run_scene(crushed_bar(), 1, 10);
   EXPECT_GE(outcome.deleted, 6);
   EXPECT_LT(outcome.first_deletion, 0.01);
   EXPECT_GT(outcome.first_contact, outcome.first_deletion);
@@ -111,7 +111,7 @@ TEST(ErodingContact, HalvesOfABarMeetWhereTheMiddleWas) {
 }
 
 TEST(ErodingContact, ABlockPunchesThroughASheet) {
-  const Outcome outcome = run_scene(punched_sheet(), 1, 10);
+  const ErodingRun outcome = run_scene(punched_sheet(), 1, 10);
   EXPECT_GT(outcome.deleted, 5);
   EXPECT_LT(outcome.first_contact, outcome.first_deletion);
   EXPECT_GT(outcome.contacts_while_deleting, 0);

@@ -319,7 +319,7 @@ TEST(ExtremesSpeed, ProjectileThatCrossesManyFacesAStepIsStopped) {
 TEST(ExtremesFold, SheetPinchedFromBothSidesIsPassedByNothing) {
   const FloatingPointTraps traps;
   Deck deck;
-  ElasticPlastic tin = soft();
+  ElasticPlastic tin = tough();
   tin.yield_stress = 2e6;
   deck.materials = {{"material", elastic(0.3)}, {"tin", tin}};
   PlateMesh mesh;

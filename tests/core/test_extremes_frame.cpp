@@ -51,7 +51,7 @@ double share_of_equal(const std::vector<int>& a, const std::vector<int>& b) {
 /// A bar thrown at bricks that lean against a held wall.
 Deck few_bricks() {
   Deck deck;
-  deck.materials = {{"material", elastic(0.3)}, {"soft", soft()}};
+  deck.materials = {{"material", elastic(0.3)}, {"soft", tough()}};
   deck.parts = {box("bar", {0.8, 0.06, 0.06}, {8, 2, 2}, {-0.551, 0.01, 0.07}, hex8(), "soft")};
   for (int k = 0; k < 6; ++k)
     deck.parts.push_back(box("brick" + std::to_string(k), {0.1, 0.2, 0.1}, {1, 2, 1},

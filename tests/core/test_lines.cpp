@@ -53,7 +53,7 @@ Part ball(std::string name, Triple centre) {
 }
 
 /// What became of two bodies of which the second was thrown down at the first.
-struct Outcome {
+struct LineRun {
   double lower = 0, upper = 0;  ///< mean velocities along z at the end
   double deepest = 0;
   double momentum_error = 0, angular_error = 0;
@@ -63,7 +63,7 @@ struct Outcome {
   std::vector<double> position;
 };
 
-Outcome drop(const Part& lower, const Part& upper, double speed, double end, int threads = 1) {
+LineRun drop(const Part& lower, const Part& upper, double speed, double end, int threads = 1) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
   deck.parts = {lower, upper};
@@ -74,7 +74,7 @@ Outcome drop(const Part& lower, const Part& upper, double speed, double end, int
   Model model = build_model(deck);
   ThreadTeam team(threads);
   const auto before = momentum(model.nodes).total;
-  Outcome outcome;
+  LineRun outcome;
   run(model, deck, team, [&](Model& m) {
     const auto& contacts = m.contacts[0].contacts;
     for (const Contact& contact : contacts) {
@@ -120,7 +120,7 @@ class CrossedLines : public testing::TestWithParam<Meeting> {};
 TEST_P(CrossedLines, BounceOffEachOther) {
   const Meeting& meeting = GetParam();
   constexpr double speed = 10;
-  const Outcome outcome = drop(meeting.lower, meeting.upper, speed, meeting.end);
+  const LineRun outcome = drop(meeting.lower, meeting.upper, speed, meeting.end);
   EXPECT_GT(outcome.lines, 0);
   EXPECT_TRUE(outcome.wrong_side == 0 || !meeting.flat) << outcome.wrong_side;
   EXPECT_GT(outcome.upper - outcome.lower, meeting.separation * speed);
@@ -139,7 +139,7 @@ TEST_P(CrossedLines, DoTheSameForAnyNumberOfThreads) {
 // A fifth of the wave speed: a quarter of an element in a step.
 TEST_P(CrossedLines, DoNotPassAtHighSpeed) {
   const Meeting& meeting = GetParam();
-  const Outcome outcome = drop(meeting.lower, meeting.upper, 200, 3e-3);
+  const LineRun outcome = drop(meeting.lower, meeting.upper, 200, 3e-3);
   EXPECT_GT(outcome.lines, 0);
   EXPECT_TRUE(outcome.wrong_side == 0 || !meeting.flat) << outcome.wrong_side;
   EXPECT_GT(outcome.upper - outcome.lower, -150);

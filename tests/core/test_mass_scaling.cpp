@@ -101,7 +101,7 @@ Part plate(const std::string& name, std::array<double, 2> size, std::array<int, 
   return {name, PlateMesh{size, elements}, {}, shell, "material"};
 }
 
-Part beam(const std::string& name, const Triple& start, const Triple& end, int elements) {
+Part beam_along(const std::string& name, const Triple& start, const Triple& end, int elements) {
   Beam2 element;
   element.section = CircleSection{.radius = 0.02};
   element.linear_bulk_viscosity = 0;
@@ -123,7 +123,8 @@ TEST(MassScaling, StepIsStableForEveryElementThatTurns) {
   const Deck beams = [] {
     Deck deck;
     deck.materials = {{"material", elastic(0.3)}};
-    deck.parts = {beam("long", {0, 0, 0}, {1, 0, 0}, 10), beam("short", {1, 0, 0}, {1.01, 0, 0}, 1)};
+    deck.parts = {beam_along("long", {0, 0, 0}, {1, 0, 0}, 10),
+                  beam_along("short", {1, 0, 0}, {1.01, 0, 0}, 1)};
     deck.connections = {Merge{{"long", "short"}, 1e-6, ""}};
     deck.initial_conditions = {moving("short", {1, 0.3, 2})};
     deck.time.end = 0.4;

@@ -21,7 +21,7 @@ ContactSection with_friction(double friction) {
   return contact;
 }
 
-struct Outcome {
+struct LookedAt {
   std::int64_t crossings = 0;  ///< at all looks together
   std::uint64_t unresolved = 0;
   double energy_error = 0;
@@ -31,11 +31,11 @@ struct Outcome {
   int looks = 0;
 };
 
-Outcome run_looking(Deck& deck, int steps_between_looks = 10, int threads = 1) {
+LookedAt run_looking(Deck& deck, int steps_between_looks = 10, int threads = 1) {
   Model model = build_model(deck);
   ThreadTeam team(threads);
   const Momentum before = momentum(model.nodes);
-  Outcome outcome;
+  LookedAt outcome;
   int step = 0;
   run(model, deck, team, [&](Model& m) {
     if (step++ % steps_between_looks != 0) return;
@@ -87,7 +87,7 @@ class ThrownCubes : public ::testing::TestWithParam<std::pair<int, double>> {};
 TEST_P(ThrownCubes, NeverCross) {
   const auto [elements, share] = GetParam();
   Deck deck = thrown_cubes(elements, share * wave_speed);
-  const Outcome outcome = run_looking(deck);
+  const LookedAt outcome = run_looking(deck);
   EXPECT_GT(outcome.looks, 5);
   EXPECT_EQ(outcome.crossings, 0);
   EXPECT_EQ(outcome.unresolved, 0u);
@@ -112,7 +112,7 @@ void expect_box_holds(int elements, double share) {
       deck.boundary_conditions.push_back(wall);
     }
   deck.time.end = 8 / (share * wave_speed);
-  const Outcome outcome = run_looking(deck);
+  const LookedAt outcome = run_looking(deck);
   EXPECT_EQ(outcome.crossings, 0);
   EXPECT_EQ(outcome.unresolved, 0u);
   EXPECT_GT(outcome.farthest, 0.99 * half) << "walls are met";
@@ -154,7 +154,7 @@ class BlockOnSheet : public ::testing::TestWithParam<std::pair<double, double>> 
 TEST_P(BlockOnSheet, DoesNotGoThrough) {
   const auto [thickness, share] = GetParam();
   Deck deck = block_on_sheet(thickness, share * wave_speed);
-  const Outcome outcome = run_looking(deck, 2);
+  const LookedAt outcome = run_looking(deck, 2);
   EXPECT_GT(outcome.looks, 3);
   EXPECT_EQ(outcome.crossings, 0);
   EXPECT_EQ(outcome.unresolved, 0u);
@@ -186,7 +186,7 @@ TEST(CrushedBlock, DoesNotCrossItself) {
   deck.initial_conditions = {moving("block", {0, 0, -1500})};
   deck.contact = with_friction(0.2);
   deck.time.end = 2.6e-5;
-  const Outcome outcome = run_looking(deck, 1);
+  const LookedAt outcome = run_looking(deck, 1);
   EXPECT_GT(outcome.looks, 100);
   EXPECT_EQ(outcome.crossings, 0);
   EXPECT_EQ(outcome.unresolved, 0u);
@@ -215,7 +215,7 @@ TEST_P(BrittleTile, DoesNotCrossItselfWhereItBreaks) {
   deck.initial_conditions = {moving("tile", {0, 0, -speed})};
   deck.contact = with_friction(0);
   deck.time.end = 0.15 / speed;
-  const Outcome outcome = run_looking(deck, 5);
+  const LookedAt outcome = run_looking(deck, 5);
   EXPECT_GT(outcome.looks, 20);
   EXPECT_GT(outcome.deleted_by_distortion, 0);
   EXPECT_EQ(outcome.crossings, 0);

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr double weight = 100;  // acceleration of gravity
+constexpr double gravity_acceleration = 100;  // acceleration of gravity
 
 Gravity gravity(double acceleration) {
   Gravity result;
@@ -28,7 +28,7 @@ Deck sliding_block(const Triple& velocity) {
   deck.materials = {{"material", elastic(0.3)}};
   deck.parts = {box("block", {1, 1, 0.5}, {4, 4, 2}, {0, 0, 0.25}, hex8())};
   deck.initial_conditions = {moving("block", velocity)};
-  deck.loads = {gravity(weight)};
+  deck.loads = {gravity(gravity_acceleration)};
   return deck;
 }
 
@@ -67,7 +67,7 @@ struct Slide {
 // Slides until well after the block stands.
 Slide slide(Deck deck, const Triple& velocity, double friction) {
   const double speed = std::hypot(velocity[0], velocity[1]);
-  const double stop = speed / (friction * weight);
+  const double stop = speed / (friction * gravity_acceleration);
   deck.time.end = 3 * stop;
   Model model = build_model(deck);
   ThreadTeam team(1);
@@ -91,7 +91,7 @@ Slide slide(Deck deck, const Triple& velocity, double friction) {
 }
 
 void expect_coulomb(const Slide& result, double speed, double friction) {
-  const double distance = speed * speed / (2 * friction * weight);
+  const double distance = speed * speed / (2 * friction * gravity_acceleration);
   EXPECT_LE(std::hypot(result.distance - distance, result.aside), 0.01 * distance);
   EXPECT_LE(result.drift, 1e-6 * distance);
 }
@@ -114,8 +114,10 @@ TEST(SlidingBlock, HasTheFrictionOfItsPair) {
   Model model = build_model(deck);
   ThreadTeam team(1);
   run(model, deck, team);
-  EXPECT_NEAR(centre_of(model, 0)[0], 16 / (2 * 0.3 * weight), 0.01 * 16 / (2 * 0.3 * weight));
-  EXPECT_NEAR(centre_of(model, 2)[0], 4 / (2 * 0.1 * weight), 0.01 * 4 / (2 * 0.1 * weight));
+  EXPECT_NEAR(centre_of(model, 0)[0], 16 / (2 * 0.3 * gravity_acceleration),
+              0.01 * 16 / (2 * 0.3 * gravity_acceleration));
+  EXPECT_NEAR(centre_of(model, 2)[0], 4 / (2 * 0.1 * gravity_acceleration),
+              0.01 * 4 / (2 * 0.1 * gravity_acceleration));
 }
 
 TEST(SlidingBlock, FallsThroughAFloorThatItMustNotTouch) {
@@ -125,7 +127,7 @@ TEST(SlidingBlock, FallsThroughAFloorThatItMustNotTouch) {
   Model model = build_model(deck);
   ThreadTeam team(1);
   run(model, deck, team);
-  EXPECT_NEAR(centre_of(model, 0)[2], 0.25 - 0.5 * weight * 0.01, 1e-3);
+  EXPECT_NEAR(centre_of(model, 0)[2], 0.25 - 0.5 * gravity_acceleration * 0.01, 1e-3);
   EXPECT_EQ(audit(model.contacts[0], model.nodes, team).missed(), 0);
   EXPECT_EQ(model.contacts[0].totals.contacts, 0U);
 }

@@ -10,6 +10,8 @@
 
 namespace brio {
 
+inline const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+
 class BeamModel {
  public:
   Nodes nodes;

@@ -7,8 +7,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d origin = Vector3d::Zero();
-
 Beam2 strip(double width, double height) {
   return beam_of(RectangleSection{.width = width, .height = height}, {0, 0, 1});
 }

@@ -9,7 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d origin = Vector3d::Zero();
 constexpr double yield = 300e6;
 
 ElasticPlastic perfectly_plastic() {

@@ -11,9 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Vector3d origin = Vector3d::Zero();
 const Vector3d direction = Vector3d(1, 2, -2) / 3;
-constexpr double area = 1e-4;
+constexpr double bar_area = 1e-4;
 
 Beam2 bar(BeamFormulation formulation) {
   Beam2 beam;
@@ -31,21 +30,22 @@ void stretch_to(SingleBeam<Law>& beam, double length) {
 
 TEST(Truss, CarriesAxialForceAloneAndHasTheStepOfAWave) {
   SingleBeam<> truss(bar(BeamFormulation::truss), steel(), {origin, 2 * direction});
-  EXPECT_NEAR(2 * truss.mass.mass, 7850 * area * 2, 1e-12);
+  EXPECT_NEAR(2 * truss.mass.mass, 7850 * bar_area * 2, 1e-12);
   EXPECT_EQ(truss.mass.rotational_inertia, 0);
   stretch_to(truss, 2);
   EXPECT_NEAR(truss.increment.stable_step, 2 / std::sqrt(200e9 / 7850), 1e-12);
   for (const double length : {2.2, 1.5}) {
     stretch_to(truss, length);
-    const double force = 200e9 * std::log(length / 2) * area * 2 / length;
+    const double force = 200e9 * std::log(length / 2) * bar_area * 2 / length;
     EXPECT_LT((truss.force(1) - force * direction).norm(), 1e-12 * std::abs(force));
     EXPECT_LT((truss.force(0) + force * direction).norm(), 1e-12 * std::abs(force));
     EXPECT_EQ(truss.moment(0).norm() + truss.moment(1).norm(), 0);
-    EXPECT_NEAR(truss.header.internal_energy, 0.5 * 200e9 * area * 2 * square(std::log(length / 2)), 1e-3);
+    EXPECT_NEAR(truss.header.internal_energy, 0.5 * 200e9 * bar_area * 2 * square(std::log(length / 2)),
+                1e-3);
   }
   // Turned about, it bears the same; spins of its ends are nothing to it.
   truss.move({origin, Vector3d(0, 1.5, 0)}, {Vector3d(1, 2, 3), origin});
-  EXPECT_NEAR(truss.force(1).y(), 200e9 * std::log(0.75) * area * 2 / 1.5, 1e-3);
+  EXPECT_NEAR(truss.force(1).y(), 200e9 * std::log(0.75) * bar_area * 2 / 1.5, 1e-3);
   const ElementSample sample = truss.sample();
   EXPECT_NEAR(sample.stress.yy, 200e9 * std::log(0.75), 1);
   EXPECT_EQ(sample.stress.xx, 0);
@@ -55,12 +55,12 @@ TEST(Cable, GoesSlackAndComesTautAtTheSameLength) {
   SingleBeam<> cable(bar(BeamFormulation::cable), steel(), {origin, direction});
   for (const double length : {1.001, 0.9, 0.5, 0.8, 0.95, 1.0}) {
     stretch_to(cable, length);
-    const double force = length > 1 ? 200e9 * std::log(length) * area / length : 0;
-    EXPECT_NEAR(cable.force(1).dot(direction), force, 1e-8 * 200e9 * area) << length;
+    const double force = length > 1 ? 200e9 * std::log(length) * bar_area / length : 0;
+    EXPECT_NEAR(cable.force(1).dot(direction), force, 1e-8 * 200e9 * bar_area) << length;
   }
   EXPECT_NEAR(cable.header.internal_energy, 0, 1e-9);
   stretch_to(cable, 1.002);
-  EXPECT_NEAR(cable.force(1).dot(direction) / (200e9 * std::log(1.002) * area / 1.002), 1, 1e-9);
+  EXPECT_NEAR(cable.force(1).dot(direction) / (200e9 * std::log(1.002) * bar_area / 1.002), 1, 1e-9);
 }
 
 TEST(Cable, KeepsThePlasticStretch) {
@@ -69,7 +69,7 @@ TEST(Cable, KeepsThePlasticStretch) {
   SingleBeam<IsotropicElasticPlastic> cable(bar(BeamFormulation::cable), law, {origin, direction});
   for (int k = 1; k <= 50; ++k) stretch_to(cable, 1 + 2e-4 * k);  // to 1.01
   const double plastic = std::log(1.01) - 1e-3;
-  EXPECT_NEAR(cable.header.internal_energy, area * 200e6 * (plastic + 0.5e-3), 1e-3 * area * 200e6);
+  EXPECT_NEAR(cable.header.internal_energy, bar_area * 200e6 * (plastic + 0.5e-3), 1e-3 * bar_area * 200e6);
   stretch_to(cable, std::exp(plastic - 0.2));
   EXPECT_EQ(cable.force(1).norm(), 0);
   stretch_to(cable, std::exp(plastic - 1e-9));

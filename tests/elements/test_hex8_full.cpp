@@ -13,8 +13,8 @@ namespace {
 
 using test::Corners;
 using test::Noise;
-using Kernel = Hex8FullKernel<ObjectiveRate::green_naghdi>;
-using FullElement = test::SingleElement<Kernel, Elastic>;
+using FullKernel = Hex8FullKernel<ObjectiveRate::green_naghdi>;
+using FullElement = test::SingleElement<FullKernel, Elastic>;
 using Stiffness = Eigen::Matrix<double, 24, 24>;
 
 Stiffness stiffness_over_shear(double nu, const Corners& x) {

@@ -64,8 +64,8 @@ Gradients gradients(const IrregularCloud& irregular, int particle) {
   return gradients_of(sums);
 }
 
-const Tensor<double> a{{{0.9, 0.3, -0.2}, {0.1, 1.2, 0.4}, {-0.3, 0.2, 0.8}}};
-const Tensor<double> b{{{3, -2, 1}, {0.5, 4, -1}, {2, -3, -2}}};
+const Tensor<double> of_positions{{{0.9, 0.3, -0.2}, {0.1, 1.2, 0.4}, {-0.3, 0.2, 0.8}}};
+const Tensor<double> of_velocities{{{3, -2, 1}, {0.5, 4, -1}, {2, -3, -2}}};
 
 Vector3<double> times(const Tensor<double>& t, const double* x) {
   return {t.m[0][0] * x[0] + t.m[0][1] * x[1] + t.m[0][2] * x[2],
@@ -76,7 +76,7 @@ Vector3<double> times(const Tensor<double>& t, const double* x) {
 TEST(ParticleCloud, LinearFieldsHaveExactGradientsInsideAndAtTheSurface) {
   IrregularCloud irregular;
   for (NodeRecord& record : irregular.nodes.record) {
-    const Vector3<double> x = times(a, record.position), v = times(b, record.position);
+    const Vector3<double> x = times(of_positions, record.position), v = times(of_velocities, record.position);
     record.position[0] = x.x + 7, record.position[1] = x.y - 5, record.position[2] = x.z + 1;
     record.velocity[0] = v.x - 2, record.velocity[1] = v.y + 9, record.velocity[2] = v.z;
   }
@@ -84,8 +84,8 @@ TEST(ParticleCloud, LinearFieldsHaveExactGradientsInsideAndAtTheSurface) {
     const Gradients found = gradients(irregular, particle);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
-        ASSERT_NEAR(found.of_position.m[i][j], a.m[i][j], 1e-12) << particle;
-        ASSERT_NEAR(found.of_velocity.m[i][j], b.m[i][j], 4e-12) << particle;
+        ASSERT_NEAR(found.of_position.m[i][j], of_positions.m[i][j], 1e-12) << particle;
+        ASSERT_NEAR(found.of_velocity.m[i][j], of_velocities.m[i][j], 4e-12) << particle;
       }
     ASSERT_NEAR(found.residual_power, 0, 1e-10);
     ASSERT_NEAR(found.residual_rate, 0, 1e-10);
@@ -107,7 +107,7 @@ TEST(ParticleCloud, KernelOfNowHasExactGradientsOfVelocities) {
   std::uniform_real_distribution<double> shift(-0.2, 0.2);
   for (NodeRecord& record : irregular.nodes.record) {
     for (int i = 0; i < 3; ++i) record.position[i] += shift(random);
-    const Vector3<double> v = times(b, record.position);
+    const Vector3<double> v = times(of_velocities, record.position);
     record.velocity[0] = v.x - 2, record.velocity[1] = v.y + 9, record.velocity[2] = v.z;
   }
   set_neighbours(irregular.cloud, first, candidate, irregular.nodes);
@@ -118,8 +118,8 @@ TEST(ParticleCloud, KernelOfNowHasExactGradientsOfVelocities) {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         ASSERT_NEAR(found.of_position.m[i][j], i == j ? 1 : 0, 1e-12) << particle;
-        ASSERT_NEAR(found.of_velocity.m[i][j], b.m[i][j], 4e-12) << particle;
-        ASSERT_NEAR(sums.middle_gradient[i][j][0], b.m[i][j], 4e-12) << particle;
+        ASSERT_NEAR(found.of_velocity.m[i][j], of_velocities.m[i][j], 4e-12) << particle;
+        ASSERT_NEAR(sums.middle_gradient[i][j][0], of_velocities.m[i][j], 4e-12) << particle;
       }
     ASSERT_NEAR(found.residual_power, 0, 1e-10);
     ASSERT_NEAR(found.residual_rate, 0, 1e-10);
@@ -195,7 +195,7 @@ TEST(ParticleCloud, CutParticleLeavesExactGradientsToItsNeighbours) {
   IrregularCloud irregular;
   for (int particle = 60; particle < 100; particle += 3) cut_particle(irregular.cloud, particle);
   for (NodeRecord& record : irregular.nodes.record) {
-    const Vector3<double> v = times(b, record.position);
+    const Vector3<double> v = times(of_velocities, record.position);
     record.velocity[0] = v.x, record.velocity[1] = v.y, record.velocity[2] = v.z;
   }
   for (int particle = 0; particle < static_cast<int>(irregular.nodes.size()); ++particle) {
@@ -205,7 +205,8 @@ TEST(ParticleCloud, CutParticleLeavesExactGradientsToItsNeighbours) {
     }
     const Gradients found = gradients(irregular, particle);
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) ASSERT_NEAR(found.of_velocity.m[i][j], b.m[i][j], 1e-11) << particle;
+      for (int j = 0; j < 3; ++j)
+        ASSERT_NEAR(found.of_velocity.m[i][j], of_velocities.m[i][j], 1e-11) << particle;
   }
 }
 

@@ -20,17 +20,12 @@
 #include "src/advance.hpp"
 #include "src/build.hpp"
 #include "tests/io/deck_text.hpp"
+#include "tests/io/text_of.hpp"
 
 namespace brio {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 std::string fault_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
@@ -69,7 +64,7 @@ TEST(ExtremesDeck, EveryNumberOfEveryShippedDeckIsRefusedWhereItIsNone) {
   std::size_t numbers = 0;
   for (const auto& entry : fs::directory_iterator(BRIO_SOURCE_DIR "/inputs")) {
     if (entry.path().extension() != ".yaml") continue;
-    const std::string text = text_of(entry.path());
+    const std::string text = test::text_of(entry.path());
     ASSERT_EQ(fault_of(text), "") << entry.path();
     ++decks;
     for (const Number& number : numbers_of(text)) {
@@ -192,12 +187,12 @@ TEST(ExtremesLocale, ResultsAreTheSameBytesWhereNumbersHaveCommas) {
     run("commas");
   }
   for (const char* file : {"bar_impact.history.csv", "bar_impact.xdmf2"}) {
-    const std::string points = text_of(folder / "points" / file);
+    const std::string points = test::text_of(folder / "points" / file);
     EXPECT_GT(points.size(), 100U);
-    EXPECT_EQ(points, text_of(folder / "commas" / file));
+    EXPECT_EQ(points, test::text_of(folder / "commas" / file));
   }
   const auto steps = [&](const std::string& name) {
-    const std::string text = text_of(folder / name / "bar_impact.summary.json");
+    const std::string text = test::text_of(folder / name / "bar_impact.summary.json");
     const std::size_t begin = text.find("\"steps\""), end = text.find("\"elements\"");
     return text.substr(begin, end - begin);
   };

@@ -24,7 +24,7 @@ contact: {surfaces: all, friction: 0.1}
 time: {end: 1}
 )";
 
-Deck with(const std::string& more, const std::vector<std::string>& overrides = {}) {
+Deck deck_with(const std::string& more, const std::vector<std::string>& overrides = {}) {
   return parse_deck(deck_text + more, "deck.yaml", overrides);
 }
 ObjectiveRate rate(const Deck& deck, std::size_t part) {
@@ -32,8 +32,8 @@ ObjectiveRate rate(const Deck& deck, std::size_t part) {
 }
 
 TEST(Preset, BalancedIsWhatADeckWithoutPresetIs) {
-  const Deck plain = with("");
-  const Deck balanced = with("numerics: {preset: balanced}\n");
+  const Deck plain = deck_with("");
+  const Deck balanced = deck_with("numerics: {preset: balanced}\n");
   EXPECT_EQ(plain.contact->options.passes, balanced.contact->options.passes);
   EXPECT_EQ(plain.time.step_scale, balanced.time.step_scale);
   EXPECT_EQ(rate(plain, 0), rate(balanced, 0));
@@ -41,7 +41,7 @@ TEST(Preset, BalancedIsWhatADeckWithoutPresetIs) {
 }
 
 TEST(Preset, FastFillsInWhatIsLeftOpen) {
-  const Deck deck = with("numerics: {preset: fast}\n");
+  const Deck deck = deck_with("numerics: {preset: fast}\n");
   EXPECT_EQ(deck.numerics.precision, Precision::single_precision);
   EXPECT_EQ(rate(deck, 0), ObjectiveRate::jaumann);
   EXPECT_EQ(rate(deck, 1), ObjectiveRate::green_naghdi) << "the deck says so";
@@ -52,13 +52,13 @@ TEST(Preset, FastFillsInWhatIsLeftOpen) {
 }
 
 TEST(Preset, ComesFromTheCommandLineAsWellAndIsLessThanIt) {
-  const Deck deck = with("", {"numerics.preset=fast", "contact.passes=7"});
+  const Deck deck = deck_with("", {"numerics.preset=fast", "contact.passes=7"});
   EXPECT_EQ(deck.contact->options.passes, 7);
   EXPECT_GT(deck.time.step_scale, 0.9);
 }
 
 TEST(Preset, AccurateDampsImpactsLessAndSeesTheSurfacesOfShells) {
-  const Deck deck = with("numerics: {preset: accurate}\n"), plain = with("");
+  const Deck deck = deck_with("numerics: {preset: accurate}\n"), plain = deck_with("");
   const auto &shell = std::get<Shell4>(deck.parts[2].element),
              &plain_shell = std::get<Shell4>(plain.parts[2].element);
   EXPECT_EQ(shell.quadrature, ThicknessQuadrature::lobatto);
@@ -82,7 +82,7 @@ TEST(Preset, AccurateLeavesWhatTheDeckSays) {
 
 // Two Lobatto points make bending three times as stiff.
 TEST(Preset, AccurateLeavesTheRuleOfShellsWhoseNumberOfPointsIsGiven) {
-  const Deck deck = with("numerics: {preset: accurate}\n", {"parts.plate.element.thickness_points=2"});
+  const Deck deck = deck_with("numerics: {preset: accurate}\n", {"parts.plate.element.thickness_points=2"});
   EXPECT_EQ(std::get<Shell4>(deck.parts[2].element).quadrature, ThicknessQuadrature::gauss);
 }
 
@@ -114,7 +114,7 @@ TEST(Preset, AccurateKeepsTheStepOfParticles) {
 }
 
 TEST(Preset, ShowsInTheDeckAsRun) {
-  const Deck deck = with("numerics: {preset: fast}\n");
+  const Deck deck = deck_with("numerics: {preset: fast}\n");
   const Deck again = parse_deck(deck.text, "deck.yaml");
   EXPECT_EQ(rate(again, 0), ObjectiveRate::jaumann);
   EXPECT_NE(deck.text.find("jaumann"), std::string::npos);
@@ -122,7 +122,7 @@ TEST(Preset, ShowsInTheDeckAsRun) {
 
 TEST(Preset, OfAnotherNameIsRefused) {
   try {
-    with("numerics: {preset: quick}\n");
+    deck_with("numerics: {preset: quick}\n");
     FAIL();
   } catch (const DeckError& fault) {
     EXPECT_NE(std::string(fault.what()).find("deck.yaml:16:20"), std::string::npos) << fault.what();

@@ -16,6 +16,7 @@
 #include "io/write_results.hpp"
 #include "tests/io/faults.hpp"
 #include "tests/io/result_scene.hpp"
+#include "tests/io/text_of.hpp"
 
 namespace brio {
 namespace {
@@ -32,12 +33,6 @@ std::string fault_of(const Work& work) {
     return error.what();
   }
   return "no error";
-}
-
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
 }
 
 ResultWriter writer_of(const fs::path& folder, const ResultSettings& settings = {}) {
@@ -80,7 +75,7 @@ TEST(FolderLock, IsGoneWithItsOwnerHoweverItEnds) {
   waitpid(child, nullptr, 0);
   EXPECT_TRUE(fs::exists(folder / ".brio.lock")) << "the file stays, and means nothing";
   const FolderLock lock(folder.path());
-  EXPECT_NE(text_of(folder / ".brio.lock").find(std::to_string(getpid())), std::string::npos);
+  EXPECT_NE(test::text_of(folder / ".brio.lock").find(std::to_string(getpid())), std::string::npos);
 }
 
 /// A child process of a dead owner holds the lock a moment longer.
@@ -168,7 +163,7 @@ TEST(EarlierResults, AreMovedAsideAndSaid) {
   write_run(results, 3, settings);
   EXPECT_EQ(told, (std::vector<bool>{false, true})) << "the first are lost now";
   EXPECT_EQ(dumps_in(aside), 2u);
-  EXPECT_EQ(text_of(results / "notes.txt"), "mine");
+  EXPECT_EQ(test::text_of(results / "notes.txt"), "mine");
 }
 
 TEST(EarlierResults, AreReplacedOnDemand) {
@@ -203,7 +198,7 @@ TEST(Links, AreReplacedAndNotFollowed) {
         "scene.xdmf2.partial", "scene.summary.json.partial", "scene.xdmf2", "scene.summary.json"})
     fs::create_symlink(which++ % 2 == 0 ? victim : absent, results / name);
   write_run(results, 2);
-  EXPECT_EQ(text_of(victim), "precious");
+  EXPECT_EQ(test::text_of(victim), "precious");
   EXPECT_FALSE(fs::exists(absent));
   EXPECT_EQ(dumps_in(results), 2u);
   for (const char* ending : {".vtkhdf", ".xdmf2", ".history.csv", ".summary.json"})
@@ -217,9 +212,9 @@ TEST(Links, ThatAppearDuringTheRunAreRefused) {
   writer.write(mixed_snapshot(0, 0));
   fs::rename(results / "scene.vtkhdf", victim);
   fs::create_symlink(victim, results / "scene.vtkhdf");
-  const std::string before = text_of(victim);
+  const std::string before = test::text_of(victim);
   EXPECT_NE(fault_of([&] { writer.write(mixed_snapshot(1, 0)); }).find("cannot open"), std::string::npos);
-  EXPECT_EQ(text_of(victim), before);
+  EXPECT_EQ(test::text_of(victim), before);
 }
 
 TEST(Links, InPlaceOfTheLockAreRefused) {

@@ -11,6 +11,7 @@
 #include "io/hdf5_file.hpp"
 #include "io/write_results.hpp"
 #include "tests/io/result_scene.hpp"
+#include "tests/io/text_of.hpp"
 
 namespace brio {
 namespace {
@@ -32,12 +33,6 @@ void write_all_dumps(ResultWriter& writer) {
   for (std::size_t dump = 0; dump < topology_versions.size(); ++dump) {
     writer.write(mixed_snapshot(static_cast<int>(dump), topology_versions[dump]));
   }
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
 }
 
 /// A result of seven dumps, made once.
@@ -282,7 +277,7 @@ TEST(HistoryFile, RowsOfAllBatchesAreInBothTablesToTheLastBit) {
   const Hdf5File file = Hdf5File::open_to_read(writer.vtkhdf());
   EXPECT_EQ(file.read_texts("/history/columns"), history_columns);
   const std::vector<double> stored = file.read_rows("/history/values", 0, 37);
-  std::istringstream csv(text_of(writer.history_csv()));
+  std::istringstream csv(test::text_of(writer.history_csv()));
   std::string line;
   std::getline(csv, line);
   EXPECT_EQ(line, "time,kinetic_energy,probe.tip");

@@ -17,6 +17,7 @@
 #include "io/write_results.hpp"
 #include "tests/io/faults.hpp"
 #include "tests/io/result_scene.hpp"
+#include "tests/io/text_of.hpp"
 
 namespace brio {
 namespace {
@@ -25,7 +26,7 @@ using test::Fault;
 using test::Folder;
 using test::plan_fault;
 
-const std::vector<std::string> history_columns{"time", "kinetic_energy"};
+const std::vector<std::string> two_columns{"time", "kinetic_energy"};
 
 /// As many points as rows in a chunk, so that every dump adds a chunk to every table and index nodes split
 /// soon.
@@ -45,12 +46,6 @@ Snapshot cloud(int dump) {
 
 void append_rows(History& history, int dump) {
   for (int i = 0; i < 3; ++i) history.append(std::vector<double>{dump + i / 3.0, 0.1 * i});
-}
-
-std::string text_of(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
 }
 
 std::vector<double> joined(int dumps, const std::vector<double>& (*values)(const Snapshot&)) {
@@ -89,7 +84,7 @@ int verified_dumps(const std::filesystem::path& path) {
 
 /// The description is whole, and describes no dump that is not there.
 void verify_xdmf(const std::filesystem::path& path, int dumps) {
-  const std::string text = text_of(path);
+  const std::string text = test::text_of(path);
   ASSERT_TRUE(text.ends_with("</Grid>\n</Domain>\n</Xdmf>\n"));
   int described = 0;
   for (std::size_t at = text.find("<Time"); at != std::string::npos; at = text.find("<Time", at + 1))
@@ -135,8 +130,8 @@ bool lives_through(Fault fault, int at, Work work) {
 /// A writer after some dumps, and its folder as it was then.
 struct Running {
   Folder folder, backup;
-  ResultWriter writer{folder.path(), "scene", {}, history_columns};
-  History history{history_columns};
+  ResultWriter writer{folder.path(), "scene", {}, two_columns};
+  History history{two_columns};
 
   explicit Running(int dumps) {
     for (int dump = 0; dump < dumps; ++dump) write_dump(dump);
@@ -188,7 +183,7 @@ TEST(KilledWriterSlow, LeavesTheDumpsBeforeWhereverItDies) {
 TEST(KilledWriter, LeavesCompressedDumpsWhereverItDies) {
   const Folder folder, backup;
   constexpr int before = 3;
-  ResultWriter writer(folder.path(), "scene", {}, history_columns, {.compression = 6});
+  ResultWriter writer(folder.path(), "scene", {}, two_columns, {.compression = 6});
   for (int dump = 0; dump < before; ++dump) writer.write(test::mixed_snapshot(dump, 0));
   Running::copy(folder.path(), backup.path());
   int at = 0;
@@ -225,14 +220,14 @@ TEST(KilledWriter, LosesNothingOfTheEarlierRun) {
     std::filesystem::create_directories(results);
     Running::copy(backup.path(), results);
     alive = lives_through(Fault::kill, at, [&] {
-      ResultWriter again(results, "scene", {}, history_columns);
+      ResultWriter again(results, "scene", {}, two_columns);
       again.write(cloud(0));
     });
     const bool moved = std::filesystem::exists(aside / "scene.vtkhdf");
     EXPECT_EQ(verified_dumps((moved ? aside : results) / "scene.vtkhdf"), 2);
     for (const char* name : {"scene.xdmf2", "scene.summary.json", "scene.history.csv"}) {
       const bool is_aside = std::filesystem::exists(aside / name);
-      EXPECT_EQ(text_of((is_aside ? aside : results) / name), text_of(backup / name)) << name;
+      EXPECT_EQ(test::text_of((is_aside ? aside : results) / name), test::text_of(backup / name)) << name;
     }
     if (moved) {
       EXPECT_FALSE(std::filesystem::exists(results / "scene.summary.json"));
@@ -253,7 +248,7 @@ TEST(KilledWriter, LeavesTheDumpsBeforeAtRandomMoments) {
     const Folder folder;
     const pid_t child = fork();
     if (child == 0) {
-      ResultWriter writer(folder.path(), "scene", {}, history_columns);
+      ResultWriter writer(folder.path(), "scene", {}, two_columns);
       for (int dump = 0;; ++dump) writer.write(cloud(dump));
     }
     std::this_thread::sleep_for(std::chrono::microseconds(microseconds(random)));
@@ -298,10 +293,10 @@ TEST(FullDisk, TakesBackOnlyTheDumpThatDidNotFit) {
 
 TEST(FullDisk, LeavesTheHistoryWithItsRowsBefore) {
   Running run(2);
-  const std::string csv = text_of(run.writer.history_csv());
+  const std::string csv = test::text_of(run.writer.history_csv());
   for (int at = 0; at < 40; ++at) {
     run.restore();
-    History history(history_columns);
+    History history(two_columns);
     append_rows(history, 2);
     plan_fault(Fault::no_space, at);
     bool failed = false;
@@ -314,7 +309,7 @@ TEST(FullDisk, LeavesTheHistoryWithItsRowsBefore) {
     const int rows = verified_rows(run.writer.vtkhdf());
     if (failed) {
       EXPECT_TRUE(rows == 6 || rows == 9);
-      EXPECT_EQ(text_of(run.writer.history_csv()), csv);
+      EXPECT_EQ(test::text_of(run.writer.history_csv()), csv);
     } else {
       EXPECT_EQ(rows, 9);
       return;
@@ -332,7 +327,7 @@ TEST(FullDisk, LimitOfTheFileSizeIsReportedAndTheFileReads) {
     const rlimit limit{1 << 20, 1 << 20};
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(1);
     try {
-      ResultWriter writer(folder.path(), "scene", {}, history_columns);
+      ResultWriter writer(folder.path(), "scene", {}, two_columns);
       for (int dump = 0; dump < 1000; ++dump) writer.write(cloud(dump));
     } catch (const FileError& error) {
       _exit(std::string(error.what()).find("File too large") == std::string::npos ? 2 : 42);
@@ -381,10 +376,10 @@ TEST(ExtremesReadOnlyFolder, IsAnErrorBeforeAnythingIsComputed) {
                                                   perms::others_exec | perms::group_read | perms::group_exec);
   const WithoutPrivileges nobody;
   const std::string existing =
-      message_of_file_error([&] { ResultWriter(folder.path(), "scene", {}, history_columns); });
+      message_of_file_error([&] { ResultWriter(folder.path(), "scene", {}, two_columns); });
   EXPECT_EQ(existing, folder.path().string() + ": cannot lock the folder: Permission denied");
   const std::string missing =
-      message_of_file_error([&] { ResultWriter(folder / "new", "scene", {}, history_columns); });
+      message_of_file_error([&] { ResultWriter(folder / "new", "scene", {}, two_columns); });
   EXPECT_NE(missing.find("cannot make the folder: Permission denied"), std::string::npos) << missing;
 }
 
@@ -392,9 +387,9 @@ TEST(ResultFolder, ThatIsAFileIsAnError) {
   const Folder folder;
   std::ofstream(folder / "taken") << "text";
   const std::string message =
-      message_of_file_error([&] { ResultWriter(folder / "taken", "scene", {}, history_columns); });
+      message_of_file_error([&] { ResultWriter(folder / "taken", "scene", {}, two_columns); });
   EXPECT_NE(message.find("taken: cannot make the folder"), std::string::npos) << message;
-  EXPECT_EQ(text_of(folder / "taken"), "text");
+  EXPECT_EQ(test::text_of(folder / "taken"), "text");
 }
 
 TEST(ResultFolder, TakenAwayDuringTheRunIsAnError) {

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string cube = R"(title: A cube that meets a wall
+const std::string cube_deck = R"(title: A cube that meets a wall
 materials:
   rubber: {model: elastic, density: 1000, youngs_modulus: 1e9, poissons_ratio: 0.3}
 parts:
@@ -40,7 +40,7 @@ class Streams : public test::Program {
 };
 
 TEST_F(Streams, OutputThatCannotBeWrittenEndsEveryCommandWithFour) {
-  write("cube.yaml", cube);
+  write("cube.yaml", cube_deck);
   write("cube.study.yaml", study);
   ASSERT_EQ(shell("\"$brio\" run cube.yaml --quiet --output kept"), 0);
   for (const char* arguments :
@@ -58,12 +58,12 @@ TEST_F(Streams, OutputThatCannotBeWrittenEndsEveryCommandWithFour) {
 }
 
 TEST_F(Streams, NothingToPrintIsNoFault) {
-  write("cube.yaml", cube);
+  write("cube.yaml", cube_deck);
   EXPECT_EQ(shell("\"$brio\" run cube.yaml --quiet > /dev/full 2> faults.txt"), 0) << read("faults.txt");
 }
 
 TEST_F(Streams, ErrorOutputThatCannotBeWrittenChangesNothing) {
-  write("cube.yaml", cube);
+  write("cube.yaml", cube_deck);
   write("bad.yaml", "title: no deck\n");
   write("cube.study.yaml", study);
   for (const char* errors : {"2> /dev/full", "2>&-"}) {
@@ -81,7 +81,7 @@ TEST_F(Streams, ErrorOutputThatCannotBeWrittenChangesNothing) {
 
 // The first files that are opened would take the place of what is closed, and messages would go into them.
 TEST_F(Streams, MessagesNeverGoIntoResultsWhereAllStreamsAreClosed) {
-  write("cube.yaml", cube);
+  write("cube.yaml", cube_deck);
   ASSERT_EQ(shell("\"$brio\" run cube.yaml --quiet --output open"), 0);
   EXPECT_EQ(shell("\"$brio\" run cube.yaml --output closed <&- >&- 2>&-"), 4);
   EXPECT_EQ(read("open/cube.history.csv"), read("closed/cube.history.csv"));
@@ -89,7 +89,7 @@ TEST_F(Streams, MessagesNeverGoIntoResultsWhereAllStreamsAreClosed) {
 }
 
 TEST_F(Streams, ReaderThatWentAwayEndsNoRun) {
-  write("cube.yaml", cube);
+  write("cube.yaml", cube_deck);
   const auto ends_with = [&](const std::string& command) {
     shell("( sleep 0.3; " + command + "; echo $? > code.txt ) | true");
     return read("code.txt");
@@ -105,7 +105,7 @@ class Signals : public Streams {
  protected:
   // Starts a run that would take for ever, sends signals once it has a dump, and returns its exit code.
   int run_until(const std::vector<int>& signals, void (*hang_up)(int) = SIG_DFL) {
-    write("cube.yaml", cube);
+    write("cube.yaml", cube_deck);
     const pid_t child = fork();
     if (child == 0) {
       std::signal(SIGHUP, hang_up);
@@ -157,7 +157,7 @@ TEST_F(Refused, DeckWithoutPartsByEveryCommand) {
 // The limits of the address space would end a program that is checked for addresses.
 #if !defined(__SANITIZE_ADDRESS__)
 TEST_F(Refused, MemoryThatIsNotThereBeforeItIsTaken) {
-  write("cube.yaml", cube);
+  write("cube.yaml", cube_deck);
   for (const char* command : {"run", "check"}) {
     const Ending ending =
         brio(std::string(command) + " cube.yaml --set parts.cube.mesh.box.elements=[200,200,200]",
@@ -171,7 +171,7 @@ TEST_F(Refused, MemoryThatIsNotThereBeforeItIsTaken) {
 }
 
 TEST_F(Refused, ThreadsThatTheSystemDoesNotGive) {
-  write("cube.yaml", cube);
+  write("cube.yaml", cube_deck);
   for (const char* command : {"run", "check --pilot=0"}) {
     const Ending ending = brio(std::string(command) + " cube.yaml --threads 1000", "ulimit -v 2000000; ");
     EXPECT_EQ(ending.exit_code, 4);
@@ -181,7 +181,7 @@ TEST_F(Refused, ThreadsThatTheSystemDoesNotGive) {
 #endif
 
 TEST_F(Refused, SizesBeyondAnyMachineAtOnce) {
-  write("cube.yaml", cube);
+  write("cube.yaml", cube_deck);
   for (const char* setting :
        {"parts.cube.mesh.box.elements=[1000000000,1000000000,1000000000]",
         "parts.cube.mesh.box.elements=[2147483647,1,1]",

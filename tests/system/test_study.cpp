@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "tests/system/bar_deck.hpp"
 #include "tests/system/program.hpp"
 
 namespace brio {
@@ -15,17 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 using ProgramStudy = test::Program;
 
-// A bar whose end is given a push: cheap, and different on every mesh.
-const std::string bar_deck = R"(
-materials:
-  rubber: {model: elastic, density: 1000, youngs_modulus: 1e9, poissons_ratio: 0}
-parts:
-  bar: {mesh: {box: {size: [1, 0.1, 0.1], elements: [20, 1, 1]}}, element: hex8, material: rubber}
-boundary_conditions: [{set: bar.xmin, fix: [x, y, z]}]
-initial_conditions: [{set: bar.xmax, velocity: [1, 0, 0]}]
-time: {end: 2e-3}
-output: {history: {every: 1e-5}}
-)";
 const std::string bar_study = R"(
 title: A bar
 deck: bar.yaml
@@ -70,7 +60,7 @@ Table table_of(const std::string& csv) {
 }
 
 TEST_F(ProgramStudy, MakesATableAndPictures) {
-  write("bar.yaml", bar_deck);
+  write("bar.yaml", test::bar_deck);
   write("bars.yaml", bar_study);
   const Ending ending = brio("study bars.yaml --jobs 2");
   ASSERT_EQ(ending.exit_code, 0) << ending.faults;
@@ -107,7 +97,7 @@ TEST_F(ProgramStudy, MakesATableAndPictures) {
 }
 
 TEST_F(ProgramStudy, HoldsAnotherProblemToNoComparison) {
-  write("bar.yaml", bar_deck);
+  write("bar.yaml", test::bar_deck);
   write("bars.yaml", bar_study +
                          "  end: {sooner: {time.end: 1e-3}, at_once: {time.end: 1e-5}}\n  mass: {heavier: "
                          "{materials.rubber.density: 1010}}\nphysics: [end, mass]\n");
@@ -122,14 +112,14 @@ TEST_F(ProgramStudy, HoldsAnotherProblemToNoComparison) {
 }
 
 TEST_F(ProgramStudy, DrawsWhereNamesHoldQuotes) {
-  write("bar.yaml", bar_deck);
+  write("bar.yaml", test::bar_deck);
   write("it's.yaml", bar_study);
   ASSERT_EQ(brio("study \"it's.yaml\"").exit_code, 0);
   EXPECT_GT(read("it's.study/it's.front.svg").size(), 500u) << read("it's.study/gnuplot.txt");
 }
 
 TEST_F(ProgramStudy, GoesOnWhereItWas) {
-  write("bar.yaml", bar_deck);
+  write("bar.yaml", test::bar_deck);
   write("bars.yaml", bar_study);
   ASSERT_EQ(brio("study bars.yaml").exit_code, 0);
   const std::string first = read("bars.study/bars.csv");
@@ -139,12 +129,12 @@ TEST_F(ProgramStudy, GoesOnWhereItWas) {
   fs::remove(folder_ / "bars.study/runs/mesh.coarse/run.json");
   const Ending one = brio("study bars.yaml");
   EXPECT_NE(one.faults.find("1 of 1  mesh.coarse"), std::string::npos) << one.faults;
-  write("bar.yaml", bar_deck + "title: another\n");
+  write("bar.yaml", test::bar_deck + "title: another\n");
   EXPECT_NE(brio("study bars.yaml").faults.find("5 of 5"), std::string::npos) << "the deck has changed";
 }
 
 TEST_F(ProgramStudy, KeepsWhatFailedInTheTable) {
-  write("bar.yaml", bar_deck);
+  write("bar.yaml", test::bar_deck);
   std::string study = bar_study;
   study += "  step:\n    too_large: {time.step: 1e-3}\n";
   write("bars.yaml", study);
@@ -163,7 +153,7 @@ TEST_F(ProgramStudy, FaultsNameThePlaceBeforeAnythingRuns) {
   const auto with = [](std::string text, const std::string& from, const std::string& to) {
     return text.replace(text.find(from), from.size(), to);
   };
-  write("bar.yaml", bar_deck);
+  write("bar.yaml", test::bar_deck);
   const std::vector<std::pair<std::string, std::string>> faulty{
       {with(bar_study, "deck: bar.yaml", "deck: rod.yaml"), "rod.yaml"},
       {with(bar_study, "reference: mesh.fine", "reference: mesh.finest"), "bad.yaml:4:12: no run is called"},

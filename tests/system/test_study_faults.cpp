@@ -7,6 +7,7 @@
 #include <functional>
 #include <thread>
 
+#include "tests/system/bar_deck.hpp"
 #include "tests/system/program.hpp"
 
 namespace brio {
@@ -14,17 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string bar_deck = R"(
-materials:
-  rubber: {model: elastic, density: 1000, youngs_modulus: 1e9, poissons_ratio: 0}
-parts:
-  bar: {mesh: {box: {size: [1, 0.1, 0.1], elements: [20, 1, 1]}}, element: hex8, material: rubber}
-boundary_conditions: [{set: bar.xmin, fix: [x, y, z]}]
-initial_conditions: [{set: bar.xmax, velocity: [1, 0, 0]}]
-time: {end: 2e-3}
-output: {history: {every: 1e-5}}
-)";
-const std::string bar_study = R"(
+const std::string length_study = R"(
 deck: bar.yaml
 reference: mesh.fine
 quantities:
@@ -55,8 +46,8 @@ class ProgramStudyFaults : public test::Program {
   }
   // Long enough to be met.
   void write_long_study() const {
-    write("bar.yaml", bar_deck);
-    write("long.yaml", bar_study +
+    write("bar.yaml", test::bar_deck);
+    write("long.yaml", length_study +
                            "    finest: {\"parts.bar.mesh.box.elements\": [41, 1, 1]}\n"
                            "set: {time.end: 1e6, output.fields.every: 1e3, output.history.every: 1e3}\n");
   }
@@ -82,8 +73,8 @@ class ProgramStudyFaults : public test::Program {
 // What a later call builds upon must be as it was written: each way to break one member has it run again,
 // alone.
 TEST_F(ProgramStudyFaults, MemberThatIsBrokenIsRunAgain) {
-  write("bar.yaml", bar_deck);
-  write("bars.yaml", bar_study);
+  write("bar.yaml", test::bar_deck);
+  write("bars.yaml", length_study);
   ASSERT_EQ(brio("study bars.yaml").exit_code, 0);
   const std::string member = "bars.study/runs/mesh.coarse/";
   const std::string record = read(member + "run.json");
@@ -175,7 +166,7 @@ TEST_F(ProgramStudyFaults, RunsEndWithAStudyThatIsKilledAndTheNextGoesOn) {
     EXPECT_EQ(brio("info long.study/runs/mesh.fine --verify").exit_code, 0);
   }
   // The folder is free at once, also while runs of the killed study are still ending.
-  write("long.yaml", bar_study);
+  write("long.yaml", length_study);
   EXPECT_EQ(brio("study long.yaml").exit_code, 0);
 }
 
@@ -197,7 +188,7 @@ TEST_F(ProgramStudyFaults, RunsCloseTheirResultsWhenTheStudyIsStopped) {
 
 // Backquotes, quotes, lines and pipes: wherever gnuplot would run a command.
 TEST_F(ProgramStudyFaults, NoTextOfAStudyIsRun) {
-  write("bar.yaml", bar_deck);
+  write("bar.yaml", test::bar_deck);
   const std::vector<std::string> titles{
       "'a `touch run_by_title` b'",
       "\"a\\nsystem('touch run_by_title')\\nb\"",
@@ -206,14 +197,14 @@ TEST_F(ProgramStudyFaults, NoTextOfAStudyIsRun) {
       "'$(touch run_by_title) @x `touch run_by_title`'",
   };
   for (const std::string& title : titles) {
-    write("bars.yaml", bar_study + "title: " + title + "\n");
+    write("bars.yaml", length_study + "title: " + title + "\n");
     const Ending ending = brio("study bars.yaml --quiet");
     EXPECT_EQ(ending.exit_code, 0) << ending.faults;
     EXPECT_GT(read("bars.study/bars.front.svg").size(), 500u) << read("bars.study/gnuplot.txt");
   }
   for (const char* name : {"|touch run_by_name;", "`touch run_by_name`", "-e", "$(touch run_by_name)",
                            "';system(\"touch run_by_name\");'"}) {
-    write(std::string(name) + ".yaml", bar_study);
+    write(std::string(name) + ".yaml", length_study);
     const std::string quoted = "./" + std::string(name) + ".yaml";
     std::string words = "'";
     for (const char c : quoted) words += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -227,7 +218,7 @@ TEST_F(ProgramStudyFaults, NoTextOfAStudyIsRun) {
 }
 
 TEST_F(ProgramStudyFaults, NamesThatAreNoTextAreRefusedWithTheirPlace) {
-  write("caf\xe9.yaml", bar_deck);
+  write("caf\xe9.yaml", test::bar_deck);
   const pid_t child = fork();
   if (child == 0) {
     fs::current_path(folder_);
@@ -241,15 +232,15 @@ TEST_F(ProgramStudyFaults, NamesThatAreNoTextAreRefusedWithTheirPlace) {
   EXPECT_NE(read("faults.txt").find("the name of the file is not UTF-8"), std::string::npos)
       << read("faults.txt");
   for (const char* title : {"\"\\x1b]0;x\\a\"", "\"\\0\"", "\"\\u009b2J\"", "\"\\uFFFE\""}) {
-    write("bar.yaml", bar_deck + "title: " + title + "\n");
+    write("bar.yaml", test::bar_deck + "title: " + title + "\n");
     const Ending ending = brio("run bar.yaml");
     EXPECT_EQ(ending.exit_code, 2) << title;
     EXPECT_NE(ending.faults.find("bar.yaml:10:8: the text holds a control character"), std::string::npos)
         << ending.faults;
   }
-  write("bar.yaml", bar_deck + "title: \xed\xa0\x80\n");  // a surrogate, which is no character
+  write("bar.yaml", test::bar_deck + "title: \xed\xa0\x80\n");  // a surrogate, which is no character
   EXPECT_EQ(brio("run bar.yaml").exit_code, 2);
-  write("bar.yaml", bar_deck + "title: \xc0\xaf\n");  // longer than need be
+  write("bar.yaml", test::bar_deck + "title: \xc0\xaf\n");  // longer than need be
   EXPECT_EQ(brio("run bar.yaml").exit_code, 2);
 }
 

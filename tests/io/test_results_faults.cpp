@@ -399,19 +399,20 @@ TEST(ResultFolder, TakenAwayDuringTheRunIsAnError) {
   EXPECT_NE(message.find("the folder was moved, removed or taken"), std::string::npos) << message;
 }
 
-/// One row a chunk and a commit, so that index nodes of one and two levels split (the first at row 64, the
-/// second near row 3700). Where that takes more operations than usual, the process is killed in place of
-/// every one of them.
+/// One row a chunk, so that index nodes of one and two levels split (the first at row 64, the second near row
+/// 3700), and a commit, but for the rows between. Where that takes more operations than usual, the process is
+/// killed in place of every one of them.
 TEST(TransactionSlow, NoRowIsLostWhereverAnIndexNodeSplits) {
   constexpr int usual_operations = 5;
   const Folder folder;
   const auto file_path = folder / "table.h5";
   const auto before_path = folder / "before.h5";
   const auto victim_path = folder / "victim.h5";
-  const auto append = [](const std::filesystem::path& path, int row) {
+  constexpr int first_between = 500, last_between = 3500;
+  const auto append = [](const std::filesystem::path& path, int first, int last) {
     Hdf5File file = Hdf5File::open_to_append(path);
-    const double value = row;
-    file.append_rows("/table", 1, H5T_NATIVE_DOUBLE, &value);
+    for (double value = first; value <= last; ++value)
+      file.append_rows("/table", 1, H5T_NATIVE_DOUBLE, &value);
     file.close();
   };
   {
@@ -424,15 +425,20 @@ TEST(TransactionSlow, NoRowIsLostWhereverAnIndexNodeSplits) {
   };
   int splits = 0;
   for (int row = 0; row < 3800; ++row) {
+    if (row == first_between) {
+      append(file_path, first_between, last_between);
+      row = last_between;
+      continue;
+    }
     copy(file_path, before_path);
     plan_fault(Fault::none, 0);
-    append(file_path, row);
+    append(file_path, row, row);
     const int operations = test::operations_since_plan();
-    if (operations <= usual_operations || (row > 500 && row < 3500)) continue;
+    if (operations <= usual_operations) continue;
     ++splits;
     for (int at = 0; at < operations; ++at) {
       copy(before_path, victim_path);
-      EXPECT_FALSE(lives_through(Fault::kill, at, [&] { append(victim_path, row); }));
+      EXPECT_FALSE(lives_through(Fault::kill, at, [&] { append(victim_path, row, row); }));
       const Hdf5File file = Hdf5File::open_to_read(victim_path);
       const std::int64_t rows = file.dimensions("/table").at(0);
       ASSERT_TRUE(rows == row || rows == row + 1);

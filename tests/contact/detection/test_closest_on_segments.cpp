@@ -60,7 +60,7 @@ void judge(std::uint64_t seed, int queries) {
 }
 
 TEST(ClosestOnSegments, RightToRoundingByExactArithmetic) { judge(62, 40000); }
-TEST(ClosestOnSegmentsSlow, RightToRoundingByExactArithmetic) { judge(62, 1000000); }
+TEST(ClosestOnSegmentsSlow, RightToRoundingByExactArithmetic) { judge(62, 300000); }
 
 void compare_with_scalar(std::uint64_t seed, int queries) {
   Random random(seed);

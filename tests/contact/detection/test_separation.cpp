@@ -90,7 +90,7 @@ void judge(std::uint64_t seed, int queries) {
 }
 
 TEST(Separation, TheValueIsWithinTheBoundByExactArithmetic) { judge(71, 10000); }
-TEST(SeparationSlow, TheValueIsWithinTheBoundByExactArithmetic) { judge(72, 340000); }
+TEST(SeparationSlow, TheValueIsWithinTheBoundByExactArithmetic) { judge(72, 150000); }
 
 // Multiples of 2^-30: the ends of the step are exact.
 Segment on_grid(const Segment& segment) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/detection/closest_on_triangle.hpp"
+#include "contact/eigen_vector.hpp"
 #include "src/base/floating_point.hpp"
 
 namespace brio {
@@ -19,98 +21,6 @@ double difference_of_products(double a, double b, double c, double d) {
   return std::fma(a, b, -cd) + given_back;
 }
 
-// What is known of the triangle as seen from the node.
-struct View {
-  std::array<Vector3d, 3> to;    // from the node to each vertex
-  std::array<Vector3d, 3> edge;  // from vertex k to vertex k+1
-  Vector3d area;
-};
-
-Vector3d weighted(const View& view, const std::array<double, 3>& w) {
-  return w[0] * view.to[0] + w[1] * view.to[1] + w[2] * view.to[2];
-}
-
-void normalise(std::array<double, 3>& weights) {
-  for (double& w : weights) w = std::max(w, 0.0);
-  const double sum = weights[0] + weights[1] + weights[2];
-  for (double& w : weights) w /= sum;
-}
-
-// Foot on the segment of edge k. A segment is well conditioned whatever the triangle.
-TrianglePoint foot_on_edge(const View& view, int k) {
-  const int next = (k + 1) % 3;
-  const Vector3d& start = view.to[static_cast<std::size_t>(k)];
-  const Vector3d& along = view.edge[static_cast<std::size_t>(k)];
-  const double length_squared = along.squaredNorm();
-  const double reach = -start.dot(along);
-  TrianglePoint foot;
-  foot.weights = {0, 0, 0};
-  foot.area_vector = view.area;
-  foot.feature = Feature::edge;
-  foot.index = k;
-  double share = 0;
-  if (reach <= 0 || length_squared == 0) {
-    foot.feature = Feature::vertex;
-  } else if (reach >= length_squared) {
-    foot.feature = Feature::vertex;
-    foot.index = next;
-    share = 1;
-  } else {
-    share = reach / length_squared;
-  }
-  foot.weights[static_cast<std::size_t>(k)] = 1 - share;
-  foot.weights[static_cast<std::size_t>(next)] = share;
-  // From the nearer end: the foot then carries the rounding of its own small distance to it.
-  foot.offset = share <= 0.5 ? Vector3d(start + share * along)
-                             : Vector3d(view.to[static_cast<std::size_t>(next)] - (1 - share) * along);
-  foot.squared_distance = foot.offset.squaredNorm();
-  return foot;
-}
-
-// The foot of the perpendicular, given weights that are about right: what is left of the offset within the
-// plane is taken out again, because in a sliver the first weights are good only to (length / height)
-// roundings.
-void refine(const View& view, TrianglePoint& foot) {
-  const double area_squared = view.area.squaredNorm();
-  const double resolution = 4 * unit_roundoff * (view.to[0].lpNorm<1>() + view.edge[0].lpNorm<1>());
-  for (int pass = 0; pass < 3; ++pass) {
-    const Vector3d in_plane = foot.offset - view.area * (view.area.dot(foot.offset) / area_squared);
-    if (in_plane.lpNorm<Eigen::Infinity>() <= resolution) return;
-    TrianglePoint better = foot;
-    const double to_second = view.area.dot(accurate_cross(in_plane, view.edge[2])) / area_squared;
-    const double to_third = -view.area.dot(accurate_cross(view.edge[0], in_plane)) / area_squared;
-    better.weights[1] += to_second;
-    better.weights[2] += to_third;
-    better.weights[0] -= to_second + to_third;
-    normalise(better.weights);
-    better.offset = weighted(view, better.weights);
-    better.squared_distance = better.offset.squaredNorm();
-    if (!(better.squared_distance < foot.squared_distance)) return;
-    foot = better;
-  }
-}
-
-// The foot of the perpendicular if it falls inside the triangle.
-bool foot_inside(const View& view, TrianglePoint& foot) {
-  const double area_squared = view.area.squaredNorm();
-  if (!(area_squared > 0)) return false;
-  std::array<double, 3> weights;
-  for (std::size_t k = 0; k < 3; ++k) {  // edge k faces vertex k+2
-    const double inside = view.area.dot(accurate_cross(view.to[k], view.edge[k]));
-    if (!(inside > 0)) return false;
-    weights[(k + 2) % 3] = inside;
-  }
-  normalise(weights);
-  foot.weights = weights;
-  foot.area_vector = view.area;
-  foot.feature = Feature::interior;
-  foot.index = 0;
-  foot.offset = weighted(view, weights);
-  foot.squared_distance = foot.offset.squaredNorm();
-  refine(view, foot);
-  return true;
-}
-
 }  // namespace
 
 Vector3d accurate_cross(const Vector3d& a, const Vector3d& b) {
@@ -119,20 +29,25 @@ Vector3d accurate_cross(const Vector3d& a, const Vector3d& b) {
 }
 
 TrianglePoint closest_point_on_triangle(const Vector3d& node, const std::array<Vector3d, 3>& vertices) {
-  View view;
-  for (std::size_t k = 0; k < 3; ++k) {
-    view.to[k] = vertices[k] - node;
-    view.edge[k] = vertices[(k + 1) % 3] - vertices[k];
-  }
-  view.area = accurate_cross(view.edge[2], view.edge[0]);
-  TrianglePoint best;
-  bool found = foot_inside(view, best);
+  const auto [a, b, c] = vertices;
+  const ClosestOnTriangle<double> found =
+      closest_on_triangle(components(node), components(a), components(b), components(c));
+  TrianglePoint point{found.weights,          -eigen(found.offset), accurate_cross(a - c, b - a),
+                      found.squared_distance, Feature::interior,    0};
+  // Edge k faces vertex k + 2.
   for (int k = 0; k < 3; ++k) {
-    const TrianglePoint foot = foot_on_edge(view, k);
-    if (!found || foot.squared_distance < best.squared_distance) best = foot;
-    found = true;
+    if (found.weights[static_cast<std::size_t>((k + 2) % 3)] == 0) {
+      point.feature = Feature::edge;
+      point.index = k;
+    }
   }
-  return best;
+  for (int k = 0; k < 3; ++k) {
+    if (found.weights[static_cast<std::size_t>(k)] == 1) {
+      point.feature = Feature::vertex;
+      point.index = k;
+    }
+  }
+  return point;
 }
 
 double safe_length(const Vector3d& vector) {

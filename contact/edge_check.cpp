@@ -7,6 +7,7 @@
 #include "contact/advancement.hpp"
 #include "contact/closest_point.hpp"
 #include "contact/edges_apart.hpp"
+#include "contact/eigen_vector.hpp"
 
 namespace brio {
 
@@ -224,8 +225,6 @@ Vector3d contact_normal(const RelativeEdges& edges, const Touch& touch, int side
   if (side != 0 && (both_inside || touch.time == 0)) return unit_or(side * closest.normal, touch.approach);
   return touch.time > 0 ? unit_or(touch.approach, closest.normal) : unit_or(closest.normal, touch.approach);
 }
-
-Vector3<double> components(const Vector3d& a) { return {a[0], a[1], a[2]}; }
 
 MovingEdgePair<double> edge_pair(const MovingEdge& a, const MovingEdge& b) {
   MovingEdgePair<double> pair;

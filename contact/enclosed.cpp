@@ -79,11 +79,7 @@ class Enclosures {
   CaptureBox box_of(int body) const {
     CaptureBox box = empty_box;
     for (const int f : faces_of(body))
-      for (const Vector3d& x : vertices(nodes_, face(f)))
-        for (int axis = 0; axis < 3; ++axis) {
-          box.lower[axis] = std::min(box.lower[axis], x[axis]);
-          box.upper[axis] = std::max(box.upper[axis], x[axis]);
-        }
+      for (const Vector3d& x : vertices(nodes_, face(f))) box.include(x);
     return box;
   }
 

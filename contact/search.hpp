@@ -26,6 +26,16 @@ struct CaptureBox {
   double lower[3];
   double upper[3];
 
+  /// Grows to hold a point or another box. What is not a number is left out.
+  BRIO_INLINE void include(const Vector3<double>& x) { include({{x.x, x.y, x.z}, {x.x, x.y, x.z}}); }
+  template <class Point>
+  BRIO_INLINE void include(const Point& x) {
+    for (int axis = 0; axis < 3; ++axis) grow(axis, x[axis], x[axis]);
+  }
+  BRIO_INLINE void include(const CaptureBox& box) {
+    for (int axis = 0; axis < 3; ++axis) grow(axis, box.lower[axis], box.upper[axis]);
+  }
+
   /// False where lower > upper or a face is not a number: nothing is in such a box.
   bool holds_anything() const { return overlaps(*this); }
 
@@ -34,6 +44,12 @@ struct CaptureBox {
     return std::islessequal(other.lower[0], upper[0]) && std::isgreaterequal(other.upper[0], lower[0]) &&
            std::islessequal(other.lower[1], upper[1]) && std::isgreaterequal(other.upper[1], lower[1]) &&
            std::islessequal(other.lower[2], upper[2]) && std::isgreaterequal(other.upper[2], lower[2]);
+  }
+
+ private:
+  BRIO_INLINE void grow(int axis, double from, double to) {
+    lower[axis] = from < lower[axis] ? from : lower[axis];
+    upper[axis] = to > upper[axis] ? to : upper[axis];
   }
 };
 

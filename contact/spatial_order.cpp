@@ -31,8 +31,6 @@ constexpr std::uint32_t key_of(Entry entry) { return static_cast<std::uint32_t>(
 
 bool is_number(const Vector3<double>& p) { return !std::isnan(p.x) && !std::isnan(p.y) && !std::isnan(p.z); }
 
-CaptureBox at(const Vector3<double>& p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
-
 /// Two zeros after each of ten bits.
 constexpr std::uint32_t spread(std::uint32_t x) {
   x = (x | (x << 16)) & 0x030000ffu;
@@ -86,7 +84,6 @@ void radix_sort(Entry* entries, Entry* scratch, std::size_t count) {
 
 void lay_centres(const SearchNodes& boxes, const CaptureBox& within, ThreadTeam& team,
                  std::vector<Vector3<double>>& centres) {
-  constexpr double far = std::numeric_limits<double>::max() / 4;
   constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   centres.resize(boxes.size());
   team.for_ranges(boxes.size(), smallest_slice, [&](std::size_t begin, std::size_t end) {
@@ -95,8 +92,10 @@ void lay_centres(const SearchNodes& boxes, const CaptureBox& within, ThreadTeam&
       double centre[3] = {not_a_number, not_a_number, not_a_number};
       if (box.holds_anything() && box.overlaps(within))
         for (int axis = 0; axis < 3; ++axis)
-          centre[axis] = 0.5 * std::clamp(std::max(box.lower[axis], within.lower[axis]), -far, far) +
-                         0.5 * std::clamp(std::min(box.upper[axis], within.upper[axis]), -far, far);
+          centre[axis] = 0.5 * std::clamp(std::max(box.lower[axis], within.lower[axis]), -farthest_coordinate,
+                                          farthest_coordinate) +
+                         0.5 * std::clamp(std::min(box.upper[axis], within.upper[axis]), -farthest_coordinate,
+                                          farthest_coordinate);
       centres[b] = {centre[0], centre[1], centre[2]};
     }
   });
@@ -107,16 +106,16 @@ void SpatialOrder::sort(std::span<const Vector3<double>> positions, ThreadTeam& 
   entries_.resize(count);
   scratch_.resize(count);
   const std::size_t slices = (count + smallest_slice - 1) / smallest_slice;
-  slice_bounds_.assign(slices, Bounds());
+  slice_bounds_.assign(slices, empty_box);
   team.for_each(slices, [&](std::size_t s) {
-    Bounds bounds;
+    CaptureBox bounds = empty_box;
     const std::size_t end = std::min(count, (s + 1) * smallest_slice);
     for (std::size_t i = s * smallest_slice; i < end; ++i)
-      if (is_number(positions[i])) bounds.include(at(positions[i]));
+      if (is_number(positions[i])) bounds.include(positions[i]);
     slice_bounds_[s] = bounds;
   });
-  Bounds bounds;
-  for (const Bounds& slice : slice_bounds_) bounds.include(slice);
+  CaptureBox bounds = empty_box;
+  for (const CaptureBox& slice : slice_bounds_) bounds.include(slice);
 
   const Cells cells(bounds);
   team.for_ranges(count, smallest_slice, [&](std::size_t begin, std::size_t end) {
@@ -172,9 +171,9 @@ void SpatialOrder::refine_crowded_cells(std::span<const Vector3<double>> positio
 /// Order the positions of one cell by a curve of their own bounds, and so on. It ends: where the bounds have
 /// an extent, their opposite sides fall in different cells.
 void SpatialOrder::refine(std::span<const Vector3<double>> positions, std::size_t begin, std::size_t end) {
-  Bounds bounds;
+  CaptureBox bounds = empty_box;
   for (std::size_t i = begin; i < end; ++i)
-    bounds.include(at(positions[static_cast<std::uint32_t>(entries_[i])]));
+    bounds.include(positions[static_cast<std::uint32_t>(entries_[i])]);
   const Cells cells(bounds);
   bool divided = false;
   for (std::size_t i = begin; i < end; ++i) {

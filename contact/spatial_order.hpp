@@ -3,26 +3,16 @@
 /// neighbours in space.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "contact/search.hpp"
-#include "src/base/floating_point.hpp"
 
 namespace brio {
 
-/// Smallest box around the boxes included, whose faces are numbers; holds nothing at first.
-struct Bounds : CaptureBox {
-  Bounds() : CaptureBox{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}} {}
-  BRIO_INLINE void include(const CaptureBox& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[axis] = box.lower[axis] < lower[axis] ? box.lower[axis] : lower[axis];
-      upper[axis] = box.upper[axis] > upper[axis] ? box.upper[axis] : upper[axis];
-    }
-  }
-
- private:
-};
+/// What stands farther out is taken to stand here: sums and differences of coordinates stay numbers.
+inline constexpr double farthest_coordinate = std::numeric_limits<double>::max() / 4;
 
 /// Centres of what the boxes share with `within`: not a number where they share nothing, and of infinite
 /// boxes somewhere inside.
@@ -49,7 +39,7 @@ class SpatialOrder {
   std::vector<std::uint64_t> entries_;  ///< key of the curve in the upper half, index in the lower
   std::vector<std::uint64_t> scratch_;
   std::vector<std::uint32_t> histogram_;
-  std::vector<Bounds> slice_bounds_;
+  std::vector<CaptureBox> slice_bounds_;
 };
 
 }  // namespace brio

@@ -67,7 +67,6 @@ void NodeTree::build(const SearchNodes& nodes, ThreadTeam& team) {
 /// Put blocks over `boxes`, and their bounds into `bounds_`.
 void NodeTree::add_level(std::span<const CaptureBox> boxes, ThreadTeam& team) {
   constexpr std::size_t blocks_per_task = 512;
-  constexpr double far = std::numeric_limits<double>::max() / 4;
   constexpr float infinite = std::numeric_limits<float>::infinity();  // of a box that is not there
   const std::size_t first = blocks_.size();
   const std::size_t added = (boxes.size() + width - 1) / width;
@@ -77,14 +76,14 @@ void NodeTree::add_level(std::span<const CaptureBox> boxes, ThreadTeam& team) {
   team.for_ranges(added, blocks_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const auto inside = boxes.subspan(b * width, std::min(width, boxes.size() - b * width));
-      Bounds bounds;
+      CaptureBox bounds = empty_box;
       for (const CaptureBox& box : inside) bounds.include(box);
       bounds_[b] = bounds;
       TreeBlock& block = blocks_[first + b];
       double extent = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        block.origin[axis] = std::clamp(bounds.lower[axis], -far, far);
-        extent = std::max(extent, std::min(bounds.upper[axis], far) - block.origin[axis]);
+        block.origin[axis] = std::clamp(bounds.lower[axis], -farthest_coordinate, farthest_coordinate);
+        extent = std::max(extent, std::min(bounds.upper[axis], farthest_coordinate) - block.origin[axis]);
       }
       block.per_length = extent > std::numeric_limits<double>::min() ? 1 / extent : 1;
       for (std::size_t i = 0; i < width; ++i)
@@ -201,8 +200,9 @@ void add_nodes_inside(const CaptureBox& box, int box_number, const NodesNearby& 
 
 }  // namespace
 
-Bounds TreeSearch::bounds_of(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end) const {
-  Bounds bounds;
+CaptureBox TreeSearch::bounds_of(std::span<const CaptureBox> boxes, std::size_t begin,
+                                 std::size_t end) const {
+  CaptureBox bounds = empty_box;
   for (std::size_t i = begin; i < end; ++i) bounds.include(boxes[static_cast<std::size_t>(box_order_[i])]);
   return bounds;
 }

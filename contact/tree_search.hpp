@@ -37,7 +37,7 @@ class NodeTree {
   void build(const SearchNodes& nodes, ThreadTeam& team);
 
   /// Of all nodes; holds nothing where there is none.
-  CaptureBox bounds() const { return bounds_.empty() ? Bounds() : bounds_.front(); }
+  CaptureBox bounds() const { return bounds_.empty() ? empty_box : bounds_.front(); }
   bool holds_points() const { return holds_points_; }
   /// The node at a place in the order of the tree, and where it may be.
   int node(int place) const { return order_[static_cast<std::size_t>(place)]; }
@@ -101,7 +101,7 @@ class TreeSearch {
                       NodesNearby& nearby, PairPiece& piece) const;
   void find_in_group(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end,
                      NodesNearby& nearby, PairPiece& piece) const;
-  Bounds bounds_of(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end) const;
+  CaptureBox bounds_of(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end) const;
 
   NodeTree tree_;
   std::vector<Vector3<double>> centres_;

@@ -6,6 +6,7 @@
 
 #include "contact/advancement.hpp"
 #include "contact/apart.hpp"
+#include "contact/eigen_vector.hpp"
 
 namespace brio {
 
@@ -127,8 +128,6 @@ std::optional<Touch> first_touch(const Triangle& triangle, double limit) {
     if (count % patience == 0) tolerance *= 2;
   }
 }
-
-Vector3<double> components(const Vector3d& a) { return {a[0], a[1], a[2]}; }
 
 MovingPair<double> moving_pair(const MovingNode& node, const MovingFace& face) {
   MovingPair<double> pair{{components(node.start)}, {components(node.displacement)}};

@@ -31,8 +31,8 @@ template <class T>
 struct SegmentDifferences {
   Vector3<T> a0_b0, a0_b1, a1_b0, a1_b1;  ///< end of a minus end of b
   Vector3<T> along_a, along_b;            ///< second minus first end
-  T square_a, square_b;                   ///< of their lengths
-  T inverse_a, inverse_b;                 ///< of these squares
+  T square_a = dot(along_a, along_a), square_b = dot(along_b, along_b);
+  T inverse_a = inverse_or_zero(square_a), inverse_b = inverse_or_zero(square_b);
 };
 
 template <class T>
@@ -137,14 +137,7 @@ BRIO_INLINE ClosestOnSegments<T> middle_of_shared(const SegmentDifferences<T>& d
 /// segments, which meet in the middle of what they share, and of such without length, which are points. If a
 /// and b change places, so do the results, to the bit.
 template <class T>
-BRIO_INLINE ClosestOnSegments<T> closest_on_segments(const Vector3<T>& a0, const Vector3<T>& a1,
-                                                     const Vector3<T>& b0, const Vector3<T>& b1) {
-  SegmentDifferences<T> d{a0 - b0, a0 - b1, a1 - b0, a1 - b1, a1 - a0,
-                          b1 - b0, T(0.0),  T(0.0),  T(0.0),  T(0.0)};
-  d.square_a = dot(d.along_a, d.along_a);
-  d.square_b = dot(d.along_b, d.along_b);
-  d.inverse_a = inverse_or_zero(d.square_a);
-  d.inverse_b = inverse_or_zero(d.square_b);
+BRIO_INLINE ClosestOnSegments<T> closest_on_segments(const SegmentDifferences<T>& d) {
   const T product = dot(d.along_a, d.along_b);
   const CommonPerpendicular<T> by_a =
       common_perpendicular(d.a0_b0, d.along_a, d.inverse_a, d.along_b, product);
@@ -165,6 +158,11 @@ BRIO_INLINE ClosestOnSegments<T> closest_on_segments(const Vector3<T>& a0, const
       (!is_parallel) & is_inside & (inside.squared_distance <= best.squared_distance);
   const ClosestOnSegments<T> crossing = where<T>(is_inside_best, inside, best);
   return where<T>(is_parallel, middle_of_shared(d, feet, best), crossing);
+}
+template <class T>
+BRIO_INLINE ClosestOnSegments<T> closest_on_segments(const Vector3<T>& a0, const Vector3<T>& a1,
+                                                     const Vector3<T>& b0, const Vector3<T>& b1) {
+  return closest_on_segments(SegmentDifferences<T>{a0 - b0, a0 - b1, a1 - b0, a1 - b1, a1 - a0, b1 - b0});
 }
 
 }  // namespace brio

@@ -34,15 +34,6 @@ constexpr std::uint64_t most_of_rest = 3;
 constexpr double growth_of_rest = 1.1;
 constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
-CaptureBox joined(const CaptureBox& a, const CaptureBox& b) {
-  CaptureBox box{};
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
-    box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
-  }
-  return box;
-}
-
 CaptureBox grown(CaptureBox box, double by) {
   for (int axis = 0; axis < 3; ++axis) {
     box.lower[axis] -= by;
@@ -118,12 +109,13 @@ void FeaturePairs::place(std::size_t slave, const Scene& scene, const FeatureMot
 
 CaptureBox FeaturePairs::box_of(const Surface& surface, const Face& face) const {
   CaptureBox box = empty_box;
-  for (int corner : face.node) box = joined(box, reach_[static_cast<std::size_t>(surface.slave(corner))]);
+  for (int corner : face.node) box.include(reach_[static_cast<std::size_t>(surface.slave(corner))]);
   return box;
 }
 CaptureBox FeaturePairs::box_of(const EdgeFeature& edge) const {
-  return joined(reach_[static_cast<std::size_t>(edge.node[0])],
-                reach_[static_cast<std::size_t>(edge.node[1])]);
+  CaptureBox box = reach_[static_cast<std::size_t>(edge.node[0])];
+  box.include(reach_[static_cast<std::size_t>(edge.node[1])]);
+  return box;
 }
 CaptureBox FeaturePairs::node_box(const Scene& scene, std::size_t slave) const {
   return grown(reach_[slave], scene.features.node_radius[slave] +

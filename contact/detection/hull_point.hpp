@@ -3,6 +3,7 @@
 
 #include "contact/closest_point.hpp"
 #include "contact/detection/closest_on_hull.hpp"
+#include "contact/eigen_vector.hpp"
 
 namespace brio {
 
@@ -14,10 +15,9 @@ struct HullPoint {
 
 inline HullPoint closest_on_face(const Eigen::Vector3d& x, const FaceVertices& at, bool as_hull) {
   if (as_hull) {
-    const auto components = [](const Eigen::Vector3d& a) { return Vector3<double>{a[0], a[1], a[2]}; };
     const ClosestOnHull<double> found = closest_on_hull<double>(
         components(x), {components(at[0]), components(at[1]), components(at[2]), components(at[3])});
-    return {{found.offset.x, found.offset.y, found.offset.z}, found.weights, found.squared_distance};
+    return {eigen(found.offset), found.weights, found.squared_distance};
   }
   const TrianglePoint first = closest_point_on_triangle(x, {at[0], at[1], at[2]});
   const TrianglePoint second = closest_point_on_triangle(x, {at[0], at[2], at[3]});

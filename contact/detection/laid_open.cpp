@@ -17,8 +17,8 @@ constexpr std::array<std::array<std::size_t, 2>, 6> segments{
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}, {1, 3}}};
 
 CaptureBox bounds_of(const FaceVertices& at) {
-  Bounds bounds;
-  for (const Eigen::Vector3d& x : at) bounds.include({{x[0], x[1], x[2]}, {x[0], x[1], x[2]}});
+  CaptureBox bounds = empty_box;
+  for (const Eigen::Vector3d& x : at) bounds.include(x);
   return bounds;
 }
 

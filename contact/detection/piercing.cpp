@@ -23,12 +23,7 @@ constexpr std::size_t faces_a_range = 256;
 template <class NodesOf>
 CaptureBox box_around(const Nodes& nodes, const NodesOf& global) {
   CaptureBox box = empty_box;
-  for (int node : global)
-    for (int axis = 0; axis < 3; ++axis) {
-      const double x = nodes.record[static_cast<std::size_t>(node)].position[axis];
-      box.lower[axis] = std::min(box.lower[axis], x);
-      box.upper[axis] = std::max(box.upper[axis], x);
-    }
+  for (int node : global) box.include(nodes.record[static_cast<std::size_t>(node)].position);
   return box;
 }
 

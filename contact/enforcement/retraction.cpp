@@ -73,11 +73,7 @@ class Retraction {
       const FaceVertices at = look_.corners(one);
       normal_[f] = unit_or((at[2] - at[0]).cross(at[3] - at[1]), Vector3d::Zero());
       CaptureBox& box = box_[static_cast<std::size_t>(one.body)];
-      for (const Vector3d& corner : at)
-        for (int axis = 0; axis < 3; ++axis) {
-          box.lower[axis] = std::min(box.lower[axis], corner[axis]);
-          box.upper[axis] = std::max(box.upper[axis], corner[axis]);
-        }
+      for (const Vector3d& corner : at) box.include(corner);
     }
   }
 

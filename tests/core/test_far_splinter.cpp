@@ -42,7 +42,7 @@ Course course(bool with_splinter) {
 
 TEST(FarSplinter, WakesNoPairOfOthers) {
   const Course alone = course(false), with = course(true);
-  EXPECT_LT(alone.top, 5.0);
+  EXPECT_GT(alone.top, -4.9) << "the heap has met the plate";
   EXPECT_NEAR(with.top, alone.top, 1e-3 * std::abs(alone.top));
   EXPECT_LT(static_cast<double>(with.looked_at), 1.05 * static_cast<double>(alone.looked_at));
 }

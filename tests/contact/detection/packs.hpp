@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "contact/detection/number.hpp"
+#include "contact/eigen_vector.hpp"
 
 namespace brio {
 
@@ -15,8 +16,6 @@ inline void put(Vector3<Pack>& to, int lane, const Eigen::Vector3d& from) {
   to.y.set(lane, from[1]);
   to.z.set(lane, from[2]);
 }
-inline Vector3<double> plain(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-inline Eigen::Vector3d eigen(const Vector3<double>& v) { return {v.x, v.y, v.z}; }
 
 inline bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);

@@ -102,20 +102,21 @@ class Reference {
     for (std::size_t k = 0; k < 4; ++k)
       at[k] = motion_.start(scene_.features.face_node[static_cast<std::size_t>(f)][k]);
     const bool spaced = list.has_radii(i);
-    const Vector3<double> x = plain(motion_.start(s));
+    const Vector3<double> x = components(motion_.start(s));
     std::array<double, 4> weights{};
     Vector3<double> offset{};
     if (spaced) {
-      const auto found = closest_on_hull<double>(x, {plain(at[0]), plain(at[1]), plain(at[2]), plain(at[3])},
-                                                 0.1 * scene_.features.skin);
+      const auto found = closest_on_hull<double>(
+          x, {components(at[0]), components(at[1]), components(at[2]), components(at[3])},
+          0.1 * scene_.features.skin);
       weights = found.weights;
       if (!found.inside) {
-        offset = weights[0] * (x - plain(at[0]));
-        for (std::size_t k = 1; k < 4; ++k) offset = offset + weights[k] * (x - plain(at[k]));
+        offset = weights[0] * (x - components(at[0]));
+        for (std::size_t k = 1; k < 4; ++k) offset = offset + weights[k] * (x - components(at[k]));
       }
     } else {
-      const auto p = closest_on_triangle<double>(x, plain(at[0]), plain(at[1]), plain(at[2]));
-      const auto q = closest_on_triangle<double>(x, plain(at[0]), plain(at[2]), plain(at[3]));
+      const auto p = closest_on_triangle<double>(x, components(at[0]), components(at[1]), components(at[2]));
+      const auto q = closest_on_triangle<double>(x, components(at[0]), components(at[2]), components(at[3]));
       const bool first = at[2] == at[3] || p.squared_distance <= q.squared_distance;
       weights = first ? std::array<double, 4>{p.weights[0], p.weights[1], p.weights[2], 0}
                       : std::array<double, 4>{q.weights[0], 0, q.weights[1], q.weights[2]};
@@ -131,8 +132,9 @@ class Reference {
   NearPair<2> closest_edges(std::size_t i) const {
     const PairList& list = all_.edge_edge;
     const EdgeFeature &a = edge(list.first(i)), &b = edge(list.second(i));
-    const auto found = closest_on_segments(plain(motion_.start(a.node[0])), plain(motion_.start(a.node[1])),
-                                           plain(motion_.start(b.node[0])), plain(motion_.start(b.node[1])));
+    const auto found =
+        closest_on_segments(components(motion_.start(a.node[0])), components(motion_.start(a.node[1])),
+                            components(motion_.start(b.node[0])), components(motion_.start(b.node[1])));
     const double distance = std::sqrt(found.squared_distance);
     const double reach = list.has_radii(i) ? a.radius + b.radius : 2 * scene_.features.skin;
     return {

@@ -18,10 +18,10 @@ namespace {
 using Eigen::Vector3d;
 
 std::array<Vector3<double>, 4> corners(const FaceVertices& face) {
-  return {plain(face[0]), plain(face[1]), plain(face[2]), plain(face[3])};
+  return {components(face[0]), components(face[1]), components(face[2]), components(face[3])};
 }
 ClosestOnHull<double> closest(const FaceQuery& query) {
-  return closest_on_hull(plain(query.node), corners(query.face));
+  return closest_on_hull(components(query.node), corners(query.face));
 }
 double largest_difference(const FaceQuery& query) {
   double largest = 0;
@@ -57,8 +57,8 @@ constexpr double roundings = 10;
 
 void judge_triangle(const FaceQuery& query) {
   const test::FloatingPointTraps traps;
-  const auto result = closest_on_triangle(plain(query.node), plain(query.face[0]), plain(query.face[1]),
-                                          plain(query.face[2]));
+  const auto result = closest_on_triangle(components(query.node), components(query.face[0]),
+                                          components(query.face[1]), components(query.face[2]));
   const double rounding = roundings * unit_roundoff * largest_difference(query);
   const double distance = std::sqrt(result.squared_distance);
   EXPECT_TRUE(are_shares(result.weights));
@@ -111,8 +111,8 @@ void compare_with_scalar(std::uint64_t seed, int queries) {
   Random random(seed);
   for (int i = 0; i < queries; ++i) {
     const FaceQuery query = any_face_query(random);
-    const auto result = closest_on_triangle(plain(query.node), plain(query.face[0]), plain(query.face[1]),
-                                            plain(query.face[2]));
+    const auto result = closest_on_triangle(components(query.node), components(query.face[0]),
+                                            components(query.face[1]), components(query.face[2]));
     const TrianglePoint scalar =
         closest_point_on_triangle(query.node, {query.face[0], query.face[1], query.face[2]});
     ASSERT_LE(std::sqrt(result.squared_distance),
@@ -147,8 +147,8 @@ TEST(ClosestOnHull, LanesGiveTheBitsOfPlainNumbers) {
       ASSERT_EQ(in_lane(packed.inside, lane), result.inside) << i;
       for (std::size_t k = 0; k < 4; ++k)
         ASSERT_TRUE(same_bits(packed.weights[k][lane], result.weights[k])) << i;
-      const auto triangle = closest_on_triangle(plain(query.node), plain(query.face[0]), plain(query.face[1]),
-                                                plain(query.face[2]));
+      const auto triangle = closest_on_triangle(components(query.node), components(query.face[0]),
+                                                components(query.face[1]), components(query.face[2]));
       ASSERT_TRUE(same_bits(of_triangle.offset, lane, triangle.offset)) << i;
       for (std::size_t k = 0; k < 3; ++k)
         ASSERT_TRUE(same_bits(of_triangle.weights[k][lane], triangle.weights[k])) << i;
@@ -217,7 +217,7 @@ TEST(ClosestOnHull, WithAFlatnessWeightsAreContinuousInTheWarp) {
     for (int k = -400; k <= 400; ++k) {
       const double warp = 0.02 * flatness * k;
       query.face = {Vector3d(0, 0, warp), Vector3d(1, 0, 0), Vector3d(1, 1, warp), Vector3d(0, 1, 0)};
-      const auto result = closest_on_hull(plain(query.node), corners(query.face), flatness);
+      const auto result = closest_on_hull(components(query.node), corners(query.face), flatness);
       const Vector3d shift = offset_by_weights(query, result.weights) - eigen(result.offset);
       ASSERT_LE(shift.norm(), 2 * flatness);
       ASSERT_LE(shift.cross(eigen(result.offset).normalized()).norm(), 2 * std::abs(warp) * height + 1e-15);
@@ -236,8 +236,8 @@ TEST(ClosestOnHull, ATriangularFaceHasNoWeightOnItsFourthVertex) {
     FaceQuery query = any_face_query(random);
     query.face[3] = query.face[2];
     const auto result = closest(query);
-    const auto triangle = closest_on_triangle(plain(query.node), plain(query.face[0]), plain(query.face[1]),
-                                              plain(query.face[2]));
+    const auto triangle = closest_on_triangle(components(query.node), components(query.face[0]),
+                                              components(query.face[1]), components(query.face[2]));
     ASSERT_EQ(result.weights[3], 0);
     ASSERT_FALSE(result.inside);
     ASSERT_NEAR(std::sqrt(result.squared_distance), std::sqrt(triangle.squared_distance),

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 ClosestOnSegments<double> closest(const Segment& a, const Segment& b) {
-  return closest_on_segments(plain(a[0]), plain(a[1]), plain(b[0]), plain(b[1]));
+  return closest_on_segments(components(a[0]), components(a[1]), components(b[0]), components(b[1]));
 }
 double largest_difference(const SegmentQuery& query) {
   double largest = 0;

@@ -52,7 +52,7 @@ Features features(Random& random, std::size_t n, std::size_t m, double gap) {
 template <std::size_t N>
 std::array<Vector3<double>, N> points(const std::vector<Vector3d>& from) {
   std::array<Vector3<double>, N> to;
-  for (std::size_t k = 0; k < N; ++k) to[k] = plain(from[k]);
+  for (std::size_t k = 0; k < N; ++k) to[k] = components(from[k]);
   return to;
 }
 
@@ -66,7 +66,7 @@ void judge(Random& random, Count& count) {
       random.integer(0, 5) == 0 ? 0 : random.power_of_ten(-18, 0) * (random.integer(0, 3) - 0.5);
   const Features f = features(random, N, M, gap);
   const test::FloatingPointTraps traps;
-  const auto result = separation(plain(f.d), points<N>(f.first_start), points<N>(f.first_end),
+  const auto result = separation(components(f.d), points<N>(f.first_start), points<N>(f.first_end),
                                  points<M>(f.second_start), points<M>(f.second_end));
   ASSERT_TRUE(exact::separated_by(f.d, f.first_start, f.second_start, result.start - result.bound));
   ASSERT_FALSE(exact::separated_by(f.d, f.first_start, f.second_start, result.start + result.bound));
@@ -111,8 +111,8 @@ TEST(Separation, WhatIsCertainNeverMeets) {
       edges[side]->start = on_grid(edges[side]->start);
       edges[side]->displacement = on_grid(edges[side]->displacement);
       for (std::size_t k = 0; k < 2; ++k) {
-        start[side][k] = plain(edges[side]->start[k]);
-        end[side][k] = plain(edges[side]->start[k] + edges[side]->displacement[k]);
+        start[side][k] = components(edges[side]->start[k]);
+        end[side][k] = components(edges[side]->start[k] + edges[side]->displacement[k]);
       }
     }
     const auto closest = closest_on_segments(start[0][0], start[0][1], start[1][0], start[1][1]);
@@ -144,8 +144,9 @@ TEST(Separation, LanesGiveTheBitsOfPlainNumbers) {
     const auto packed = separation(d, node_start[0], node_end[0], face_start, face_end);
     for (int lane = 0; lane < 8; ++lane) {
       const Features& f = all[static_cast<std::size_t>(lane)];
-      const auto result = separation(plain(f.d), plain(f.first_start[0]), plain(f.first_end[0]),
-                                     points<4>(f.second_start), points<4>(f.second_end));
+      const auto result =
+          separation(components(f.d), components(f.first_start[0]), components(f.first_end[0]),
+                     points<4>(f.second_start), points<4>(f.second_end));
       ASSERT_TRUE(same_bits(packed.start[lane], result.start)) << i;
       ASSERT_TRUE(same_bits(packed.end[lane], result.end)) << i;
       ASSERT_TRUE(same_bits(packed.bound[lane], result.bound)) << i;

@@ -90,10 +90,10 @@ template <class Kind, Floating Real>
 inline constexpr bool makes_relative = !(sizeof(Real) == 8 && requires { requires Kind::uses_differences; });
 
 template <class Kind, Floating Real>
-BRIO_INLINE MotionOf<Kind, Lanes<Real>> gather_motion(const Nodes& nodes, const int* connectivity) {
+BRIO_CALLED void gather_motion(const Nodes& nodes, const int* connectivity,
+                               MotionOf<Kind, Lanes<Real>>& motion) {
   constexpr int width = lane_count<Real>;
   constexpr std::size_t stride = sizeof(NodeRecord) / sizeof(double);
-  MotionOf<Kind, Lanes<Real>> motion;
   const double* position = nodes.record.data()->position;
   const double* velocity = nodes.record.data()->velocity;
   const WideVector<Real> first_position = gather_rows<Real>(position, stride, connectivity);
@@ -121,18 +121,10 @@ BRIO_INLINE MotionOf<Kind, Lanes<Real>> gather_motion(const Nodes& nodes, const 
       motion.angular_velocity[2][corner] = narrow<Real>(w.z);
     }
   }
-  return motion;
-}
-
-/// The same as a call, where time does not matter.
-template <class Kind, Floating Real>
-[[gnu::noinline]] MotionOf<Kind, Lanes<Real>> gather_motion_once(const Nodes& nodes,
-                                                                 const int* connectivity) {
-  return gather_motion<Kind, Real>(nodes, connectivity);
 }
 
 template <class Kind, Floating Real>
-BRIO_INLINE void scatter(Nodes& nodes, const int* connectivity, const ForcesOf<Kind, Lanes<Real>>& forces) {
+BRIO_CALLED void scatter(Nodes& nodes, const int* connectivity, const ForcesOf<Kind, Lanes<Real>>& forces) {
 #pragma GCC unroll 8
   for (int corner = 0; corner < Kind::nodes; ++corner) {
     const int* node = connectivity + corner * lane_count<Real>;
@@ -147,8 +139,8 @@ BRIO_INLINE void scatter(Nodes& nodes, const int* connectivity, const ForcesOf<K
 /// The first `count` lanes of the last pack of a chunk: kept out of the loop, where it would be the larger
 /// part of the code.
 template <class Kind, Floating Real>
-[[gnu::noinline]] void scatter_first(Nodes& nodes, const int* connectivity, int count,
-                                     const ForcesOf<Kind, Lanes<Real>>& forces) {
+BRIO_CALLED void scatter_first(Nodes& nodes, const int* connectivity, int count,
+                               const ForcesOf<Kind, Lanes<Real>>& forces) {
   for (int corner = 0; corner < Kind::nodes; ++corner)
     for (int lane = 0; lane < count; ++lane) {
       const auto node = static_cast<std::size_t>(connectivity[corner * lane_count<Real> + lane]);
@@ -228,7 +220,8 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
     const int* connectivity =
         block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
     const int count = static_cast<int>(std::min<std::size_t>(width, chunk.element_count - done));
-    const MotionOf<Kind, T> motion = gather_motion<Kind, Real>(nodes, connectivity);
+    MotionOf<Kind, T> motion;
+    gather_motion<Kind, Real>(nodes, connectivity, motion);
     fetch_next_state<StateHalf::first, Layout>(block, kind, pack);
     ForcesOf<Kind, T> forces;
     Increment<T> increment =
@@ -249,8 +242,7 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
     if (count == width) {
       scatter<Kind, Real>(nodes, connectivity, forces);
     } else {
-      const ForcesOf<Kind, T> in_memory = forces;  // so that `forces` itself can stay in registers
-      scatter_first<Kind, Real>(nodes, connectivity, count, in_memory);
+      scatter_first<Kind, Real>(nodes, connectivity, count, forces);
     }
     internal_energy.add(increment.internal_energy, count);
     hourglass_energy.add(increment.hourglass_energy, count);
@@ -291,7 +283,8 @@ void initialize_block(Block& block, Nodes& nodes) {
   for (std::size_t pack = 0; pack < block.pack_count; ++pack) {
     const int* connectivity =
         block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
-    const MotionOf<Kind, T> motion = gather_motion_once<Kind, Real>(nodes, connectivity);
+    MotionOf<Kind, T> motion;
+    gather_motion<Kind, Real>(nodes, connectivity, motion);
     const NodalMass<T> share =
         kind.initialize(motion, law, Layout::header(block, pack), Layout::points(block, pack));
     for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count;

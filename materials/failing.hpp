@@ -121,7 +121,7 @@ struct Failing : Law {
 
   /// \param before equivalent plastic strain at the start of the step
   template <class T>
-  BRIO_INLINE void grow_damage(const SymmetricTensor<T>& strain_increment, const SymmetricTensor<T>& stress,
+  BRIO_CALLED void grow_damage(const SymmetricTensor<T>& strain_increment, const SymmetricTensor<T>& stress,
                                T before, History<T>& history) const {
     const Failure& f = *this->failure;
     const auto failed = has_failed(history);

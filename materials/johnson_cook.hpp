@@ -81,7 +81,7 @@ struct JohnsonCookHardening {
   /// Newton's method within a bracket. The stiffness of a metal is far above its hardening, so that the
   /// start from no hardening is near. What Newton's method has not found is halved, which comes to an end
   /// unless the input is not a number.
-  BRIO_INLINE HardeningPoint<T> meet(HardeningPoint<T> near, T effective_stress, T stiffness) const {
+  BRIO_CALLED HardeningPoint<T> meet(HardeningPoint<T> near, T effective_stress, T stiffness) const {
     T low = min(base, near.plastic_strain);
     T high = near.plastic_strain + max(effective_stress - initial_yield_stress(), T(0.0)) / stiffness;
     T strain = near.plastic_strain + max(effective_stress - near.stress, T(0.0)) / stiffness;

@@ -234,7 +234,7 @@ BRIO_INLINE bool flow_along_tangents(const PlaneStressFlow<T>& trial, const Hard
 /// a bracket that, after `free_steps`, is halved every other step: the loop ends at the latest when no number
 /// is left between its ends, and at once for what is not a number.
 template <class T, class Hardening>
-BRIO_INLINE PlaneStressEnd<T> flow_within_bracket(const PlaneStressFlow<T>& flow, const Hardening& hardening,
+BRIO_CALLED PlaneStressEnd<T> flow_within_bracket(const PlaneStressFlow<T>& flow, const Hardening& hardening,
                                                   const HardeningPoint<T>& start) {
   constexpr double small_change = sizeof(RealOf<T>) == 8 ? 1e-6 : 1e-3;
   constexpr int free_steps = 8;

@@ -172,7 +172,7 @@ struct PowerHardening {
   }
 
   template <class T>
-  BRIO_INLINE HardeningPoint<T> beyond_plateau(const Crossing<T>& crossing, T height,
+  BRIO_CALLED HardeningPoint<T> beyond_plateau(const Crossing<T>& crossing, T height,
                                                const HardeningPoint<T>& near, T near_u) const {
     const VerticalPart<T> vertical = vertical_part(crossing);
     T step = first_guess(crossing, height);

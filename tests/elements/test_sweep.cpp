@@ -24,7 +24,8 @@ void expect_gathered() {
     }
   std::vector<int> connectivity(std::size_t{8} * width);
   for (int& node : connectivity) node = any_node(generator);
-  const auto motion = gather_motion<Kind, Real>(nodes, connectivity.data());
+  MotionOf<Kind, Lanes<Real>> motion;
+  gather_motion<Kind, Real>(nodes, connectivity.data(), motion);
   for (int corner = 0; corner < 8; ++corner)
     for (int lane = 0; lane < width; ++lane)
       for (int k = 0; k < 3; ++k) {

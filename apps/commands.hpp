@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/enforcement/initial_gap.hpp"
+#include "contact/start/initial_gap.hpp"
 #include "io/forecast_deck.hpp"
 #include "io/run_deck.hpp"
 #include "io/run_study.hpp"

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/exclusion.hpp"
-#include "contact/surface_topology.hpp"
+#include "contact/surface/exclusion.hpp"
+#include "contact/surface/surface_topology.hpp"
 
 namespace brio {
 

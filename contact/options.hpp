@@ -1,7 +1,7 @@
 #pragma once
 /// What a deck may say about contact beside the list of surfaces. Every default states its reason.
 
-#include "contact/search.hpp"
+#include "contact/search/search.hpp"
 #include "src/base/fields.hpp"
 
 namespace brio {

@@ -4,9 +4,9 @@
 #include <cassert>
 #include <chrono>
 
-#include "contact/enforcement/impact_zone.hpp"
 #include "contact/enforcement/inherited_impulses.hpp"
 #include "contact/enforcement/target_velocity.hpp"
+#include "contact/impact_zone.hpp"
 #include "contact/scene.hpp"
 #include "contact/step_totals.hpp"
 

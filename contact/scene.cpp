@@ -1,6 +1,8 @@
 #include "contact/scene.hpp"
 
-#include "contact/exclusion.hpp"
+#include "contact/ties/tied_pairs.hpp"
+
+#include "contact/surface/exclusion.hpp"
 
 namespace brio {
 

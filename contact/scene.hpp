@@ -14,18 +14,18 @@
 #include <vector>
 
 #include "contact/detection/crossing_guard.hpp"
-#include "contact/detection/feature_motion.hpp"
-#include "contact/detection/feature_pairs.hpp"
-#include "contact/detection/features.hpp"
 #include "contact/detection/proximity.hpp"
 #include "contact/enforcement/contact_rows.hpp"
 #include "contact/enforcement/impulse_solver.hpp"
 #include "contact/enforcement/nodes_at_walls.hpp"
 #include "contact/erosion.hpp"
+#include "contact/features/feature_motion.hpp"
+#include "contact/features/features.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
-#include "contact/slave_set.hpp"
-#include "contact/surface.hpp"
+#include "contact/pairs/feature_pairs.hpp"
+#include "contact/surface/slave_set.hpp"
+#include "contact/surface/surface.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "contact/face_geometry.hpp"
-#include "contact/global_search.hpp"
+#include "contact/search/global_search.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "src/build.hpp"
 #include "src/part_index.hpp"
 

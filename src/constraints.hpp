@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "contact/ties.hpp"
+#include "contact/ties/ties.hpp"
 #include "src/deck.hpp"
 #include "src/ledger.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "contact/detection/laid_open.hpp"
+#include "contact/pairs/laid_open.hpp"
 
 namespace brio {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "contact/audit/audit.hpp"
-#include "contact/enforcement/initial_gap.hpp"
 #include "contact/scene.hpp"
-#include "contact/ties.hpp"
+#include "contact/start/initial_gap.hpp"
+#include "contact/ties/ties.hpp"
 #include "src/constraints.hpp"
 #include "src/deck.hpp"
 #include "src/erosion.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "contact/face_geometry.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "src/breakdown.hpp"
 #include "src/corner_times.hpp"
 #include "src/node_name.hpp"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/global_search.hpp"
+#include "contact/search/global_search.hpp"
 #include "elements/block.hpp"
 
 namespace brio {

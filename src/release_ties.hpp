@@ -1,7 +1,7 @@
 #pragma once
 /// Ties that end because elements are deleted.
 
-#include "contact/ties.hpp"
+#include "contact/ties/ties.hpp"
 #include "src/erosion.hpp"
 #include "src/ledger.hpp"
 

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/rigid_motion.hpp"
+#include "contact/features/rigid_motion.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 #include "src/constraints.hpp"

@@ -1,7 +1,7 @@
 #pragma once
-/// Overlaps with rigid walls that a mesh begins with. As in contact (contact/overlap.hpp), small ones are
-/// removed before the first step by moving nodes, so that they cost neither strain nor energy: what is formed
-/// from the mesh must be formed afterwards.
+/// Overlaps with rigid walls that a mesh begins with. As in contact (contact/start/initial_gap.hpp), small
+/// ones are removed before the first step by moving nodes, so that they cost neither strain nor energy: what
+/// is formed from the mesh must be formed afterwards.
 
 #include <span>
 #include <vector>

@@ -15,12 +15,12 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/closest_point.hpp"
-#include "contact/closest_segments.hpp"
-#include "contact/detection/closest_on_hull.hpp"
-#include "contact/detection/closest_on_segments.hpp"
-#include "contact/detection/gather.hpp"
-#include "contact/detection/separation.hpp"
+#include "contact/geometry/closest_on_hull.hpp"
+#include "contact/geometry/closest_on_segments.hpp"
+#include "contact/geometry/closest_point.hpp"
+#include "contact/geometry/closest_segments.hpp"
+#include "contact/geometry/separation.hpp"
+#include "contact/pairs/gather.hpp"
 
 namespace brio {
 namespace {

@@ -18,7 +18,7 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/global_search.hpp"
+#include "contact/search/global_search.hpp"
 
 namespace brio {
 namespace {

@@ -13,10 +13,10 @@
 #include <string_view>
 #include <vector>
 
-#include "contact/apart.hpp"
-#include "contact/edge_check.hpp"
-#include "contact/edges_apart.hpp"
-#include "contact/velocity_check.hpp"
+#include "contact/geometry/apart.hpp"
+#include "contact/geometry/edge_check.hpp"
+#include "contact/geometry/edges_apart.hpp"
+#include "contact/geometry/velocity_check.hpp"
 
 namespace brio {
 namespace {

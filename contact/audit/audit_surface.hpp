@@ -7,7 +7,7 @@
 
 #include "contact/audit/box_tree.hpp"
 #include "contact/audit/segment_triangle.hpp"
-#include "contact/surface.hpp"
+#include "contact/surface/surface.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {

@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "contact/detection/feature_motion.hpp"
-#include "contact/detection/feature_pairs.hpp"
+#include "contact/features/feature_motion.hpp"
+#include "contact/pairs/feature_pairs.hpp"
 
 namespace brio {
 

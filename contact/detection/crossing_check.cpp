@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/closest_segments.hpp"
-#include "contact/detection/hull_point.hpp"
-#include "contact/edge_check.hpp"
-#include "contact/velocity_check.hpp"
+#include "contact/geometry/closest_segments.hpp"
+#include "contact/geometry/edge_check.hpp"
+#include "contact/geometry/hull_point.hpp"
+#include "contact/geometry/velocity_check.hpp"
 
 namespace brio {
 

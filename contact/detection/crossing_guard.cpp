@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "contact/detection/crossing_check.hpp"
-#include "contact/detection/pair_packs.hpp"
+#include "contact/pairs/pair_packs.hpp"
 
 namespace brio {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "contact/detection/pair_packs.hpp"
 #include "contact/detection/proximity_filter.hpp"
+#include "contact/pairs/pair_packs.hpp"
 
 namespace brio {
 

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "contact/detection/awake_pairs.hpp"
-#include "contact/detection/feature_motion.hpp"
-#include "contact/detection/feature_pairs.hpp"
-#include "contact/detection/features.hpp"
+#include "contact/features/feature_motion.hpp"
+#include "contact/features/features.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
+#include "contact/pairs/feature_pairs.hpp"
 
 namespace brio {
 

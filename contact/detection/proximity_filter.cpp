@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/closest_segments.hpp"
-#include "contact/detection/hull_point.hpp"
-#include "contact/exclusion.hpp"
+#include "contact/geometry/closest_segments.hpp"
+#include "contact/geometry/hull_point.hpp"
+#include "contact/surface/exclusion.hpp"
 
 namespace brio {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/face_geometry.hpp"
+#include "contact/surface/face_geometry.hpp"
 
 namespace brio {
 

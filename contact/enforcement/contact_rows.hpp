@@ -18,14 +18,14 @@
 #include <span>
 #include <vector>
 
-#include "contact/detection/features.hpp"
 #include "contact/enforcement/booking.hpp"
 #include "contact/enforcement/constraint_row.hpp"
 #include "contact/enforcement/nodes_at_walls.hpp"
+#include "contact/features/features.hpp"
+#include "contact/features/rigid_motion.hpp"
 #include "contact/pair.hpp"
-#include "contact/rigid_motion.hpp"
-#include "contact/surface.hpp"
-#include "contact/ties.hpp"
+#include "contact/surface/surface.hpp"
+#include "contact/ties/ties.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "contact/detection/feature_motion.hpp"
 #include "contact/enforcement/booking.hpp"
-#include "contact/surface.hpp"
+#include "contact/features/feature_motion.hpp"
+#include "contact/surface/surface.hpp"
 #include "src/base/tensor.hpp"
 
 namespace brio {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -68,6 +69,28 @@ TEST(Architecture, IncludesFollowTheArrows) {
     }
   }
   EXPECT_GT(seen, 20u);
+}
+
+// The rooms of a folder in order: each includes those before it, and itself.
+TEST(Architecture, RoomsOfContactFollowTheirOrder) {
+  const std::vector<std::string> order{"geometry",  "search",      "surface", "ties",  "features", "pairs",
+                                       "detection", "enforcement", "",        "start", "audit"};
+  const auto place = [&](const std::string& path) {
+    // What is asked for and what is found are read everywhere.
+    if (path == "contact/options.hpp" || path == "contact/pair.hpp") return 1;
+    const fs::path folder = fs::path(path).parent_path();
+    const std::string room = folder == "contact" ? "" : folder.filename().string();
+    const auto found = std::find(order.begin(), order.end(), room);
+    EXPECT_NE(found, order.end()) << path;
+    return static_cast<int>(found - order.begin());
+  };
+  const std::regex include(R"re(^#include "(contact/[^"]+)")re");
+  for (const SourceFile& file : source_files()) {
+    if (file.room != "contact") continue;
+    for (const std::string& line : file.lines)
+      if (std::smatch match; std::regex_search(line, match, include))
+        EXPECT_LE(place(match[1]), place(file.path)) << file.path << " must not include " << match[1];
+  }
 }
 
 // A word may stand only in files whose path begins with one of the given places.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/closest_point.hpp"
+#include "contact/geometry/closest_point.hpp"
 
 namespace brio {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Moving edges chosen to be difficult for the edge check.
 
-#include "contact/edge_check.hpp"
+#include "contact/geometry/edge_check.hpp"
 #include "tests/contact/adversarial_queries.hpp"
 
 namespace brio {

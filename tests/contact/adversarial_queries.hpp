@@ -5,7 +5,7 @@
 #include <random>
 #include <string_view>
 
-#include "contact/velocity_check.hpp"
+#include "contact/geometry/velocity_check.hpp"
 
 namespace brio {
 

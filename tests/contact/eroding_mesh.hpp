@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "contact/surface_topology.hpp"
+#include "contact/surface/surface_topology.hpp"
 
 namespace brio::test {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "contact/edge_check.hpp"
+#include "contact/geometry/edge_check.hpp"
 #include "tests/contact/exact_polynomial.hpp"
 
 namespace brio::exact {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "contact/velocity_check.hpp"
+#include "contact/geometry/velocity_check.hpp"
 #include "tests/contact/exact_polynomial.hpp"
 
 namespace brio::exact {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/search.hpp"
+#include "contact/search/search.hpp"
 
 namespace brio {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/search.hpp"
+#include "contact/search/search.hpp"
 #include "src/base/floating_point.hpp"
 
 namespace brio {

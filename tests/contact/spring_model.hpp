@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "contact/enforcement/initial_gap.hpp"
 #include "contact/erosion.hpp"
 #include "contact/scene.hpp"
-#include "contact/surface.hpp"
+#include "contact/start/initial_gap.hpp"
+#include "contact/surface/surface.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 

@@ -1,6 +1,6 @@
 /// The rejection over lanes: never wrong, the same in every lane, and worth having.
 
-#include "contact/apart.hpp"
+#include "contact/geometry/apart.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Closest points region by region, against an exhaustive search, and under rotation, reflection and
 /// renumbering.
 
-#include "contact/closest_point.hpp"
+#include "contact/geometry/closest_point.hpp"
 
 #include <gtest/gtest.h>
 

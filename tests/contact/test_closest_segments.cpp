@@ -1,7 +1,7 @@
 /// Closest points of two segments: region by region, against an exhaustive search and exact arithmetic, and
 /// under exchange, reflection, rotation and another unit.
 
-#include "contact/closest_segments.hpp"
+#include "contact/geometry/closest_segments.hpp"
 
 #include <gtest/gtest.h>
 

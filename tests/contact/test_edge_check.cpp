@@ -1,7 +1,7 @@
 /// The edge check on cases whose answer is known in closed form, and under exchange, reflection, rotation and
 /// in other units, places and frames.
 
-#include "contact/edge_check.hpp"
+#include "contact/geometry/edge_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/edges_apart.hpp"
+#include "contact/geometry/edges_apart.hpp"
 #include "tests/contact/adversarial_edges.hpp"
 #include "tests/contact/exact_edges.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "contact/audit/audit.hpp"
-#include "contact/face_geometry.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {

@@ -2,8 +2,8 @@
 
 #include <random>
 
-#include "contact/closest_segments.hpp"
-#include "contact/face_geometry.hpp"
+#include "contact/geometry/closest_segments.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "tests/contact/spring_model.hpp"
 
 // The start of contact by distances: what touches or overlaps a little is moved apart to its radii.

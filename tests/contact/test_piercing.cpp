@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/closest_point.hpp"
-#include "contact/closest_segments.hpp"
-#include "contact/detection/piercing.hpp"
+#include "contact/geometry/closest_point.hpp"
+#include "contact/geometry/closest_segments.hpp"
+#include "contact/pairs/piercing.hpp"
 #include "tests/contact/audit/adversarial_crossings.hpp"
 #include "tests/contact/audit/exact_crossing.hpp"
 

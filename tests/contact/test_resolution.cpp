@@ -3,8 +3,8 @@
 #include <bit>
 #include <random>
 
-#include "contact/face_geometry.hpp"
 #include "contact/scene.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "src/base/floating_point.hpp"
 #include "tests/contact/spring_model.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "contact/global_search.hpp"
+#include "contact/search/global_search.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/contact/search_by_brute_force.hpp"
 #include "tests/contact/search_scenes.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "contact/sorted_list_search.hpp"
+#include "contact/search/sorted_list_search.hpp"
 #include "tests/contact/search_scenes.hpp"
 
 namespace brio {

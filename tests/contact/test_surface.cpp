@@ -1,4 +1,4 @@
-#include "contact/surface.hpp"
+#include "contact/surface/surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "contact/exclusion.hpp"
-#include "contact/face_geometry.hpp"
+#include "contact/surface/exclusion.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {

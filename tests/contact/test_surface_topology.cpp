@@ -1,9 +1,9 @@
-#include "contact/surface_topology.hpp"
+#include "contact/surface/surface_topology.hpp"
 
 #include <gtest/gtest.h>
 
-#include "contact/exclusion.hpp"
-#include "contact/face_geometry.hpp"
+#include "contact/surface/exclusion.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "tests/contact/eroding_mesh.hpp"
 
 namespace brio::test {

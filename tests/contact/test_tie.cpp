@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "contact/tie.hpp"
+#include "contact/ties/tie.hpp"
 
 namespace brio {
 namespace {

@@ -1,6 +1,6 @@
 /// The velocity check on cases whose answer is known in closed form.
 
-#include "contact/velocity_check.hpp"
+#include "contact/geometry/velocity_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/face_geometry.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "src/build_ties.hpp"
 #include "src/observe.hpp"
 #include "tests/core/scene.hpp"

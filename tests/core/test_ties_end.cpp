@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/face_geometry.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "src/observe.hpp"
 #include "tests/core/scene.hpp"
 #include "tests/core/tied_scene.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "contact/face_geometry.hpp"
+#include "contact/surface/face_geometry.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio::test {

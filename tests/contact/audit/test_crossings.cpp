@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "contact/ties.hpp"
+#include "contact/ties/ties.hpp"
 #include "tests/contact/adversarial_queries.hpp"
 #include "tests/contact/audit/audit_scene.hpp"
 #include "tests/contact/audit/exact_crossing.hpp"

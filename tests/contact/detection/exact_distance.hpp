@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "contact/closest_point.hpp"
-#include "contact/closest_segments.hpp"
+#include "contact/geometry/closest_point.hpp"
+#include "contact/geometry/closest_segments.hpp"
 #include "tests/contact/exact_geometry.hpp"
 
 namespace brio::exact {

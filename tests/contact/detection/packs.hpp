@@ -4,8 +4,8 @@
 #include <Eigen/Dense>
 #include <bit>
 
-#include "contact/detection/number.hpp"
-#include "contact/eigen_vector.hpp"
+#include "contact/geometry/eigen_vector.hpp"
+#include "contact/geometry/number.hpp"
 
 namespace brio {
 

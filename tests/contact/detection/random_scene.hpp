@@ -1,8 +1,8 @@
 #pragma once
 /// Crumpled sheets, cubes, beams and particles that lie about each other, and their motion.
 
-#include "contact/detection/feature_pairs.hpp"
-#include "contact/exclusion.hpp"
+#include "contact/pairs/feature_pairs.hpp"
+#include "contact/surface/exclusion.hpp"
 #include "tests/contact/adversarial_queries.hpp"
 
 namespace brio {

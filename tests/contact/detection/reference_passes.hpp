@@ -6,10 +6,10 @@
 #include <cmath>
 #include <tuple>
 
-#include "contact/detection/closest_on_segments.hpp"
 #include "contact/detection/crossing_check.hpp"
-#include "contact/detection/hull_point.hpp"
 #include "contact/detection/proximity_filter.hpp"
+#include "contact/geometry/closest_on_segments.hpp"
+#include "contact/geometry/hull_point.hpp"
 #include "tests/contact/detection/packs.hpp"
 #include "tests/contact/detection/random_scene.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Nodes, faces and segments at rest, chosen to be difficult for closest points.
 
-#include "contact/closest_point.hpp"
-#include "contact/closest_segments.hpp"
+#include "contact/geometry/closest_point.hpp"
+#include "contact/geometry/closest_segments.hpp"
 #include "tests/contact/adversarial_queries.hpp"
 
 namespace brio {

@@ -1,6 +1,6 @@
 /// Closest points of triangles and of the hulls of faces, against exact arithmetic.
 
-#include "contact/detection/closest_on_hull.hpp"
+#include "contact/geometry/closest_on_hull.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 /// Closest points of segments, against exact arithmetic and the scalar function, and under exchange.
 
-#include "contact/detection/closest_on_segments.hpp"
+#include "contact/geometry/closest_on_segments.hpp"
 
 #include <gtest/gtest.h>
 

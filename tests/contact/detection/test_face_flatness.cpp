@@ -1,6 +1,6 @@
 // Faces whose diagonals are no features of their own.
 
-#include "contact/detection/face_flatness.hpp"
+#include "contact/features/face_flatness.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 /// Certificates of separation: never false by exact arithmetic, also where heights are a rounding apart, and
 /// not given away where features are apart by more.
 
-#include "contact/detection/separation.hpp"
+#include "contact/geometry/separation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "contact/detection/closest_on_segments.hpp"
+#include "contact/geometry/closest_on_segments.hpp"
 #include "tests/contact/adversarial_edges.hpp"
 #include "tests/contact/detection/exact_distance.hpp"
 #include "tests/contact/detection/packs.hpp"

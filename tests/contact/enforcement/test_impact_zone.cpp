@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "contact/enforcement/impact_zone.hpp"
+#include "contact/impact_zone.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio {

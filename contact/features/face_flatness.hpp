@@ -1,0 +1,69 @@
+#pragma once
+/// Which faces are flat: their diagonals are no features of their own.
+///
+/// What passes through a flat polygon meets its corners, its sides, or with its own corner the face. A face
+/// counts as flat where it is convex and its hull is thinner than a tenth of the skin, or for what keeps its
+/// radius, than 0.03 of that.
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/features/feature_motion.hpp"
+#include "contact/features/features.hpp"
+
+namespace brio {
+
+/// What a face is flat for: pairs that keep two skins, and so all; pairs that keep their radii; none.
+enum class Flatness : std::uint8_t { all, radii, none };
+
+/// Thickness of the hull of a face below which it is flat.
+double flat_thickness(const SurfaceFeatures& features, std::size_t face, Flatness flatness);
+
+/// How far every corner of a quadrilateral may move until its hull, between both diagonals, is thicker than
+/// that, and until it is not convex; negative: it is.
+struct FlatSlack {
+  double thin, convex;
+  double least() const { return std::min(thin, convex); }
+};
+FlatSlack flat_slack(const std::array<Eigen::Vector3d, 4>& at, double thickness);
+
+class FaceFlatness {
+ public:
+  /// No face is flat.
+  void forget(std::size_t faces);
+  /// All faces anew, over the present step.
+  void measure(const SurfaceFeatures& features, const FeatureMotion& motion);
+  /// The surface has changed. \param changed faces that are not flat until they are measured
+  void change(std::size_t faces, std::span<const int> changed);
+  /// Whether a face is no longer as flat as it was at the end of the step.
+  bool any_bends(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team);
+  bool bends(const SurfaceFeatures& features, int face, const FeatureMotion& motion);
+  /// Take over what faces have become that bend more. \param joins of each edge: set where it is a diagonal
+  /// of such a face
+  void take_over(const SurfaceFeatures& features, const FeatureMotion& motion,
+                 std::vector<std::uint8_t>& joins);
+
+  /// Whether an edge is paired, with what keeps their radii.
+  bool pairs(const EdgeFeature& edge, bool radii) const {
+    if (!edge.is_diagonal()) return true;
+    const Flatness flatness = flat_[static_cast<std::size_t>(edge.face[0])];
+    return flatness == Flatness::none || (flatness == Flatness::radii && !radii);
+  }
+
+ private:
+  /// Path of a face until which its hull surely is as thin, and until which it surely is convex.
+  struct Until {
+    double thin = 0, convex = 0;
+  };
+  static bool may_reach(double path, const SurfaceFeatures& features, std::size_t face,
+                        const FeatureMotion& motion);
+
+  std::vector<Flatness> flat_;
+  std::vector<Until> until_;
+};
+
+}  // namespace brio

@@ -1,0 +1,309 @@
+#include "contact/features/feature_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr std::size_t features_a_range = 4096, groups_a_range = 16;
+
+double square_in_frame(const double* from, const double* to, const std::array<double, 3>& frame) {
+  double square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double d = to[axis] - from[axis] - frame[axis];
+    square += d * d;
+  }
+  return square * (paths_rounded_up * paths_rounded_up);
+}
+double length_in_frame(const double* from, const double* to, const std::array<double, 3>& frame) {
+  return std::sqrt(square_in_frame(from, to, frame));
+}
+
+/// What was moved and the step of a node side by side, to be compared at once.
+typedef double Both __attribute__((vector_size(16)));
+
+Both longer(Both a, Both b) { return a > b ? a : b; }
+
+// The longest of the corners of each feature, in the frame of the first one's group.
+template <class Way, std::size_t Corners>
+void spread_to(PathAndAhead& ways, const std::vector<std::array<int, Corners>>& corners,
+               const std::vector<Way>& of_node, const MotionGroups& groups, bool with_paths,
+               ThreadTeam& team) {
+  const auto at = [&](int slave) {
+    const Way& way = of_node[static_cast<std::size_t>(slave)];
+    return Both{way.moved, way.step};
+  };
+  const auto between = [&](int g, int h) {
+    const std::array<double, 2>& apart = groups.frames_apart(g, h);
+    return Both{apart[0], apart[1]};
+  };
+  team.for_ranges(corners.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      Both longest = at(corners[f][0]);
+      const int own = groups.of_node(corners[f][0]);
+      for (std::size_t k = 1; k < Corners; ++k) {
+        const int other = groups.of_node(corners[f][k]);
+        const Both way = at(corners[f][k]);
+        longest = longer(longest, other == own ? way : way + between(own, other));
+      }
+      const double path = ways.path[f] + (with_paths ? longest[0] : 0);
+      ways.path[f] = path;
+      ways.ahead[f] = path + approach_factor * longest[1];
+    }
+  });
+}
+
+void restart_ways(PathAndAhead& ways, std::size_t count) {
+  ways.path.resize(count, 0);
+  ways.ahead.resize(count, 0);
+  for (std::size_t i = 0; i < count; ++i) {
+    ways.ahead[i] = std::max(0.0, ways.ahead[i] - ways.path[i]) * paths_rounded_up;
+    ways.path[i] = 0;
+  }
+}
+
+}  // namespace
+
+void FeatureMotion::restart(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team) {
+  restart_ways(of_node, surface.slaves());
+  restart_ways(of_face, surface.face.size());
+  restart_ways(of_edge, features.edge.size());
+  for (double& sum : frame_sum_) sum = 0;
+  ++restarts_;
+  form_groups(features, surface, team);
+  measure_steps(team);
+  spread(features, false, team);
+}
+
+void FeatureMotion::form_groups(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  position_.resize(node.size());
+  for (std::size_t s = 0; s < node.size(); ++s)
+    position_[s] = surface.node[s] < 0
+                       ? Vector3<double>{none, none, none}
+                       : Vector3<double>{node[s].start[0], node[s].start[1], node[s].start[2]};
+  groups.form(surface, features, position_, team);
+}
+
+void FeatureMotion::join(const SurfaceFeatures& features, const Surface& surface, const SurfaceChange& change,
+                         std::span<const int> edges) {
+  if (!known_) return;
+  joined_.insert(joined_.end(), change.new_slave.begin(), change.new_slave.end());
+  node.resize(surface.slaves());
+  way_.resize(surface.slaves());
+  for (auto [ways, count] : {std::pair(&of_node, surface.slaves()), std::pair(&of_face, surface.face.size()),
+                             std::pair(&of_edge, features.edge.size())}) {
+    ways->path.resize(count, 0);
+    ways->ahead.resize(count, 0);
+  }
+  groups.join(surface, features, change, edges);
+}
+
+void FeatureMotion::start_sums(std::size_t count) {
+  sum_.assign((count + features_a_range - 1) / features_a_range, {});
+}
+
+void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes,
+                          ThreadTeam& team) {
+  const bool follows =
+      known_ && node.size() == surface.slaves() && of_edge.path.size() == features.edge.size();
+  node.resize(surface.slaves());
+  way_.resize(surface.slaves());
+  if (!follows) {
+    for (auto [ways, count] : {std::pair(&of_node, node.size()), std::pair(&of_face, surface.face.size()),
+                               std::pair(&of_edge, features.edge.size())})
+      *ways = {std::vector<double>(count, 0), std::vector<double>(count, 0)};
+    groups.group.clear();
+    driven_.clear();
+    for (std::size_t s = 0; s < node.size(); ++s)
+      if (surface.rigid_body(surface.node[s]) >= 0) driven_.push_back(static_cast<int>(s));
+  }
+  for (int slave : joined_) {  // as if it had moved with its frame
+    if (surface.node[index(slave)] < 0) continue;
+    const double* x = nodes.record[index(surface.node[index(slave)])].position;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      node[index(slave)].start[axis] = x[axis] - frame_of(index(slave))[axis];
+  }
+  joined_.clear();
+  team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      if (surface.node[s] < 0) {
+        node[s] = {};
+        way_[s] = {};
+        continue;
+      }
+      const double* x = nodes.record[static_cast<std::size_t>(surface.node[s])].position;
+      way_[s].moved = follows ? length_in_frame(node[s].start, x, frame_of(s)) : 0;
+      of_node.path[s] += way_[s].moved;
+      std::copy(x, x + 3, node[s].start);
+    }
+  });
+  if (follows)
+    for (int axis = 0; axis < 3; ++axis) frame_sum_[axis] += frame_[axis];
+  known_ = true;
+  predicted_ = false;
+}
+
+void FeatureMotion::end_by_velocity(const SurfaceFeatures& features, const Surface& surface,
+                                    const Nodes& nodes, double dt, std::span<const RigidMotion> bodies,
+                                    ThreadTeam& team) {
+  start_sums(node.size());
+  team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
+    Sum sum;
+    for (std::size_t s = begin; s < end; ++s) {
+      const int global = surface.node[s];
+      if (global < 0) continue;
+      const int body = bodies.empty() ? -1 : surface.rigid_body(global);
+      NodeMotion64& moved = node[s];
+      if (body >= 0) {
+        end_of_body_node(s, bodies[static_cast<std::size_t>(body)], dt);
+      } else {
+        const double* v = nodes.record[static_cast<std::size_t>(global)].velocity;
+        for (int axis = 0; axis < 3; ++axis) moved.end[axis] = moved.start[axis] + dt * v[axis];
+      }
+      for (int axis = 0; axis < 3; ++axis)
+        sum.magnitude =
+            std::max(sum.magnitude, std::max(std::abs(moved.start[axis]), std::abs(moved.end[axis])));
+      if (predicted_) sum.exceeds = raise(s) || sum.exceeds;
+    }
+    sum_[begin / features_a_range] = sum;
+  });
+  magnitude_ = 0;
+  for (const Sum& sum : sum_) magnitude_ = std::max(magnitude_, sum.magnitude);
+  is_solution_ = predicted_;
+  corrected_ = nullptr;
+  if (predicted_) {
+    finish_raising(features, team);
+    return;
+  }
+  if (groups.group.empty()) {
+    restart(features, surface, team);
+  } else {
+    for (MotionGroups::Group& g : groups.group) g.last = g.step;
+    measure_steps(team);
+    spread(features, true, team);
+  }
+  set_frame();
+  predicted_ = true;
+  exceeds_ = false;
+}
+
+// The mean of the nodes without the fastest quarter of the groups either way: a splinter does not move it. It
+// stays as it was predicted, whatever contact does to single nodes.
+void FeatureMotion::set_frame() {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    of_groups_.clear();
+    for (std::size_t g = 0; g < groups.group.size(); ++g)
+      of_groups_.emplace_back(groups.group[g].step[axis], static_cast<double>(groups.members(g).size()));
+    std::sort(of_groups_.begin(), of_groups_.end());
+    const std::size_t trimmed = of_groups_.size() / 4;
+    double sum = 0, count = 0;
+    for (std::size_t i = trimmed; i < of_groups_.size() - trimmed; ++i) {
+      sum += of_groups_[i].second * of_groups_[i].first;
+      count += of_groups_[i].second;
+    }
+    frame_[axis] = count > 0 ? sum / count : 0;
+  }
+}
+
+// Frames, and the displacements in them.
+void FeatureMotion::measure_steps(ThreadTeam& team) {
+  team.for_ranges(groups.group.size(), groups_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      MotionGroups::Group& group = groups.group[g];
+      const std::span<const int> members = groups.members(g);
+      std::array<double, 3> sum{};
+      for (int s : members)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          sum[axis] += node[index(s)].end[axis] - node[index(s)].start[axis];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        group.step[axis] = members.empty() ? 0 : sum[axis] / static_cast<double>(members.size());
+      for (int s : members) {
+        const NodeMotion64& moved = node[index(s)];
+        way_[index(s)].step = length_in_frame(moved.start, moved.end, group.step);
+        of_node.ahead[index(s)] = of_node.path[index(s)] + approach_factor * way_[index(s)].step;
+      }
+    }
+  });
+}
+
+void FeatureMotion::spread(const SurfaceFeatures& features, bool with_paths, ThreadTeam& team) {
+  team.for_ranges(groups.group.size(), groups_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t g = begin; g < end; ++g) {
+      double moved = 0, ahead = 0;
+      for (int s : groups.members(g)) {
+        moved = std::max(moved, way_[index(s)].moved);
+        ahead = std::max(ahead, way_[index(s)].step);
+      }
+      groups.group[g].moved = moved;
+      groups.group[g].ahead = ahead;
+    }
+  });
+  groups.advance(with_paths);
+  spread_to(of_face, features.face_node, way_, groups, with_paths, team);
+  spread_to(of_edge, features.edge_node, way_, groups, with_paths, team);
+}
+
+void FeatureMotion::end_of_body_node(std::size_t slave, const RigidMotion& body, double dt) {
+  const Vector3d v = body.velocity_at(Vector3d(node[slave].start) - body.centre);
+  for (int axis = 0; axis < 3; ++axis) node[slave].end[axis] = node[slave].start[axis] + dt * v[axis];
+}
+
+bool FeatureMotion::is_within(int slave, double length) const {
+  const NodeMotion64& moved = node[index(slave)];
+  return length > 0 && square_in_frame(moved.start, moved.end, frame_of(index(slave))) <= length * length;
+}
+
+void FeatureMotion::set_limits(double factor, double surplus) {
+  limit_factor_ = factor;
+  limit_surplus_ = surplus;
+}
+
+// Take the step of a node that exceeds its limit for its step. \returns whether it does
+bool FeatureMotion::raise(std::size_t slave) {
+  const NodeMotion64& moved = node[slave];
+  const double limit = limit_factor_ * way_[slave].step + limit_surplus_;
+  if (square_in_frame(moved.start, moved.end, frame_of(slave)) <= limit * limit) return false;
+  way_[slave].step = length_in_frame(moved.start, moved.end, frame_of(slave));
+  of_node.ahead[slave] = of_node.path[slave] + approach_factor * way_[slave].step;
+  return true;
+}
+
+void FeatureMotion::finish_raising(const SurfaceFeatures& features, ThreadTeam& team) {
+  exceeds_ = std::any_of(sum_.begin(), sum_.end(), [](const Sum& sum) { return sum.exceeds; });
+  if (!exceeds_) return;
+  spread(features, false, team);
+}
+
+void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surface& surface,
+                                    const SlaveSet& in_contact, std::span<const Eigen::Vector3d> corrected,
+                                    double dt, std::span<const RigidMotion> bodies, ThreadTeam& team) {
+  const std::size_t driven = bodies.empty() ? 0 : driven_.size();
+  start_sums(driven + 1);
+  bool exceeds = false;
+  is_solution_ = true;
+  corrected_ = &in_contact;
+  in_contact.for_each([&](std::size_t s) {
+    for (int axis = 0; axis < 3; ++axis) node[s].end[axis] = node[s].start[axis] + dt * corrected[s][axis];
+    if (bodies.empty() || surface.rigid_body(surface.node[s]) < 0) exceeds = raise(s) || exceeds;
+  });
+  team.for_ranges(driven, features_a_range, [&](std::size_t begin, std::size_t end) {
+    Sum& sum = sum_[begin / features_a_range];
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t s = index(driven_[i]);
+      const int body = surface.rigid_body(surface.node[s]);
+      if (body < 0) continue;
+      end_of_body_node(s, bodies[static_cast<std::size_t>(body)], dt);
+      sum.exceeds = raise(s) || sum.exceeds;
+    }
+  });
+  sum_[0].exceeds = sum_[0].exceeds || exceeds;
+  finish_raising(features, team);
+}
+
+}  // namespace brio

@@ -1,0 +1,135 @@
+#pragma once
+/// Where the nodes of the surface are at the start and at the end of a step, and how much nearer to each
+/// other features may have come since they were last looked at.
+///
+/// The distance of two features shrinks by no more than the sum of their paths and that of their groups'
+/// relation (motion_groups.hpp): a path is the sum over the steps of the longest displacement of a corner in
+/// the frame of the group, since a point of a feature is a fixed mean of its corners. Positions move linearly
+/// over a step (bodies that turn: along the chord), so a height above a direction that is positive at both
+/// ends is positive in between.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/features/features.hpp"
+#include "contact/features/motion_groups.hpp"
+#include "contact/features/rigid_motion.hpp"
+#include "contact/surface/slave_set.hpp"
+#include "src/base/nodes.hpp"
+#include "src/base/parallel.hpp"
+
+namespace brio {
+
+/// One slave node over one step.
+struct alignas(64) NodeMotion64 {
+  double start[4];  ///< x y z, unused
+  double end[4];
+};
+
+class FeatureMotion {
+ public:
+  std::vector<NodeMotion64> node;  ///< of each slave node; dead ones stay at the origin
+  PathAndAhead of_node, of_face, of_edge;
+  MotionGroups groups;
+
+  /// Positions at the start of a step; the displacements to them enter the paths with those at its end.
+  void begin(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, ThreadTeam& team);
+  /// Positions at the end of the step by the velocities of the nodes. The first time in a step paths and
+  /// looks ahead of all features are formed; later as in `end_by_solution`.
+  void end_by_velocity(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, double dt,
+                       std::span<const RigidMotion> bodies, ThreadTeam& team);
+
+  /// Positions at the end of the step of what contact has moved: nodes by their corrected velocities, those
+  /// of rigid bodies by their bodies'. Looks ahead are as predicted, but for nodes that exceed their limits
+  /// and the features at them, which look farther ahead from then on. \param in_contact is kept until the
+  /// next prediction
+  void end_by_solution(const SurfaceFeatures& features, const Surface& surface, const SlaveSet& in_contact,
+                       std::span<const Eigen::Vector3d> corrected, double dt,
+                       std::span<const RigidMotion> bodies, ThreadTeam& team);
+  /// By how much nodes may move in this step: a factor times the displacement that is known of them, and a
+  /// surplus.
+  void set_limits(double factor, double surplus);
+  /// Whether the last positions at the end of the step were beyond the limits of any node.
+  bool exceeds_limits() const { return exceeds_; }
+
+  /// Whether the end of a node is that of a solution, and not the predicted one.
+  bool is_corrected(int slave) const {
+    return is_solution_ && (corrected_ == nullptr || corrected_->contains(slave));
+  }
+
+  /// Whether the ends of all nodes are as predicted but for those that `for_each_corrected` visits.
+  bool knows_corrected() const { return is_solution_ && corrected_ != nullptr; }
+  /// Slave nodes that the solution has moved, and those of rigid bodies.
+  template <class Visit>
+  void for_each_corrected(Visit&& visit) const {
+    corrected_->for_each(visit);
+    for (int slave : driven_) visit(index(slave));
+  }
+
+  /// Whether a node's displacement in the frame of its group, to its last position at the end of the step, is
+  /// no longer than that.
+  bool is_within(int slave, double length) const;
+
+  /// Nothing is known of the last step.
+  void forget() { known_ = false; }
+  /// The surface has changed: features may have joined. \param edges new and changed ones
+  void join(const SurfaceFeatures& features, const Surface& surface, const SurfaceChange& change,
+            std::span<const int> edges);
+  /// Paths start at zero, in groups formed anew: pairs are found anew.
+  void restart(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team);
+  std::uint64_t restarts() const { return restarts_; }
+
+  /// Displacement in this step of the frame in which boxes are laid, and since the restart until its start.
+  const double* frame() const { return frame_; }
+  const double* frame_since_restart() const { return frame_sum_; }
+  /// Largest coordinate: rounding is in proportion to it.
+  double magnitude() const { return magnitude_; }
+
+  Eigen::Vector3d start(int slave) const { return Eigen::Vector3d(node[index(slave)].start); }
+  Eigen::Vector3d end(int slave) const { return Eigen::Vector3d(node[index(slave)].end); }
+  Eigen::Vector3d displacement(int slave) const { return end(slave) - start(slave); }
+
+ private:
+  /// Of a node, in the frame of its group.
+  struct alignas(16) Way {
+    double moved;  ///< from the start of the last step to that of this one; 0: nothing is known of the last
+    double step;   ///< in this step
+  };
+  struct Sum {
+    double magnitude = 0;
+    bool exceeds = false;
+  };
+
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  void end_of_body_node(std::size_t slave, const RigidMotion& body, double dt);
+  const std::array<double, 3>& frame_of(std::size_t slave) const {
+    return groups.group[index(groups.of_node(static_cast<int>(slave)))].step;
+  }
+  void set_frame();
+  void form_groups(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team);
+  void measure_steps(ThreadTeam& team);
+  bool raise(std::size_t slave);
+  void finish_raising(const SurfaceFeatures& features, ThreadTeam& team);
+  void spread(const SurfaceFeatures& features, bool with_paths, ThreadTeam& team);
+  void start_sums(std::size_t count);
+
+  std::vector<Way> way_;  ///< of each slave node
+  std::vector<Sum> sum_;  ///< one a range
+  std::vector<Vector3<double>> position_;
+  std::vector<std::pair<double, double>> of_groups_;  ///< displacement along an axis, nodes
+  std::vector<int> driven_;                           ///< slave nodes of rigid bodies
+  std::vector<int> joined_;                           ///< slave nodes since the last step
+  double limit_factor_ = 1, limit_surplus_ = 0;
+  double frame_[3] = {0, 0, 0};
+  double frame_sum_[3] = {0, 0, 0};
+  double magnitude_ = 0;
+  std::uint64_t restarts_ = 0;
+  bool known_ = false;      ///< whether the nodes' last positions are those of the step before
+  bool predicted_ = false;  ///< whether the steps are known
+  bool exceeds_ = false;
+  bool is_solution_ = false;             ///< whether the ends are those of a solution
+  const SlaveSet* corrected_ = nullptr;  ///< nodes that it has moved; null: any
+};
+
+}  // namespace brio

@@ -1,0 +1,271 @@
+#include "contact/impact_zone.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "contact/scene.hpp"
+#include "contact/ties/ties.hpp"
+
+namespace brio {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Over the trace of a zone's inertia: less is that of nodes in a line about it, or rounding.
+constexpr double least_inertia = 1e-12;
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// Over the largest eigenvalue: what is prescribed twice.
+constexpr double same_prescription = 1e-10;
+
+/// Velocity at the centre of mass and angular velocity of a zone that moves as one.
+class RigidFit {
+ public:
+  explicit RigidFit(std::span<const ZoneMember> members) {
+    double mass = 0;
+    Vector3d velocity = Vector3d::Zero();
+    for (const ZoneMember& one : members) {
+      mass += one.mass;
+      centre_ += one.mass * one.position;
+      velocity += one.mass * one.velocity;
+    }
+    centre_ /= mass;
+    velocity /= mass;
+    Matrix3d inertia = Matrix3d::Zero();
+    Vector3d momentum = Vector3d::Zero();
+    for (const ZoneMember& one : members) {
+      const Vector3d arm = one.position - centre_;
+      momentum += one.mass * arm.cross(one.velocity - velocity) + one.inertia * one.angular_velocity;
+      inertia += one.mass * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose()) + one.inertia;
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(inertia);
+    const Matrix3d& axis = axes.eigenvectors();
+    const double least = least_inertia * inertia.trace();
+    Vector3d principal = axes.eigenvalues(), turning = axis.transpose() * momentum;
+    for (int k = 0; k < 3; ++k) {
+      turning[k] = principal[k] > least ? turning[k] / principal[k] : 0;
+      if (principal[k] <= least) principal[k] = least > 0 ? least : mass;
+    }
+    motion_.head<3>() = velocity;
+    motion_.tail<3>() = axis * turning;
+    Matrix6d matrix = Matrix6d::Zero();
+    matrix.topLeftCorner<3, 3>() = mass * Matrix3d::Identity();
+    matrix.bottomRightCorner<3, 3>() = axis * principal.asDiagonal() * axis.transpose();
+    mass_.compute(matrix);
+    meet_prescriptions(members);
+  }
+
+  /// Less what a support gives to prescribed components.
+  void give_impulses(ZoneMember& one) const {
+    const Vector3d turning = motion_.tail<3>();
+    const Vector3d velocity = motion_.head<3>() + turning.cross(one.position - centre_);
+    one.impulse = one.mass * (velocity - one.velocity);
+    one.moment = one.inertia * (turning - one.angular_velocity);
+    for (int c = 0; c < 6; ++c)
+      if (one.prescribed[static_cast<std::size_t>(c)])
+        (c < 3 ? one.impulse[c] : one.moment[c - 3]) -= scaled(one, c).dot(support_);
+  }
+
+ private:
+  // Of a velocity component by the six of the zone.
+  Vector6d derivative(const ZoneMember& one, int component) const {
+    Vector6d by = Vector6d::Unit(component);
+    if (component < 3) by.tail<3>() = (one.position - centre_).cross(Vector3d::Unit(component));
+    return by;
+  }
+  Vector6d scaled(const ZoneMember& one, int component) const {
+    return mass_.matrixL().solve(derivative(one, component));
+  }
+  static double velocity(const ZoneMember& one, int component) {
+    return component < 3 ? one.velocity[component] : one.angular_velocity[component - 3];
+  }
+
+  // In components scaled by the root of the mass matrix: change = B+ r, and the supports' B^T change.
+  void meet_prescriptions(std::span<const ZoneMember> members) {
+    Matrix6d normal = Matrix6d::Zero();
+    Vector6d missing = Vector6d::Zero();
+    for (const ZoneMember& one : members)
+      for (int c = 0; c < 6; ++c)
+        if (one.prescribed[static_cast<std::size_t>(c)]) {
+          const Vector6d row = scaled(one, c);
+          normal += row * row.transpose();
+          missing += row * (velocity(one, c) - derivative(one, c).dot(motion_));
+        }
+    if (normal.isZero(0)) return;
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> modes(normal);
+    const double least = same_prescription * modes.eigenvalues()[5];
+    Vector6d change = Vector6d::Zero();
+    for (int k = 0; k < 6; ++k) {
+      const double value = modes.eigenvalues()[k];
+      if (value <= least) continue;
+      const Vector6d mode = modes.eigenvectors().col(k);
+      change += mode * (mode.dot(missing) / value);
+      support_ += mode * (mode.dot(missing) / (value * value));
+    }
+    motion_ += mass_.matrixU().solve(change);
+  }
+
+  Vector3d centre_ = Vector3d::Zero();
+  Vector6d motion_, support_ = Vector6d::Zero();
+  Eigen::LLT<Matrix6d> mass_;
+};
+
+class Zones {
+ public:
+  Zones(ContactScene& scene, Nodes& nodes, const Ties& ties, std::span<RigidMotion> bodies)
+      : scene_(scene),
+        nodes_(nodes),
+        ties_(ties),
+        bodies_(bodies),
+        slaves_(static_cast<int>(scene.surface.slaves())) {
+    if (!scene_.zone_impulse.empty()) return;
+    scene_.zone_impulse.assign(scene.surface.slaves(), Vector3d::Zero());
+    scene_.zone_of.resize(scene.surface.slaves() + bodies.size());
+    for (std::size_t u = 0; u < scene_.zone_of.size(); ++u) scene_.zone_of[u] = static_cast<int>(u);
+  }
+
+  void run() {
+    for (const Hit& hit : scene_.guard.hits) {
+      const int count = hit.kind == PairKind::node_face ? 5 : 4;
+      const auto nodes = nodes_of(hit);
+      for (int k = 0; k < count; ++k) join_node(unit(nodes[0]), nodes[static_cast<std::size_t>(k)]);
+    }
+    std::vector<std::pair<int, int>> members;  // (zone, unit)
+    for (int u = 0; u < static_cast<int>(scene_.zone_of.size()); ++u)
+      if (const int zone = find(u); zone != u) {
+        members.emplace_back(zone, zone);
+        members.emplace_back(zone, u);
+      }
+    std::sort(members.begin(), members.end());
+    members.erase(std::unique(members.begin(), members.end()), members.end());
+    for (std::size_t begin = 0; begin < members.size();) {
+      std::size_t end = begin;
+      std::vector<int> units;
+      for (; end < members.size() && members[end].first == members[begin].first; ++end)
+        units.push_back(members[end].second);
+      move(units);
+      begin = end;
+    }
+  }
+
+ private:
+  std::array<int, 5> nodes_of(const Hit& hit) const {
+    const FeaturePairs& pairs = scene_.pairs;
+    if (hit.kind == PairKind::node_face) {
+      const Face& face = scene_.surface.face[static_cast<std::size_t>(pairs.node_face.second(hit.pair))];
+      std::array<int, 5> nodes{pairs.node_face.first(hit.pair)};
+      for (std::size_t k = 0; k < 4; ++k) nodes[k + 1] = scene_.surface.slave(face.node[k]);
+      return nodes;
+    }
+    const auto& a = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.first(hit.pair))];
+    const auto& b = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.second(hit.pair))];
+    return {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
+  }
+
+  int unit(int slave) const {
+    const int body = bodies_.empty()
+                         ? -1
+                         : scene_.surface.rigid_body(scene_.surface.node[static_cast<std::size_t>(slave)]);
+    return body < 0 ? slave : slaves_ + body;
+  }
+  int find(int u) {
+    int& zone = scene_.zone_of[static_cast<std::size_t>(u)];
+    if (zone != u) zone = find(zone);
+    return zone;
+  }
+  void join(int a, int b) {
+    a = find(a);
+    b = find(b);
+    if (a != b) scene_.zone_of[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
+  // With the corners that hold it.
+  void join_node(int u, int slave) {
+    join(u, unit(slave));
+    const int node = scene_.surface.node[static_cast<std::size_t>(slave)];
+    if (!ties_.holds(node)) return;
+    const Tie& tie = ties_.node[static_cast<std::size_t>(ties_.of_node[static_cast<std::size_t>(node)])].tie;
+    for (int corner : tie.corner)
+      if (const int other = scene_.surface.slave(corner); other >= 0) join_node(u, other);
+  }
+
+  bool is_body(int u) const { return u >= slaves_; }
+  RigidMotion& body(int u) const { return bodies_[static_cast<std::size_t>(u - slaves_)]; }
+  std::size_t global(int u) const {
+    return static_cast<std::size_t>(scene_.surface.node[static_cast<std::size_t>(u)]);
+  }
+  bool has_mass(int u) const { return is_body(u) || nodes_.record[global(u)].inverse_mass > 0; }
+  ZoneMember member(int u) const {
+    ZoneMember one;
+    if (is_body(u)) {
+      const RigidMotion& motion = body(u);
+      one = {motion.mass, motion.centre, motion.velocity, motion.inertia, motion.angular_velocity};
+      for (int axis = 0; axis < 3; ++axis) {
+        one.prescribed[static_cast<std::size_t>(axis)] = motion.inverse_mass[axis] == 0;
+        one.prescribed[static_cast<std::size_t>(axis + 3)] = motion.inverse_inertia(axis, axis) == 0;
+      }
+      return one;
+    }
+    const NodeRecord& record = nodes_.record[global(u)];
+    one = {1 / record.inverse_mass, Vector3d(record.position), Vector3d(record.velocity)};
+    for (int axis = 0; axis < 3; ++axis)
+      one.prescribed[static_cast<std::size_t>(axis)] = nodes_.free_inverse_mass(global(u), axis) == 0;
+    return one;
+  }
+
+  void move(const std::vector<int>& units) {
+    ++scene_.zones;
+    std::vector<ZoneMember> members;
+    std::vector<int> unit_of;
+    for (int u : units)
+      if (has_mass(u)) {
+        members.push_back(member(u));
+        unit_of.push_back(u);
+      }
+    if (members.empty()) return;
+    find_zone_impulses(members);
+    for (std::size_t i = 0; i < members.size(); ++i) push(unit_of[i], members[i]);
+  }
+
+  void push(int u, const ZoneMember& one) {
+    if (is_body(u)) {
+      RigidMotion& motion = body(u);
+      motion.impulse += one.impulse;
+      motion.moment += one.moment;
+      motion.velocity += motion.inverse_mass.cwiseProduct(one.impulse);
+      motion.angular_velocity += motion.inverse_inertia * one.moment;
+      return;
+    }
+    const auto s = static_cast<std::size_t>(u);
+    double* velocity = nodes_.record[global(u)].velocity;
+    for (int axis = 0; axis < 3; ++axis)
+      velocity[axis] += nodes_.free_inverse_mass(global(u), axis) * one.impulse[axis];
+    scene_.velocity[s] = Vector3d(velocity);
+    scene_.zone_impulse[s] += one.impulse;
+    scene_.in_contact.insert(u);
+  }
+
+  ContactScene& scene_;
+  Nodes& nodes_;
+  const Ties& ties_;
+  std::span<RigidMotion> bodies_;
+  int slaves_;
+};
+
+}  // namespace
+
+void find_zone_impulses(std::span<ZoneMember> members) {
+  const RigidFit fit(members);
+  for (ZoneMember& one : members) fit.give_impulses(one);
+}
+
+void move_zones_as_one(ContactScene& scene, Nodes& nodes, const Ties& ties, std::span<RigidMotion> bodies) {
+  Zones(scene, nodes, ties, bodies).run();
+}
+
+}  // namespace brio

@@ -1,0 +1,39 @@
+#pragma once
+/// The last resort against crossings: what a set of hits joins moves on as one rigid piece for the step
+/// (rigid impact zones: Provot 1997; Harmon, Vouga, Tamstorf, Grinspun 2008). Linear and angular momentum are
+/// kept; energy is lost as in a plastic impact.
+
+#include <bitset>
+#include <span>
+
+#include "contact/features/rigid_motion.hpp"
+#include "src/base/nodes.hpp"
+
+namespace brio {
+
+struct ContactScene;
+struct Ties;
+
+/// A node or a rigid body of a zone.
+struct ZoneMember {
+  double mass;
+  Eigen::Vector3d position, velocity;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the position
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  std::bitset<6> prescribed = 0;  ///< components of the velocity, then of the angular velocity
+  /// What the others of the zone give it, supports not included: their sum is zero, and so is that of their
+  /// moments. A prescribed component keeps its velocity: its support takes what it is given.
+  Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+};
+
+/// Impulses after which the members move as one rigid body: of all motions of one that have what is
+/// prescribed, that of the least kinetic energy of the change. Where no rigid motion has what is prescribed,
+/// the one that comes nearest to it (least squares).
+void find_zone_impulses(std::span<ZoneMember> members);
+
+/// Join the nodes of the present hits to zones, those of earlier calls in the step included, and move each
+/// zone as one; a node that is held by a tie moves with its corners. Velocities are those of `nodes` and
+/// `bodies`, impulses are added to ContactScene::zone_impulse and to the bodies.
+void move_zones_as_one(ContactScene& scene, Nodes& nodes, const Ties& ties, std::span<RigidMotion> bodies);
+
+}  // namespace brio

@@ -1,0 +1,434 @@
+#include "contact/start/initial_gap.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "contact/detection/crossing_guard.hpp"
+#include "contact/enforcement/impulse_solver.hpp"
+#include "contact/pairs/piercing.hpp"
+#include "contact/start/enclosed.hpp"
+#include "contact/start/retraction.hpp"
+#include "contact/start/sided_pairs.hpp"
+#include "contact/surface/exclusion.hpp"
+#include "contact/surface/face_geometry.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Overlaps are looked for down to this share of an edge, or as deep as the limit allows.
+constexpr double least_searched_share = 0.75;
+/// What is missing may be this share of the scale: rounding.
+constexpr double resolved_share = 1e-9;
+/// Moved is by this much more, over the smallest edge, so that what the solver leaves is none.
+constexpr double surplus_share = 1e-8;
+constexpr int most_rounds = 50;
+/// Where only the gap is missing, it is made for as long as this many rounds halve what is missing.
+constexpr int rounds_to_halve = 10;
+constexpr SolveOptions solve_options{2000, 1e-7};
+/// What boxes hold of the moves of nodes (ContactOptions::reach_buffer): where overlaps are only looked for,
+/// those of retracted faces.
+constexpr double buffer_of_retraction = 0.2;
+/// Of a motion that would make surfaces cross, the share of its first hit.
+constexpr double share_of_hit = 0.5;
+
+/// Velocities of nodes serve as displacements; on destruction they are what they were.
+class Displacements {
+ public:
+  explicit Displacements(Nodes& nodes) : nodes_(nodes) {
+    for (const NodeRecord& record : nodes.record)
+      kept_.push_back({record.velocity[0], record.velocity[1], record.velocity[2]});
+    clear();
+  }
+  ~Displacements() {
+    for (std::size_t i = 0; i < kept_.size(); ++i)
+      std::copy(kept_[i].begin(), kept_[i].end(), nodes_.record[i].velocity);
+  }
+  Displacements(const Displacements&) = delete;
+  Displacements& operator=(const Displacements&) = delete;
+
+  void clear() {
+    for (NodeRecord& record : nodes_.record) std::fill(record.velocity, record.velocity + 3, 0.0);
+  }
+  void apply(double share) {
+    for (NodeRecord& record : nodes_.record)
+      for (int axis = 0; axis < 3; ++axis) record.position[axis] += share * record.velocity[axis];
+  }
+
+ private:
+  Nodes& nodes_;
+  std::vector<std::array<double, 3>> kept_;
+};
+
+class GapMaker {
+ public:
+  GapMaker(ContactScene& scene, Nodes& nodes, ThreadTeam& team)
+      : scene_(scene),
+        features_(scene.features),
+        surface_(scene.surface),
+        nodes_(nodes),
+        team_(team),
+        displacements_(nodes),
+        block_(scene.surface.slaves(), -1) {}
+
+  std::vector<InitialOverlap> run() {
+    for (int node : surface_.node) start_.push_back(position(nodes_, node));
+    expect_none_enclosed(scene_, nodes_, scene_.options.initial_overlap_limit);
+    set_depths();
+    search();
+    expect_uncrossed(true);
+    retract();
+    const bool crosses = any_crosses();
+    if (crosses) search_for_moves();
+    find(0);
+    while (exclude_within_pieces()) {
+      crosses ? search_for_moves() : search();
+      find(0);
+    }
+    expect_within_limit();
+    for (const SidedPair& pair : found_)
+      if (is_missing(pair) && (!is_held(pair) || must_move(pair))) record(pair);
+    const bool moves = !report_.empty() && make_gap();
+    record_motion();
+    if (crosses || moves) expect_uncrossed(false);
+    expect_bodies_apart(scene_, nodes_, 0);
+    scene_.pairs.take_rest_of(pairs_);
+    return std::move(report_);
+  }
+
+ private:
+  static double overlap(const SidedPair& pair) { return -pair.contact.gap - pair.skin; }
+  bool is_missing(const SidedPair& pair) const { return pair.contact.gap < -resolved_share * pair.scale; }
+  // Whether it is more than a gap that is missing.
+  bool must_move(const SidedPair& pair) const {
+    return !pair.is_apart || overlap(pair) > resolved_share * pair.scale;
+  }
+  const std::string& part_name(int part) const { return surface_.part_name[static_cast<std::size_t>(part)]; }
+
+  // Of each node, by the shortest edge of the faces at it: a thin body is not looked through.
+  void set_depths() {
+    node_depth_.assign(surface_.slaves(), infinity);
+    for (const Face& face : surface_.face) {
+      if (!face.alive()) continue;
+      const double edge = shortest_edge(nodes_, face);
+      for (int corner : face.node) {
+        double& depth = node_depth_[static_cast<std::size_t>(surface_.slave(corner))];
+        depth = std::min(depth, edge);
+      }
+    }
+    const double share = std::max(scene_.options.initial_overlap_limit, least_searched_share);
+    for (double& depth : node_depth_) depth = share * (depth < infinity ? depth : features_.smallest_edge);
+  }
+
+  // Overlaps are looked for as all is drawn. An edge that passes through a flat face is not near a side of
+  // it.
+  void search() { search(buffer_of_retraction, {node_depth_}); }
+  // Nodes are moved by the limit.
+  void search_for_moves() {
+    const ContactOptions& options = scene_.options;
+    search(std::max(options.reach_buffer, 2 * options.initial_overlap_limit), {node_depth_, true});
+  }
+  void search(double reach_buffer, const SearchedDepth& depth) {
+    displacements_.clear();
+    motion_.forget();
+    motion_.begin(features_, surface_, nodes_, team_);
+    motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
+    ContactOptions grown = scene_.options;
+    grown.reach_buffer = reach_buffer;
+    pairs_.expire();
+    pairs_.find(features_, surface_, scene_.excluded, grown, motion_, team_, depth);
+  }
+  void find(double band) {
+    find_sided_pairs(features_, surface_, nodes_, pairs_, {node_depth_}, band, found_);
+  }
+
+  // Pairs of one piece that overlap from the start are how the part was drawn: corners, seams, flanges; so
+  // are those beside a tie.
+  bool exclude_within_pieces() {
+    std::vector<std::pair<int, int>> drawn;
+    for (const SidedPair& pair : found_) {
+      if (!pair.spaced || !is_missing(pair) || pair.skin >= 2 * features_.skin) continue;
+      if (pair.contact.face >= 0) {
+        const int body = surface_.body[static_cast<std::size_t>(pair.contact.slave)];
+        if (surface_.held.one_piece(pair.contact.body, body))
+          drawn.emplace_back(pair.contact.slave, pair.contact.face);
+        continue;
+      }
+      const EdgeFeature& a = features_.edge[static_cast<std::size_t>(pair.feature[0])];
+      const EdgeFeature& b = features_.edge[static_cast<std::size_t>(pair.feature[1])];
+      if (!surface_.held.one_piece(a.body, b.body)) continue;
+      for (const auto& [edge, other] : {std::pair(&a, &b), std::pair(&b, &a)})
+        for (int node : edge->node)
+          for (int f : other->face)
+            if (f >= 0) drawn.emplace_back(node, f);
+    }
+    std::erase_if(drawn,
+                  [&](const auto& pair) { return is_excluded(scene_.excluded, pair.first, pair.second); });
+    if (drawn.empty()) return false;
+    exclude(drawn);
+    return true;
+  }
+
+  void exclude(std::vector<std::pair<int, int>>& drawn) {
+    std::sort(drawn.begin(), drawn.end());
+    drawn.erase(std::unique(drawn.begin(), drawn.end()), drawn.end());
+    auto next = drawn.begin();
+    Lists grown;
+    grown.first.push_back(0);
+    for (int s = 0; s < static_cast<int>(surface_.slaves()); ++s) {
+      const auto known = scene_.excluded.of(s);
+      const std::ptrdiff_t begin = std::ssize(grown.item);
+      grown.item.insert(grown.item.end(), known.begin(), known.end());
+      for (; next != drawn.end() && next->first == s; ++next) grown.item.push_back(next->second);
+      std::sort(grown.item.begin() + begin, grown.item.end());
+      grown.first.push_back(static_cast<int>(grown.item.size()));
+    }
+    scene_.excluded = std::move(grown);
+    if (scene_.erosion) scene_.erosion->keeps_numbers = true;
+  }
+
+  void expect_within_limit() const {
+    const SidedPair* deepest = nullptr;
+    for (const SidedPair& pair : found_)
+      if (pair.contact.normal.isZero(0)) refuse(pair, "in one place, which leaves no side to move to");
+    for (const SidedPair& pair : found_)
+      if (overlap(pair) > scene_.options.initial_overlap_limit * pair.scale &&
+          (deepest == nullptr || overlap(pair) > overlap(*deepest)))
+        deepest = &pair;
+    if (deepest != nullptr) refuse(*deepest, "deeper than initial_overlap_limit allows");
+  }
+
+  [[noreturn]] void refuse(const SidedPair& pair, const char* why) const {
+    const Vector3d x = position(nodes_, surface_.node[static_cast<std::size_t>(pair.contact.node[0])]);
+    std::ostringstream text;
+    text << "contact: part '" << part_name(pair.part[0]) << "' overlaps part '" << part_name(pair.part[1])
+         << "' by " << std::max(overlap(pair), 0.0) << " at (" << x[0] << ", " << x[1] << ", " << x[2]
+         << "), " << why;
+    throw std::invalid_argument(text.str());
+  }
+
+  void retract() {
+    const std::vector<TouchingPair> touching = retract_touching_faces(features_, surface_, pairs_, nodes_);
+    for (const TouchingPair& pair : touching) {
+      const std::size_t entry = entry_of(pair.part);
+      report_[entry].gap = std::max(report_[entry].gap, 2 * features_.skin);
+      if (pair.depth > resolved_share * features_.smallest_edge)
+        report_[entry].depth = std::max(report_[entry].depth, pair.depth);
+      near_[entry].insert(pair.slave);
+      report_[entry].nodes = static_cast<int>(near_[entry].size());
+    }
+    if (!touching.empty() && has_left_boxes()) search();
+  }
+
+  // Whether a retracted face may have come near what it is not paired with.
+  bool has_left_boxes() {
+    motion_.begin(features_, surface_, nodes_, team_);
+    motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
+    return pairs_.is_due(features_, surface_, motion_, team_);
+  }
+
+  std::size_t entry_of(const std::array<int, 2>& parts) {
+    const auto [known, is_new] = entry_.try_emplace(parts, report_.size());
+    if (is_new) {
+      report_.push_back({.node_part = part_name(parts[0]), .face_part = part_name(parts[1])});
+      near_.emplace_back();
+    }
+    return known->second;
+  }
+
+  void record(const SidedPair& pair) {
+    const std::size_t entry = entry_of(pair.part);
+    InitialOverlap& known = report_[entry];
+    if (overlap(pair) > resolved_share * pair.scale) known.depth = std::max(known.depth, overlap(pair));
+    known.gap = std::max(known.gap, pair.skin);
+    near_[entry].insert(pair.contact.node.begin(), pair.contact.node.begin() + pair.contact.own);
+    known.nodes = static_cast<int>(near_[entry].size());
+  }
+
+  bool is_free(int slave, int axis) const {
+    const int node = surface_.node[static_cast<std::size_t>(slave)];
+    const auto n = static_cast<std::size_t>(node);
+    if (!nodes_.prescribed.empty() && (nodes_.prescribed[n] >> axis & 1) != 0) return false;
+    if (!surface_.held.empty() && surface_.held.holder[n] >= 0) return false;
+    return surface_.rigid_body(node) < 0;
+  }
+  // Whether no node of either side can move along the normal.
+  bool is_held(const SidedPair& pair) const {
+    const Contact& contact = pair.contact;
+    for (std::size_t k = 0; k < contact.node.size(); ++k)
+      for (int axis = 0; axis < 3; ++axis)
+        if (contact.weight[k] * contact.normal[axis] != 0 && is_free(contact.node[k], axis)) return false;
+    return true;
+  }
+
+  const SidedPair* worst_missing() const {
+    const SidedPair* worst = nullptr;
+    for (const SidedPair& pair : found_) {
+      if (!is_missing(pair) || (is_held(pair) && !must_move(pair))) continue;
+      const auto badness = [&](const SidedPair& one) { return std::pair(must_move(one), -one.contact.gap); };
+      if (worst == nullptr || badness(pair) > badness(*worst)) worst = &pair;
+    }
+    return worst;
+  }
+
+  // \returns whether nodes were moved
+  bool make_gap() {
+    double missing = 0, missing_before = infinity;
+    for (int round = 0;; ++round) {
+      const SidedPair* worst = worst_missing();
+      if (worst == nullptr) return round > 0;
+      const bool only_gap = !must_move(*worst);
+      missing = -worst->contact.gap;
+      const bool is_last = round >= most_rounds || is_held(*worst);
+      if (!only_gap)  // before many rounds in vain
+        expect_bodies_apart(scene_, nodes_, round > 0 || is_last ? 0 : scene_.options.initial_overlap_limit);
+      if (!only_gap && is_last) refuse(*worst, "which moving nodes does not remove");
+      if (round % rounds_to_halve == 0) {
+        if (round >= most_rounds || (only_gap && missing > 0.5 * missing_before)) return true;
+        missing_before = missing;
+      }
+      if (round == 0) search_for_moves();
+      find(deepest() + 2 * features_.skin);
+      move_apart();
+      search_for_moves();
+      find(0);
+    }
+  }
+
+  void record_motion() {
+    for (std::size_t s = 0; s < start_.size(); ++s) {
+      const double moved = (position(nodes_, surface_.node[s]) - start_[s]).norm();
+      for (std::size_t i = 0; moved > 0 && i < report_.size(); ++i)
+        if (const std::string& part = part_name(part_of(static_cast<int>(s)));
+            report_[i].node_part == part || report_[i].face_part == part)
+          report_[i].moved = std::max(report_[i].moved, moved);
+    }
+  }
+
+  double deepest() const {
+    double depth = 0;
+    for (const SidedPair& pair : found_) depth = std::max(depth, -pair.contact.gap);
+    return depth;
+  }
+
+  void move_apart() {
+    rows_.clear();
+    blocks_.clear();
+    std::vector<int> members;
+    const auto block_of = [&](int slave) {
+      int& block = block_[static_cast<std::size_t>(slave)];
+      if (block >= 0) return block;
+      block = static_cast<int>(blocks_.size());
+      members.push_back(slave);
+      const auto mobility = [&](int axis) { return is_free(slave, axis) ? 1.0 : 0.0; };
+      blocks_.push_back({{0, 0, 0}, {mobility(0), mobility(1), mobility(2), 0, 0, 0}});
+      return block;
+    };
+    for (const SidedPair& pair : found_) {
+      if (is_held(pair)) continue;
+      const Contact& contact = pair.contact;
+      ConstraintRow& row =
+          rows_.add_row({contact.normal[0], contact.normal[1], contact.normal[2]}, contact.gap, 0);
+      row.target_velocity = surplus_share * features_.smallest_edge - contact.gap;
+      for (std::size_t k = 0; k < contact.node.size(); ++k)
+        if (contact.weight[k] != 0)
+          rows_.add_point(block_of(contact.node[k]),
+                          static_cast<int>(k) < contact.own ? Side::first : Side::second,
+                          std::abs(contact.weight[k]));
+    }
+    solver_.solve(solve_options, rows_, blocks_, team_);
+    for (std::size_t b = 0; b < members.size(); ++b) {
+      const auto s = static_cast<std::size_t>(members[b]);
+      block_[s] = -1;
+      const Vector3<double>& moved = blocks_[b].velocity;
+      double* v = nodes_.record[static_cast<std::size_t>(surface_.node[s])].velocity;
+      v[0] = moved.x;
+      v[1] = moved.y;
+      v[2] = moved.z;
+    }
+    displacements_.apply(share_without_crossing());
+  }
+
+  // Bodies that overlap or touch have to leave each other; all others must not meet on the way.
+  double share_without_crossing() {
+    std::set<std::pair<int, int>> overlapping;
+    for (const SidedPair& pair : found_)
+      if (!pair.is_apart) overlapping.insert(std::minmax(first_body(pair.contact), pair.contact.body));
+    motion_.begin(features_, surface_, nodes_, team_);
+    motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
+    Proximity all;
+    all.node_face.resize(pairs_.node_face.size());
+    all.edge_edge.resize(pairs_.edge_edge.size());
+    std::iota(all.node_face.begin(), all.node_face.end(), 0);
+    std::iota(all.edge_edge.begin(), all.edge_edge.end(), 0);
+    CrossingGuard guard;
+    find_hits(guard, all, features_, surface_, scene_.options, pairs_, motion_, team_);
+    double share = 1;
+    for (const Hit& hit : guard.hits) {
+      const auto p = hit.pair;
+      const bool edges = hit.kind == PairKind::edge_edge;
+      const int first = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.first(p))].body
+                              : surface_.body[static_cast<std::size_t>(pairs_.node_face.first(p))];
+      const int second = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.second(p))].body
+                               : surface_.face[static_cast<std::size_t>(pairs_.node_face.second(p))].body;
+      if (hit.time > 0 && !overlapping.contains(std::minmax(first, second)))
+        share = std::min(share, share_of_hit * hit.time);
+    }
+    return share;
+  }
+
+  int first_body(const Contact& contact) const {
+    return surface_.body[static_cast<std::size_t>(contact.node[0])];
+  }
+
+  int part_of(int slave) const {
+    if (const auto faces = surface_.faces_of.of(slave); !faces.empty())
+      return surface_.face[static_cast<std::size_t>(faces.front())].part;
+    const int node = surface_.node[static_cast<std::size_t>(slave)];
+    for (const RoundElement& element : surface_.round)
+      if (element.alive() && (element.node[0] == node || element.node[1] == node)) return element.part;
+    return 0;
+  }
+
+  bool any_crosses() const {
+    return find_piercing(features_, surface_, scene_.excluded, scene_.options, nodes_, false, team_)
+        .has_value();
+  }
+  void expect_uncrossed(bool shells_alone) const {
+    expect_nothing_crosses(features_, surface_, scene_.excluded, scene_.options, nodes_, shells_alone, team_);
+  }
+
+  ContactScene& scene_;
+  SurfaceFeatures& features_;
+  const Surface& surface_;
+  Nodes& nodes_;
+  ThreadTeam& team_;
+  FeatureMotion motion_;
+  FeaturePairs pairs_;
+  Displacements displacements_;
+  std::vector<double> node_depth_;  ///< to which overlaps are looked for
+  std::vector<Vector3d> start_;     ///< of each slave node
+  std::vector<SidedPair> found_;
+  std::vector<InitialOverlap> report_;
+  std::map<std::array<int, 2>, std::size_t> entry_;  ///< of two parts, in `report_`
+  std::vector<std::set<int>> near_;                  ///< nodes of each entry
+  ConstraintRows rows_;
+  std::vector<VelocityBlock> blocks_;
+  std::vector<int> block_;  ///< of each slave node, while rows are formed
+  ImpulseSolver solver_;
+};
+
+}  // namespace
+
+std::vector<InitialOverlap> make_initial_gap(ContactScene& scene, Nodes& nodes, ThreadTeam& team) {
+  if (scene.surface.node.empty()) return {};
+  return GapMaker(scene, nodes, team).run();
+}
+
+}  // namespace brio

@@ -1,0 +1,460 @@
+#include "contact/surface/surface_topology.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "contact/surface/body_pieces.hpp"
+#include "contact/surface/element_sides.hpp"
+#include "src/base/disjoint_sets.hpp"
+
+namespace brio {
+
+namespace {
+
+/// Nodes of a side of a hexahedron. \returns false where it has collapsed.
+bool nodes_of_side(const TopologyPart& part, int side, std::array<int, 4>& nodes) {
+  const int local = side - part.first_side;
+  return side_nodes(part.connectivity.data() + 8 * static_cast<std::ptrdiff_t>(local / sides_of_hexahedron),
+                    local % sides_of_hexahedron, nodes);
+}
+
+void number_elements(std::span<const SurfacePart> parts, SurfaceTopology& topology) {
+  std::int64_t elements = 0;
+  std::int64_t sides = 0;
+  int rounds = 0;
+  for (const SurfacePart& given : parts) {
+    TopologyPart& part = topology.part.emplace_back();
+    part.nodes_per_element = given.nodes_per_element;
+    part.first_round = rounds;
+    part.connectivity.assign(given.connectivity.begin(), given.connectivity.end());
+    part.first_element = static_cast<int>(elements);
+    part.first_side = static_cast<int>(sides);
+    const std::int64_t count = std::ssize(part.connectivity) / part.corners();
+    elements += count;
+    sides += count * part.sides();
+    if (part.round()) rounds += static_cast<int>(count);
+    if (sides > std::numeric_limits<int>::max())
+      throw std::length_error("contact: more element sides than an int can number");
+  }
+  topology.side.assign(static_cast<std::size_t>(sides), side_state::none);
+  topology.body.assign(static_cast<std::size_t>(elements), 0);
+}
+
+template <class Visit>
+void for_sides_of_hexahedra(const SurfaceTopology& topology, const Visit& visit) {
+  for (const TopologyPart& part : topology.part) {
+    if (part.nodes_per_element != 8) continue;
+    const int sides = static_cast<int>(part.connectivity.size()) / 8 * sides_of_hexahedron;
+    std::array<int, 4> nodes{};
+    for (int side = part.first_side; side < part.first_side + sides; ++side)
+      if (nodes_of_side(part, side, nodes)) visit(side, side_key(nodes));
+  }
+}
+
+// Close a ring of the sides with equal keys, one after the other in a bucket.
+void close_rings(std::span<const int> bucket, std::span<const std::array<int, 4>> key,
+                 std::vector<int>& side) {
+  for (std::size_t i = 0; i < bucket.size(); ++i) {
+    std::size_t next = i;
+    do next = (next + 1) % bucket.size();
+    while (key[next] != key[i]);
+    side[static_cast<std::size_t>(bucket[i])] = next == i ? side_state::alone : bucket[next];
+  }
+}
+
+void link_sides(std::size_t node_count, SurfaceTopology& topology) {
+  std::vector<int> first(node_count + 1, 0);
+  for_sides_of_hexahedra(
+      topology, [&](int, const std::array<int, 4>& key) { ++first[static_cast<std::size_t>(key[0]) + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> bucket(static_cast<std::size_t>(first.back()));
+  std::vector<std::array<int, 4>> keys(bucket.size());
+  std::vector<int> fill(first.begin(), first.end() - 1);
+  for_sides_of_hexahedra(topology, [&](int side, const std::array<int, 4>& key) {
+    const auto place = static_cast<std::size_t>(fill[static_cast<std::size_t>(key[0])]++);
+    bucket[place] = side;
+    keys[place] = key;
+  });
+  for (std::size_t n = 0; n < node_count; ++n) {
+    const auto begin = static_cast<std::size_t>(first[n]);
+    const auto count = static_cast<std::size_t>(first[n + 1]) - begin;
+    close_rings(std::span(bucket).subspan(begin, count), std::span(keys).subspan(begin, count),
+                topology.side);
+  }
+}
+
+void give_faces(const Surface& surface, SurfaceTopology& topology) {
+  for (std::size_t f = 0; f < surface.face.size(); ++f) {
+    const Face& face = surface.face[f];
+    const TopologyPart& part = topology.part[static_cast<std::size_t>(face.part)];
+    int& state =
+        topology.side[static_cast<std::size_t>(part.first_side + part.sides() * face.element + face.side)];
+    assert(part.shell() || state == side_state::alone);
+    state = side_state::of_face(static_cast<int>(f));
+  }
+}
+
+void number_bodies(Surface& surface, SurfaceTopology& topology) {
+  DisjointSets sets(surface.slave_of.size());
+  const int elements = static_cast<int>(topology.body.size());
+  for (int e = 0; e < elements; ++e)
+    for (int node : nodes_of(topology, e)) sets.join(nodes_of(topology, e)[0], node);
+  std::vector<int> number(surface.slave_of.size(), -1);
+  for (const Face& face : surface.face) number[static_cast<std::size_t>(sets.root(face.node[0]))] = face.body;
+  for (const RoundElement& element : surface.round)
+    number[static_cast<std::size_t>(sets.root(element.node[0]))] = element.body;
+  for (int e = 0; e < elements; ++e) {
+    int& own = number[static_cast<std::size_t>(sets.root(nodes_of(topology, e)[0]))];
+    if (own < 0) own = surface.body_count++;
+    topology.body[static_cast<std::size_t>(e)] = own;
+  }
+}
+
+void find_hexahedra_under_shells(std::size_t node_count, SurfaceTopology& topology) {
+  std::vector<char> of_shell(node_count, 0);
+  for (const TopologyPart& part : topology.part)
+    if (part.shell())
+      for (int node : part.connectivity) of_shell[static_cast<std::size_t>(node)] = 1;
+  for (const TopologyPart& part : topology.part) {
+    if (part.nodes_per_element != 8) continue;
+    for (std::size_t i = 0; i < part.connectivity.size(); ++i)
+      if (of_shell[static_cast<std::size_t>(part.connectivity[i])] != 0)
+        topology.under_shells.emplace_back(part.connectivity[i],
+                                           part.first_element + static_cast<int>(i / 8));
+  }
+  std::sort(topology.under_shells.begin(), topology.under_shells.end());
+}
+
+void prepare_debris(std::span<const SurfacePart> parts, std::size_t node_count, SurfaceTopology& topology) {
+  if (std::none_of(parts.begin(), parts.end(), [](const SurfacePart& p) { return p.debris_radius > 0; }))
+    return;
+  topology.debris.resize(node_count);
+  for (const SurfacePart& part : parts)
+    for (int node : part.connectivity) {
+      DebrisNode& debris = topology.debris[static_cast<std::size_t>(node)];
+      debris.radius = std::max(debris.radius, part.debris_radius);
+      ++debris.elements;
+    }
+}
+
+void sort_out(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+/// One deletion.
+class Deletion {
+ public:
+  Deletion(Surface& surface, SurfaceTopology& topology, SurfaceChange& change)
+      : surface_(surface), topology_(topology), change_(change) {}
+
+  void run(std::span<const SurfaceElement> deleted) {
+    surface_.faces_of.loosen();
+    for (const SurfaceElement& d : deleted) {
+      const int element = topology_.part[static_cast<std::size_t>(d.part)].first_element + d.element;
+      if (topology_.body[static_cast<std::size_t>(element)] < 0) continue;
+      removed_.push_back(element);
+      for (int node : nodes_of(topology_, element)) corner_.push_back(node);
+    }
+    sort_out(removed_);
+    sort_out(corner_);
+    // Those that hang together go at once, cluster after cluster: only so are splits found one by one.
+    DisjointSets clusters(corner_.size());
+    for (int element : removed_)
+      for (int node : nodes_of(topology_, element))
+        clusters.join(place_of(first_node(element)), place_of(node));
+    std::vector<std::pair<int, int>> order;
+    for (int element : removed_) order.emplace_back(clusters.root(place_of(first_node(element))), element);
+    std::sort(order.begin(), order.end());
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+      removed_.clear();
+      for (end = begin; end < order.size() && order[end].first == order[begin].first; ++end)
+        removed_.push_back(order[end].second);
+      remove_cluster();
+    }
+    std::sort(change_.changed_slave.begin(), change_.changed_slave.end());
+  }
+
+ private:
+  int& state(int side) { return topology_.side[static_cast<std::size_t>(side)]; }
+  Face& face(int f) { return surface_.face[static_cast<std::size_t>(f)]; }
+
+  int first_node(int element) const { return nodes_of(topology_, element)[0]; }
+  // Place of a node among those of the deleted elements, or -1.
+  int place_of(int node) const {
+    const auto at = std::lower_bound(corner_.begin(), corner_.end(), node);
+    return at != corner_.end() && *at == node ? static_cast<int>(at - corner_.begin()) : -1;
+  }
+
+  void remove_cluster() {
+    corner_.clear();
+    exposed_.clear();
+    touched_.clear();
+    for (int element : removed_) remove(element);
+    for (int side : exposed_)
+      if (state(side) == side_state::alone) add_face(side);
+    settle();
+    sort_out(corner_);
+    if (!topology_.debris.empty()) bring_up_debris();
+    look_for_split();
+  }
+
+  void remove(int element) {
+    topology_.body[static_cast<std::size_t>(element)] = -1;
+    for (int node : nodes_of(topology_, element)) {
+      corner_.push_back(node);
+      if (!topology_.debris.empty()) --topology_.debris[static_cast<std::size_t>(node)].elements;
+    }
+    const TopologyPart& part = part_of_element(topology_, element);
+    const int first = part.first_side + part.sides() * (element - part.first_element);
+    for (int side = first; side < first + part.sides(); ++side) {
+      ++topology_.visits;
+      const int was = state(side);
+      if (side_state::is_face(was))
+        remove_face(side_state::face_of(was));
+      else if (was >= 0)
+        leave_ring(side);
+      state(side) = side_state::none;
+    }
+    if (part.round()) remove_round(part.first_round + element - part.first_element);
+  }
+
+  void remove_round(int index) {
+    change_.dead_round.push_back(index);
+    RoundElement& element = surface_.round[static_cast<std::size_t>(index)];
+    for (int k = 0; k < (element.is_point() ? 1 : 2); ++k) {
+      const int slave = surface_.slave(element.node[static_cast<std::size_t>(k)]);
+      int& left = surface_.rounds[static_cast<std::size_t>(slave)];
+      if (--left == 0) lose_radius(slave);
+      touched_.push_back(slave);
+    }
+    element.part = -1;
+  }
+
+  void lose_radius(int slave) {
+    const auto s = static_cast<std::size_t>(slave);
+    surface_.radius[s] = surface_.round_radius[s];  // that debris begins with
+    surface_.round_radius[s] = 0;
+  }
+
+  void leave_ring(int side) {
+    int before = side;
+    while (state(before) != side) {
+      before = state(before);
+      ++topology_.visits;
+    }
+    const int next = state(side);
+    state(before) = next;
+    if (before != next) return;
+    state(before) = side_state::alone;
+    exposed_.push_back(before);
+  }
+
+  void remove_face(int f) {
+    change_.dead_face.push_back(f);
+    if (!face(f).shell) topology_.faces.retired.push_back(f);
+    for (int k = 0; k < face(f).corners(); ++k) {
+      const int slave = surface_.slave(face(f).node[static_cast<std::size_t>(k)]);
+      surface_.faces_of.erase(slave, f);
+      touched_.push_back(slave);
+    }
+    face(f).part = -1;
+    face(f).shell = false;
+    topology_.visits += 4;
+  }
+
+  void add_face(int side) {
+    const TopologyPart& part = part_of_side(topology_, side);
+    const int local = side - part.first_side;
+    Face added{.node = {},
+               .part = static_cast<int>(&part - topology_.part.data()),
+               .element = local / sides_of_hexahedron,
+               .side = static_cast<std::uint8_t>(local % sides_of_hexahedron)};
+    nodes_of_side(part, side, added.node);
+    added.body = topology_.body[static_cast<std::size_t>(part.first_element + added.element)];
+    const int f = face_number();
+    face(f) = added;
+    surface_.thickness[static_cast<std::size_t>(f)] = 0;
+    state(side) = side_state::of_face(f);
+    change_.new_face.push_back(f);
+    for (int k = 0; k < added.corners(); ++k) {
+      const int slave = slave_at(added.node[static_cast<std::size_t>(k)], added);
+      surface_.faces_of.insert(slave, f);
+      touched_.push_back(slave);
+    }
+    topology_.visits += 4;
+  }
+
+  int face_number() {
+    if (!topology_.faces.free.empty()) {
+      const int f = topology_.faces.free.back();
+      topology_.faces.free.pop_back();
+      return f;
+    }
+    surface_.face.emplace_back();
+    surface_.thickness.push_back(0);
+    surface_.neighbor.push_back({-1, -1, -1, -1});
+    return static_cast<int>(surface_.face.size()) - 1;
+  }
+
+  int slave_at(int node, const Face& of) {
+    int& slave = surface_.slave_of[static_cast<std::size_t>(node)];
+    if (slave >= 0) return slave;
+    slave = slave_number();
+    const auto s = static_cast<std::size_t>(slave);
+    surface_.node[s] = node;
+    surface_.body[s] = of.body;
+    change_.new_slave.push_back(slave);
+    return slave;
+  }
+
+  int slave_number() {
+    if (!topology_.slaves.free.empty()) {
+      const int s = topology_.slaves.free.back();
+      topology_.slaves.free.pop_back();
+      return s;
+    }
+    surface_.node.push_back(-1);
+    surface_.body.push_back(-1);
+    surface_.radius.push_back(0);
+    surface_.of_solid.push_back(0);
+    surface_.pinched.push_back(0);
+    if (!surface_.rounds.empty()) {
+      surface_.round_radius.push_back(0);
+      surface_.rounds.push_back(0);
+    }
+    surface_.faces_of.add_list();
+    return static_cast<int>(surface_.slaves()) - 1;
+  }
+
+  // Slave nodes whose faces changed, and the neighbours of the faces around them.
+  void settle() {
+    sort_out(touched_);
+    for (int slave : touched_)
+      for (int f : surface_.faces_of.of(slave)) {
+        connect(surface_, f);
+        ++topology_.visits;
+      }
+    for (int slave : touched_) {
+      const bool round = !surface_.rounds.empty() && surface_.rounds[static_cast<std::size_t>(slave)] > 0;
+      if (surface_.faces_of.of(slave).empty() && !round) {
+        leave(slave);
+        continue;
+      }
+      update_slave(surface_, slave);
+      change_.changed_slave.push_back(slave);
+    }
+  }
+
+  // Radius of a node that has become debris; 0 of others.
+  double debris_radius(int node) const {
+    if (topology_.debris.empty()) return 0;
+    const DebrisNode& debris = topology_.debris[static_cast<std::size_t>(node)];
+    return debris.elements == 0 ? debris.radius : 0;
+  }
+
+  void become_debris(int slave, double radius) {
+    const auto s = static_cast<std::size_t>(slave);
+    surface_.of_solid[s] = 0;
+    surface_.pinched[s] = 0;
+    surface_.radius[s] = std::min(surface_.radius[s], radius);
+    surface_.body[s] = -1;
+    change_.changed_slave.push_back(slave);
+    change_.debris.push_back(slave);
+  }
+
+  // Nodes of a cluster that never were on the surface.
+  void bring_up_debris() {
+    for (int node : corner_) {
+      const double radius = debris_radius(node);
+      if (radius == 0 || surface_.slave(node) >= 0) continue;
+      const int slave = slave_number();
+      surface_.slave_of[static_cast<std::size_t>(node)] = slave;
+      surface_.node[static_cast<std::size_t>(slave)] = node;
+      surface_.radius[static_cast<std::size_t>(slave)] = 0;
+      change_.new_slave.push_back(slave);
+      become_debris(slave, radius);
+    }
+  }
+
+  // A node left without faces.
+  void leave(int slave) {
+    const auto s = static_cast<std::size_t>(slave);
+    if (const double radius = debris_radius(surface_.node[s]); radius > 0) {
+      become_debris(slave, radius);
+      return;
+    }
+    surface_.of_solid[s] = 0;
+    surface_.pinched[s] = 0;
+    surface_.radius[s] = 0;
+    surface_.body[s] = -1;
+    surface_.slave_of[static_cast<std::size_t>(surface_.node[s])] = -1;
+    surface_.node[s] = -1;
+    change_.dead_slave.push_back(slave);
+    topology_.slaves.retired.push_back(slave);
+  }
+
+  // A living element at a node, or -1.
+  int element_at(int node) const {
+    int found = -1;
+    for_hexahedra_under_shells(topology_, node, [&](int element) { found = element; });
+    const int slave = surface_.slave(node);
+    if (slave < 0 || surface_.faces_of.of(slave).empty()) return found;
+    return element_of(topology_, surface_.face[static_cast<std::size_t>(surface_.faces_of.of(slave)[0])]);
+  }
+
+  // Nothing has split if all nodes left of a cluster are still connected among themselves through faces
+  // around; else something may have.
+  void look_for_split() {
+    const int count = static_cast<int>(corner_.size());
+    DisjointSets connected(corner_.size());
+    for (int i = 0; i < count; ++i) {
+      const int slave = surface_.slave(corner_[static_cast<std::size_t>(i)]);
+      if (slave < 0) continue;
+      for (int f : surface_.faces_of.of(slave))
+        for (int node : face(f).node) {
+          ++topology_.visits;
+          if (const int other = place_of(node); other >= 0) connected.join(i, other);
+        }
+    }
+    std::vector<int> pieces;  // by one element each
+    for (int i = 0; i < count; ++i)
+      if (const int element = element_at(corner_[static_cast<std::size_t>(i)]);
+          element >= 0 && connected.root(i) == i)
+        pieces.push_back(element);
+    if (pieces.size() > 1) change_.split |= separate_pieces(surface_, topology_, pieces);
+  }
+
+  Surface& surface_;
+  SurfaceTopology& topology_;
+  SurfaceChange& change_;
+  std::vector<int> removed_;  // elements of a cluster
+  std::vector<int> corner_;   // their nodes
+  std::vector<int> exposed_;  // sides that stand alone now
+  std::vector<int> touched_;  // slave nodes that lost or gained a face
+};
+
+}  // namespace
+
+SurfaceTopology make_topology(Surface& surface, std::span<const SurfacePart> parts) {
+  SurfaceTopology topology;
+  number_elements(parts, topology);
+  link_sides(surface.slave_of.size(), topology);
+  give_faces(surface, topology);
+  number_bodies(surface, topology);
+  find_hexahedra_under_shells(surface.slave_of.size(), topology);
+  prepare_debris(parts, surface.slave_of.size(), topology);
+  topology.mark.assign(topology.body.size(), 0);
+  return topology;
+}
+
+void delete_elements(Surface& surface, SurfaceTopology& topology, std::span<const SurfaceElement> deleted,
+                     SurfaceChange& change) {
+  change.clear();
+  if (!deleted.empty()) Deletion(surface, topology, change).run(deleted);
+}
+
+}  // namespace brio

@@ -1,0 +1,64 @@
+#pragma once
+/// A node held at a point of a face: geometry of one tie.
+///
+/// The point has fixed coordinates in the face, bilinear in a quadrilateral, linear in a triangle. What the
+/// node is away from it stays as it is seen from the face:
+///
+///   on a face of nodes that do not turn    x = sum w_k x_k + gap n(x_1 .. x_4), n the unit normal there;
+///   on a face of nodes that turn (shells)  x = sum w_k x_k + arm, the arm turning with sum w_k omega_k.
+///
+/// A force on the node goes to the corners by the transpose of the derivative of this map, so that virtual
+/// power is the same; and since turning and moving all corners turns and moves the node, force and moment are
+/// the same too.
+
+#include <Eigen/Dense>
+#include <array>
+#include <optional>
+
+#include "contact/geometry/closest_point.hpp"
+
+namespace brio {
+
+struct Tie {
+  int node = 0;                             ///< global
+  std::array<int, 4> corner{};              ///< global; a triangle repeats its third, with no weight
+  std::array<double, 4> weight{};           ///< their sum is 1
+  std::array<double, 4> along{}, across{};  ///< derivatives of the weights by the coordinates in the face
+  double gap = 0;                           ///< along the normal; 0 where the face turns the arm
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();  ///< from the point to the node; 0 where there is a gap
+  bool turning = false;                           ///< held by the rotations of the corners as well
+
+  bool has_arm() const { return turning && !arm.isZero(0); }
+};
+
+/// How far beyond an edge of a face a node may lie and still be held by it, in coordinates of the face that
+/// go from 0 to 1: what is found on a rim or over a ridge is not lost by rounding and facets.
+inline constexpr double beyond_edge = 0.05;
+
+/// Weights, derivatives and gap of the point of a face whose normal passes through a node.
+/// \returns nothing where that point lies outside of the face.
+std::optional<Tie> project(const Eigen::Vector3d& node, const FaceVertices& face);
+
+/// Unit normal of the face at the point.
+Eigen::Vector3d normal_at(const Tie& tie, const FaceVertices& face);
+
+/// How fast it turns with velocities of the corners.
+Eigen::Vector3d normal_rate(const Tie& tie, const FaceVertices& face, const FaceVertices& velocity);
+
+/// The point of the face.
+Eigen::Vector3d point_on(const Tie& tie, const FaceVertices& face);
+
+/// Where the node is held.
+Eigen::Vector3d held_position(const Tie& tie, const FaceVertices& face);
+
+/// Forces on the corners that have the power of a force on the node.
+/// \pre not turning: what an arm adds is a moment on the corners, arm x force times each weight
+std::array<Eigen::Vector3d, 4> spread(const Tie& tie, const FaceVertices& face, const Eigen::Vector3d& force);
+
+/// Bounds of how fast the node moves at most for a unit velocity of each corner.
+std::array<double, 4> largest_share(const Tie& tie, const FaceVertices& face);
+
+/// A vector turned by a rotation vector.
+Eigen::Vector3d turned_by(const Eigen::Vector3d& rotation, const Eigen::Vector3d& vector);
+
+}  // namespace brio

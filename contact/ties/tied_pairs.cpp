@@ -1,0 +1,54 @@
+#include "contact/ties/tied_pairs.hpp"
+
+#include "src/base/disjoint_sets.hpp"
+
+namespace brio {
+
+namespace {
+
+// Parts that a node of the surface belongs to.
+std::vector<int> parts_of(const Surface& surface, int slave) {
+  std::vector<int> parts;
+  for (int f : surface.faces_of.of(slave)) parts.push_back(surface.face[static_cast<std::size_t>(f)].part);
+  const int node = surface.node[static_cast<std::size_t>(slave)];
+  if (surface.radius_of_rounds(slave) > 0)
+    for (const RoundElement& element : surface.round)
+      if (element.node[0] == node || element.node[1] == node) parts.push_back(element.part);
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  return parts;
+}
+
+}  // namespace
+
+HeldPairs held_pairs(const Surface& surface, const Ties& ties, const std::vector<int>& part_of_surface) {
+  HeldPairs held;
+  if (ties.empty()) return held;
+  held.part_of_surface = part_of_surface;
+  renew(held, surface, ties);
+  DisjointSets bodies(static_cast<std::size_t>(surface.body_count));
+  const auto body_of = [&](int node) { return surface.body[static_cast<std::size_t>(surface.slave(node))]; };
+  for (const TiedNode& entry : ties.node)
+    if (held.holder[static_cast<std::size_t>(entry.tie.node)] >= 0)
+      bodies.join(body_of(entry.tie.node), body_of(entry.tie.corner[0]));
+  for (int body = 0; body < surface.body_count; ++body) held.piece.push_back(bodies.root(body));
+  return held;
+}
+
+void renew(HeldPairs& held, const Surface& surface, const Ties& ties) {
+  held.holder.assign(surface.slave_of.size(), -1);
+  held.pairs.clear();
+  for (const TiedNode& entry : ties.node) {
+    const int holder = held.part_of_surface[static_cast<std::size_t>(entry.face_part)];
+    const int slave = surface.slave(entry.tie.node);
+    if (holder < 0 || slave < 0) continue;
+    held.holder[static_cast<std::size_t>(entry.tie.node)] = holder;
+    held.pairs.emplace_back(entry.tie.node, holder);
+    for (int part : parts_of(surface, slave))
+      for (int corner : entry.tie.corner) held.pairs.emplace_back(corner, part);
+  }
+  std::sort(held.pairs.begin(), held.pairs.end());
+  held.pairs.erase(std::unique(held.pairs.begin(), held.pairs.end()), held.pairs.end());
+}
+
+}  // namespace brio

@@ -1,0 +1,261 @@
+#include "contact/ties/ties.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "contact/surface/face_geometry.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+using Rows = const AlignedBuffer<NodeVector>&;
+
+Vector3d row(Rows rows, int node) { return Vector3d(rows[static_cast<std::size_t>(node)].component); }
+
+void add(AlignedBuffer<NodeVector>& rows, int node, const Vector3d& value) {
+  double* sum = rows[static_cast<std::size_t>(node)].component;
+  for (int i = 0; i < 3; ++i) sum[i] += value[i];
+}
+
+void set_components(double* row, const Vector3d& value) {
+  for (int i = 0; i < 3; ++i) row[i] = value[i];
+}
+
+Vector3d mean_angular_velocity(const Tie& tie, const Nodes& nodes) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t k = 0; k < 4; ++k) sum += tie.weight[k] * row(nodes.angular_velocity, tie.corner[k]);
+  return sum;
+}
+
+/// Shares of the mass: the weights, but for what lies beyond an edge.
+std::array<double, 4> mass_share(const Tie& tie) {
+  std::array<double, 4> share{};
+  double sum = 0;
+  for (std::size_t k = 0; k < 4; ++k) sum += share[k] = std::max(tie.weight[k], 0.0);
+  for (double& one : share) one /= sum;
+  return share;
+}
+
+void set_inverses(Nodes& nodes, int entry) {
+  const auto node = static_cast<std::size_t>(entry);
+  nodes.record[node].inverse_mass = nodes.mass[node] > 0 ? 1 / nodes.mass[node] : 0;
+  if (nodes.has_rotations())
+    nodes.angular_velocity[node].component[3] =
+        nodes.rotational_inertia[node] > 0 ? 1 / nodes.rotational_inertia[node] : 0;
+}
+
+void move_mass(TiedNode& held, Nodes& nodes) {
+  const Tie& tie = held.tie;
+  const auto node = static_cast<std::size_t>(tie.node);
+  const std::array<double, 4> share = mass_share(tie);
+  held.mass = nodes.mass[node];
+  nodes.mass[node] = 0;
+  if (tie.turning) {
+    held.inertia = nodes.rotational_inertia[node] + held.mass * tie.arm.squaredNorm();
+    nodes.rotational_inertia[node] = 0;
+  }
+  set_inverses(nodes, tie.node);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto corner = static_cast<std::size_t>(tie.corner[k]);
+    nodes.mass[corner] += share[k] * held.mass;
+    if (tie.turning) nodes.rotational_inertia[corner] += share[k] * held.inertia;
+    set_inverses(nodes, tie.corner[k]);
+  }
+}
+
+std::size_t place_in(std::span<const int> ascending, int node) {
+  return static_cast<std::size_t>(std::lower_bound(ascending.begin(), ascending.end(), node) -
+                                  ascending.begin());
+}
+
+// Rayleigh's quotient: the highest frequency grows at most by the largest ratio of the energy that masses
+// would have where they are held to the energy that they have on the corners. Of a node that moves as
+// sum A_k v_k that energy is at most (sum |A_k|) sum |A_k| v_k^2 m / 2; an arm that turns with angular
+// velocities adds the product of v_k and the arm times omega_k.
+double largest_energy_ratio(Ties& ties, const Nodes& nodes) {
+  ties.bound = ties.own_mass;
+  ties.coupling.assign(ties.bound.size(), 0);
+  const auto at = [&](int node) { return place_in(ties.concerned, node); };
+  for (const TiedNode& held : ties.node) {
+    const Tie& tie = held.tie;
+    const std::array<double, 4> share = largest_share(tie, corners_of(tie, nodes));
+    double sum = 0;
+    for (double one : share) sum += one;
+    const double mass = std::exchange(ties.bound[at(tie.node)], 0);
+    for (std::size_t k = 0; k < 4; ++k) {
+      ties.bound[at(tie.corner[k])] += sum * share[k] * mass;
+      ties.coupling[at(tie.corner[k])] += share[k] * mass * tie.arm.norm();
+    }
+  }
+  double largest = 1;
+  for (std::size_t i = 0; i < ties.concerned.size(); ++i) {
+    const auto node = static_cast<std::size_t>(ties.concerned[i]);
+    if (!(nodes.mass[node] > 0)) continue;
+    double ratio = ties.bound[i] / nodes.mass[node];
+    if (ties.coupling[i] > 0)
+      ratio += ties.coupling[i] / std::sqrt(nodes.mass[node] * nodes.rotational_inertia[node]);
+    largest = std::max(largest, ratio);
+  }
+  return largest;
+}
+
+void list_concerned(Ties& ties, const Nodes& nodes) {
+  ties.concerned.clear();
+  for (const TiedNode& held : ties.node) {
+    ties.concerned.push_back(held.tie.node);
+    for (int corner : held.tie.corner) ties.concerned.push_back(corner);
+  }
+  std::sort(ties.concerned.begin(), ties.concerned.end());
+  ties.concerned.erase(std::unique(ties.concerned.begin(), ties.concerned.end()), ties.concerned.end());
+  ties.own_mass.clear();
+  ties.own_inertia.clear();
+  for (int entry : ties.concerned) {
+    const auto node = static_cast<std::size_t>(entry);
+    ties.own_mass.push_back(nodes.mass[node]);
+    ties.own_inertia.push_back(nodes.has_rotations() ? nodes.rotational_inertia[node] : 0);
+  }
+}
+
+void move_masses(Ties& ties, Nodes& nodes) {
+  for (TiedNode& held : ties.node) {
+    move_mass(held, nodes);
+    ties.moved_mass[static_cast<std::size_t>(held.tie.node)] = held.mass;
+  }
+  // Weights that sum to one but for rounding take nothing from the step.
+  constexpr double rounding = 1e-9;
+  const double ratio = largest_energy_ratio(ties, nodes);
+  ties.step_share = ratio > 1 + rounding ? 1 / std::sqrt(ratio) : 1;
+}
+
+// Where masses are without ties.
+void take_back(Ties& ties, Nodes& nodes) {
+  for (const TiedNode& held : ties.node) ties.moved_mass[static_cast<std::size_t>(held.tie.node)] = 0;
+  for (std::size_t i = 0; i < ties.concerned.size(); ++i) {
+    const auto node = static_cast<std::size_t>(ties.concerned[i]);
+    nodes.mass[node] = ties.own_mass[i];
+    if (nodes.has_rotations()) nodes.rotational_inertia[node] = ties.own_inertia[i];
+    set_inverses(nodes, ties.concerned[i]);
+  }
+}
+
+NodeMotion motion_of(std::span<const int> concerned, const Nodes& nodes) {
+  NodeMotion sum;
+  for (int entry : concerned) {
+    const auto node = static_cast<std::size_t>(entry);
+    const Vector3d v = brio::velocity(nodes, entry);
+    const Vector3d linear = nodes.mass[node] * v;
+    sum.energy += 0.5 * v.dot(linear);
+    sum.linear += linear;
+    sum.angular += position(nodes, entry).cross(linear);
+    if (!nodes.has_rotations()) continue;
+    const Vector3d rate = row(nodes.angular_velocity, entry);
+    const Vector3d spin = nodes.rotational_inertia[node] * rate;
+    sum.energy += 0.5 * rate.dot(spin);
+    sum.angular += spin;
+  }
+  return sum;
+}
+
+}  // namespace
+
+FaceVertices corners_of(const Tie& tie, const Nodes& nodes) {
+  return {position(nodes, tie.corner[0]), position(nodes, tie.corner[1]), position(nodes, tie.corner[2]),
+          position(nodes, tie.corner[3])};
+}
+
+void number(Ties& ties, std::size_t node_count) {
+  ties.of_node.assign(node_count, -1);
+  for (std::size_t i = 0; i < ties.node.size(); ++i)
+    ties.of_node[static_cast<std::size_t>(ties.node[i].tie.node)] = static_cast<int>(i);
+}
+
+void condense(Ties& ties, Nodes& nodes) {
+  place(ties, nodes, 0);
+  list_concerned(ties, nodes);
+  ties.moved_mass.assign(nodes.size(), 0);
+  move_masses(ties, nodes);
+}
+
+NodeMotion release(Ties& ties, Nodes& nodes) {
+  const auto marked = [](const TiedNode& held) { return held.released; };
+  NodeMotion lost;
+  if (std::none_of(ties.node.begin(), ties.node.end(), marked)) return lost;
+  const NodeMotion before = motion_of(ties.concerned, nodes);
+  take_back(ties, nodes);
+  for (const TiedNode& held : ties.node)
+    if (held.released) ties.of_node[static_cast<std::size_t>(held.tie.node)] = -1;
+  ties.released += static_cast<std::int64_t>(std::erase_if(ties.node, marked));
+  for (std::size_t i = 0; i < ties.node.size(); ++i)
+    ties.of_node[static_cast<std::size_t>(ties.node[i].tie.node)] = static_cast<int>(i);
+  // With the masses without ties still at hand for those that remain, and motion compared over all.
+  for (TiedNode& held : ties.node) move_mass(held, nodes);
+  const NodeMotion after = motion_of(ties.concerned, nodes);
+  take_back(ties, nodes);
+  list_concerned(ties, nodes);
+  move_masses(ties, nodes);
+  lost.energy = before.energy - after.energy;
+  lost.linear = before.linear - after.linear;
+  lost.angular = before.angular - after.angular;
+  return lost;
+}
+
+void gather_forces(const Ties& ties, Nodes& nodes) {
+  for (const TiedNode& held : ties.node) {
+    const Tie& tie = held.tie;
+    const Vector3d force = row(nodes.force, tie.node);
+    if (tie.gap != 0) {
+      const std::array<Vector3d, 4> share = spread(tie, corners_of(tie, nodes), force);
+      for (std::size_t k = 0; k < 4; ++k) add(nodes.force, tie.corner[k], share[k]);
+      continue;
+    }
+    for (std::size_t k = 0; k < 4; ++k) add(nodes.force, tie.corner[k], tie.weight[k] * force);
+    if (!tie.turning) continue;
+    const Vector3d moment = row(nodes.moment, tie.node) + tie.arm.cross(force);
+    for (std::size_t k = 0; k < 4; ++k) add(nodes.moment, tie.corner[k], tie.weight[k] * moment);
+  }
+}
+
+Vector3d held_velocity(const Tie& tie, const Nodes& nodes, double step) {
+  Vector3d velocity = Vector3d::Zero();
+  for (std::size_t k = 0; k < 4; ++k) velocity += tie.weight[k] * brio::velocity(nodes, tie.corner[k]);
+  if (tie.turning) {
+    const Vector3d rate = mean_angular_velocity(tie, nodes);
+    if (!tie.has_arm()) return velocity;
+    if (step == 0) return velocity + rate.cross(tie.arm);
+    return velocity + (turned_by(step * rate, tie.arm) - tie.arm) / step;
+  }
+  if (tie.gap == 0) return velocity;
+  const FaceVertices now = corners_of(tie, nodes);
+  FaceVertices rate;
+  for (std::size_t k = 0; k < 4; ++k) rate[k] = brio::velocity(nodes, tie.corner[k]);
+  if (step == 0) return velocity + tie.gap * normal_rate(tie, now, rate);
+  FaceVertices then = now;
+  for (std::size_t k = 0; k < 4; ++k) then[k] += step * rate[k];
+  return velocity + tie.gap / step * (normal_at(tie, then) - normal_at(tie, now));
+}
+
+void carry_velocities(const Ties& ties, Nodes& nodes, double step) {
+  for (std::size_t i = ties.node.size(); i-- > 0;) {
+    const Tie& tie = ties.node[i].tie;
+    const auto node = static_cast<std::size_t>(tie.node);
+    set_components(nodes.record[node].velocity, held_velocity(tie, nodes, step));
+    if (tie.turning)
+      set_components(nodes.angular_velocity[node].component, mean_angular_velocity(tie, nodes));
+  }
+}
+
+void place(Ties& ties, Nodes& nodes, double step) {
+  for (std::size_t i = ties.node.size(); i-- > 0;) {
+    Tie& tie = ties.node[i].tie;
+    if (tie.has_arm() && step > 0) tie.arm = turned_by(step * mean_angular_velocity(tie, nodes), tie.arm);
+    set_components(nodes.record[static_cast<std::size_t>(tie.node)].position,
+                   held_position(tie, corners_of(tie, nodes)));
+  }
+}
+
+}  // namespace brio

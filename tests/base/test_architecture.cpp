@@ -87,9 +87,11 @@ TEST(Architecture, RoomsOfContactFollowTheirOrder) {
   const std::regex include(R"re(^#include "(contact/[^"]+)")re");
   for (const SourceFile& file : source_files()) {
     if (file.room != "contact") continue;
-    for (const std::string& line : file.lines)
-      if (std::smatch match; std::regex_search(line, match, include))
-        EXPECT_LE(place(match[1]), place(file.path)) << file.path << " must not include " << match[1];
+    for (const std::string& line : file.lines) {
+      std::smatch match;
+      if (!std::regex_search(line, match, include)) continue;
+      EXPECT_LE(place(match[1]), place(file.path)) << file.path << " must not include " << match[1];
+    }
   }
 }
 

@@ -1,6 +1,5 @@
 #include "contact/geometry/closest_point.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "contact/geometry/closest_on_triangle.hpp"

@@ -1,7 +1,7 @@
-// Newton's cradle: five equal bars in a row that touch, the first of which comes with a first_speed. With nu
-// = 0 it is a matter of one dimension: the pulse is two bars long, so when its front has come back from the
-// free end, its tail enters the last bar, which flies off without stress and with all of the first_speed. The
-// others stand still.
+// Newton's cradle: five equal bars in a row that touch, the first of which comes with a speed. With nu = 0 it
+// is a matter of one dimension: the pulse is two bars long, so when its front has come back from the free
+// end, its tail enters the last bar, which flies off without stress and with all of the speed. The others
+// stand still.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr double first_speed = 1;  // wave first_speed 1000
+constexpr double first_speed = 1;  // wave speed 1000
 
 Deck cradle(int along, const std::vector<int>& across, const Hex8& element, double gap = 0) {
   Deck deck;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-constexpr double impact_speed = 10;  // 0.01 of the wave impact_speed
+constexpr double impact_speed = 10;  // 0.01 of the wave speed
 
 enum class Dropped { solid, shell, beam, particles, rigid };
 constexpr std::array names{"hex8", "shell4", "beam2", "particle", "rigid"};

@@ -1,12 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <sstream>
 
 #include "io/read_deck.hpp"
 #include "tests/io/deck_text.hpp"
+#include "tests/io/text_of.hpp"
 
 namespace brio {
 namespace {
@@ -350,19 +349,12 @@ TEST(BadDeckOfBeams, BeamsHaveNoSides) {
 
 INSTANTIATE_TEST_SUITE_P(Edited, BadDeck, testing::ValuesIn(edits));
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 TEST(BadDeckFile, SaysWhatItsFirstLineExpects) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(BRIO_SOURCE_DIR "/tests/io/bad_decks")) {
     const std::string path = entry.path().string();
     const std::string fault = fault_of([&] { read_deck(path); });
-    const std::string text = bytes_of(path);
+    const std::string text = test::text_of(path);
     const std::string mark = "# expect ";
     std::string expected = ":1:1: not a text file; a deck is YAML in UTF-8";
     if (text.empty()) expected = ":1:1: the deck is empty; materials, parts and time are required";

@@ -107,23 +107,6 @@ TEST(ClosestOnTriangleSlow, RightToRoundingByExactArithmetic) { judge(52, 300000
 TEST(ClosestOnHull, RightToRoundingByExactArithmetic) { judge(53, 30000, judge_hull); }
 TEST(ClosestOnHullSlow, RightToRoundingByExactArithmetic) { judge(54, 300000, judge_hull); }
 
-void compare_with_scalar(std::uint64_t seed, int queries) {
-  Random random(seed);
-  for (int i = 0; i < queries; ++i) {
-    const FaceQuery query = any_face_query(random);
-    const auto result = closest_on_triangle(components(query.node), components(query.face[0]),
-                                            components(query.face[1]), components(query.face[2]));
-    const TrianglePoint scalar =
-        closest_point_on_triangle(query.node, {query.face[0], query.face[1], query.face[2]});
-    ASSERT_LE(std::sqrt(result.squared_distance),
-              std::sqrt(scalar.squared_distance) + roundings * unit_roundoff * largest_difference(query))
-        << i;
-  }
-}
-
-TEST(ClosestOnTriangle, AsNearAsTheScalarFunction) { compare_with_scalar(55, 50000); }
-TEST(ClosestOnTriangleSlow, AsNearAsTheScalarFunction) { compare_with_scalar(55, 1000000); }
-
 TEST(ClosestOnHull, LanesGiveTheBitsOfPlainNumbers) {
   Random random(56);
   const test::FloatingPointTraps traps;

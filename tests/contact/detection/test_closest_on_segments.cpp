@@ -62,20 +62,6 @@ void judge(std::uint64_t seed, int queries) {
 TEST(ClosestOnSegments, RightToRoundingByExactArithmetic) { judge(62, 40000); }
 TEST(ClosestOnSegmentsSlow, RightToRoundingByExactArithmetic) { judge(62, 300000); }
 
-void compare_with_scalar(std::uint64_t seed, int queries) {
-  Random random(seed);
-  for (int i = 0; i < queries; ++i) {
-    const SegmentQuery query = any_segment_query(random);
-    ASSERT_LE(std::sqrt(closest(query.a, query.b).squared_distance),
-              std::sqrt(closest_points_of_segments(query.a, query.b).squared_distance) +
-                  roundings * unit_roundoff * largest_difference(query))
-        << i;
-  }
-}
-
-TEST(ClosestOnSegments, AsNearAsTheScalarFunction) { compare_with_scalar(63, 50000); }
-TEST(ClosestOnSegmentsSlow, AsNearAsTheScalarFunction) { compare_with_scalar(63, 1000000); }
-
 TEST(ClosestOnSegments, LanesExchangeAndMirrorGiveTheSameBits) {
   Random random(64);
   const test::FloatingPointTraps traps;

@@ -122,6 +122,10 @@ class Builder {
     return side;
   }
 
+  bool is_prescribed(int node, int axis) const {
+    return surface_.rigid_body(node) < 0 && !ties_.holds(node) &&
+           nodes_.free_inverse_mass(index(node), axis) == 0;
+  }
   bool turns(int node) const {
     if (!nodes_.has_rotations()) return false;
     if (const Tie* tie = tie_of(node); tie != nullptr && tie->turning) return true;
@@ -165,7 +169,8 @@ class Builder {
 
   // The points do not lie one behind the other along the normal: equal and opposite impulses at them would
   // turn the bodies. Their couple is taken by the nodes of both sides as by one rigid body: the row then asks
-  // for the relative velocity as seen by who turns with them. \returns whether much of it is left
+  // for the relative velocity as seen by who turns with them. \returns whether much of it is left, along axes
+  // whose motion is not prescribed
   bool add_without_spin(const Contact& contact, const SidePoint& first, const SidePoint& second) {
     Vector3d middle = Vector3d::Zero();
     const auto count = static_cast<double>(first.count + second.count);
@@ -178,7 +183,12 @@ class Builder {
       size += weight * weight;
     });
     const Vector3d spin = solve_semidefinite(inertia, (first.point - second.point).cross(normal_));
-    const double left = size - spin.dot(inertia * spin);
+    double left = 0;
+    for_nodes(first, second, [&](int node, double weight) {
+      const Vector3d seen = weight * normal_ - spin.cross(position(nodes_, node) - middle);
+      for (int axis = 0; axis < 3; ++axis)
+        if (!is_prescribed(node, axis)) left += seen[axis] * seen[axis];
+    });
     if (!(left > least_share_left * size)) return false;
     rows_.add_row(to_vector(normal_), contact.gap, 0).impulse = contact.impulse;
     for_nodes(first, second, [&](int node, double weight) {

@@ -14,9 +14,9 @@ namespace {
 /// Rows and blocks of a task: whatever the number of threads.
 constexpr std::size_t rows_a_task = 512;
 constexpr std::size_t blocks_a_task = 1024;
-/// Nothing can move where only rounding of a weight, or of an arm along the normal, moves the row: below this
-/// share of what its lightest block alone would move.
-constexpr double held_share = 1e-20;
+/// A row is held where none of its blocks gives it more than this share, squared, of the motion that the
+/// block itself has: a thousandth. Such a block would be thrown a thousand times as far as the row asks for.
+constexpr double held_share = 1e-6;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -66,16 +66,20 @@ double entry_square(const ConstraintRow& row, const MatrixEntry& entry, const Ve
 
 bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<const VelocityBlock> blocks) {
   const RowMap map(rows, row);
-  double lightest = 0;
+  // \param given impulse by one along the normal of the row. \param squared its most for any direction
+  const auto moves = [&](int block, const Vector& given, double squared) {
+    const SymmetricTensor<double>& inverse_mass = blocks[index(block)].inverse_mass;
+    return energy(inverse_mass, given) > held_share * squared * norm_bound(inverse_mass);
+  };
+  bool held = true;
   for (const TranslationEntry& entry : map.translations())
-    lightest = std::max(lightest, energy(blocks[index(entry.block)].inverse_mass, row.normal));
+    held = held && !moves(entry.block, entry.weight * row.normal, 1);
   for (const RotationEntry& entry : map.rotations())
-    lightest =
-        std::max(lightest, dot(entry.arm, entry.arm) * norm_bound(blocks[index(entry.block)].inverse_mass));
+    held = held && !moves(entry.block, cross(entry.arm, row.normal), dot(entry.arm, entry.arm));
   for (const MatrixEntry& entry : map.matrices())
-    lightest = std::max(
-        lightest, frobenius_squared(entry.matrix) * norm_bound(blocks[index(entry.block)].inverse_mass));
-  return !(map.inverse_mass(row.normal, blocks) > held_share * lightest);
+    held = held &&
+           !moves(entry.block, transposed_times(entry.matrix, row.normal), frobenius_squared(entry.matrix));
+  return held;
 }
 
 }  // namespace
@@ -113,8 +117,7 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
   const auto measure = [&](std::size_t i) {
     const ConstraintRow& row = rows.row[i];
     double sum = 0;
-    double along_normal = 0;
-    double lightest = 0;
+    double largest = 0;
     bool tilted = false;
     bool plain = row.rotation.size() + row.matrix.size() == 0;
     const auto add = [&](const auto& entry, double& norm) {
@@ -125,8 +128,7 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
       const TranslationEntry& entry = rows.translation[e];
       const double bound = block_bound_[index(entry.block)];
       add(entry, norm_[e]);
-      along_normal += square(entry.weight) * bound;
-      lightest = std::max(lightest, bound);
+      if (bound != 0) largest = std::max(largest, square(entry.weight));
       plain = plain && bound >= 0;
       tilted = tilted || entry.tilt[0] != 0 || entry.tilt[1] != 0;
     }
@@ -134,7 +136,7 @@ void ImpulseSolver::measure_rows(const ConstraintRows& rows, std::span<const Vel
       add(rows.rotation[e], norm_[rotations + e]);
     for (std::uint32_t e = row.matrix.begin; e < row.matrix.end; ++e)
       add(rows.matrix[e], norm_[matrices + e]);
-    const bool held = plain ? !(along_normal > held_share * lightest) : is_held(rows, row, blocks);
+    const bool held = plain ? !(largest > held_share) : is_held(rows, row, blocks);
     squared_scale_[i] = held ? 0 : sum;
     const auto finish = [&](double& norm) { norm = held ? 0 : std::sqrt(norm / sum); };
     for (std::uint32_t e = row.translation.begin; e < row.translation.end; ++e) finish(norm_[e]);

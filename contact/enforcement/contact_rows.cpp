@@ -22,6 +22,8 @@ constexpr double standing = 0.01;
 constexpr double no_weight = 1e-9;
 /// What turns with the nodes sees at least this share of the relative velocity, squared, or is not asked.
 constexpr double least_share_left = 0.1;
+/// Of that, what is not prescribed: less is a lever (`held_share` of the solver).
+constexpr double least_share_free = 1e-6;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 Vector to_vector(const Vector3d& a) { return {a[0], a[1], a[2]}; }
@@ -169,8 +171,8 @@ class Builder {
 
   // The points do not lie one behind the other along the normal: equal and opposite impulses at them would
   // turn the bodies. Their couple is taken by the nodes of both sides as by one rigid body: the row then asks
-  // for the relative velocity as seen by who turns with them. \returns whether much of it is left, along axes
-  // whose motion is not prescribed
+  // for the relative velocity as seen by who turns with them. \returns whether much of it is left, and
+  // some of that not prescribed
   bool add_without_spin(const Contact& contact, const SidePoint& first, const SidePoint& second) {
     Vector3d middle = Vector3d::Zero();
     const auto count = static_cast<double>(first.count + second.count);
@@ -183,13 +185,14 @@ class Builder {
       size += weight * weight;
     });
     const Vector3d spin = solve_semidefinite(inertia, (first.point - second.point).cross(normal_));
-    double left = 0;
+    const double left = size - spin.dot(inertia * spin);
+    double free = 0;
     for_nodes(first, second, [&](int node, double weight) {
       const Vector3d seen = weight * normal_ - spin.cross(position(nodes_, node) - middle);
       for (int axis = 0; axis < 3; ++axis)
-        if (!is_prescribed(node, axis)) left += seen[axis] * seen[axis];
+        if (!is_prescribed(node, axis)) free += seen[axis] * seen[axis];
     });
-    if (!(left > least_share_left * size)) return false;
+    if (!(left > least_share_left * size) || !(free > least_share_free * size)) return false;
     rows_.add_row(to_vector(normal_), contact.gap, 0).impulse = contact.impulse;
     for_nodes(first, second, [&](int node, double weight) {
       const Vector3d turned = spin.cross(position(nodes_, node) - middle);

@@ -52,6 +52,7 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted) {
       erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
   scene.velocity.resize(surface.slaves(), Vector3d::Zero());
   scene.in_contact.resize(surface.slaves());
+  scene.loaded.resize(surface.slaves());
   scene.pushed.resize(surface.slaves());
   scene.normal_impulse.resize(surface.slaves(), Vector3d::Zero());
   scene.friction_impulse.resize(surface.slaves(), Vector3d::Zero());

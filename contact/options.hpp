@@ -13,7 +13,7 @@ struct ContactOptions {
   int passes = 20;
   /// Converged: no relative velocity changes by more than this share of the largest that an impulse stands
   /// for.
-  double tolerance = 1e-4;
+  double tolerance = 1e-3;
   SearchStrategy search = SearchStrategy::automatic;
   /// Length by which boxes are grown so that the search can be skipped, over the mean edge of the surface.
   double reach_buffer = 0.2;

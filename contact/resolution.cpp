@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "contact/enforcement/inherited_impulses.hpp"
-#include "contact/enforcement/target_velocity.hpp"
+#include "contact/enforcement/recovery.hpp"
 #include "contact/impact_zone.hpp"
 #include "contact/scene.hpp"
 #include "contact/step_totals.hpp"
@@ -137,16 +137,15 @@ class Resolution {
     const std::size_t known = rows_.rows.size();
     for (std::size_t i = first; i < scene_.contacts.size(); ++i)
       scene_.row_of_contact.push_back(known + i - first);
-    add_rows(rows_, sources(), std::span<const Contact>(scene_.contacts).subspan(first));
-    set_targets(known);
+    const auto contacts = std::span<const Contact>(scene_.contacts).subspan(first);
+    add_rows(rows_, sources(), contacts);
+    const std::span<const double> opening = scene_.loaded.opening_velocities(contacts, recovery(), dt_);
+    for (std::size_t i = first; i < scene_.contacts.size(); ++i) set_target(row_of(i), opening[i - first]);
   }
   void add_wall_rows_from(std::size_t first) {
     const std::size_t known = rows_.rows.size();
     add_rows(rows_, sources(), walls_, std::span<const NodeAtWall>(scene_.walls.touch).subspan(first));
-    set_targets(known);
-  }
-  void set_targets(std::size_t first) {
-    for (std::size_t i = first; i < rows_.rows.size(); ++i) set_target(rows_.rows.row[i]);
+    for (std::size_t i = known; i < rows_.rows.size(); ++i) set_target(rows_.rows.row[i], 0);
   }
   ConstraintRow& row_of(std::size_t contact) { return rows_.rows.row[scene_.row_of_contact[contact]]; }
 
@@ -161,14 +160,16 @@ class Resolution {
     return true;
   }
 
-  void set_target(ConstraintRow& row) const {
-    const Recovery recovery = recovery_of(scene_.options, scene_.features.smallest_edge);
+  Recovery recovery() const {
+    return recovery_of(scene_.options, scene_.features.smallest_edge, 2 * scene_.features.skin);
+  }
+  void set_target(ConstraintRow& row, double returned) const {
     double mass = 0;
     if (row.gap < 0 && row.impulse > 0) {
       const double inverse = RowMap(rows_.rows, row).inverse_mass(row.normal, rows_.block);
       mass = inverse > 0 ? 1 / inverse : 0;
     }
-    row.target_velocity = target_velocity(recovery, row.gap, row.impulse, mass, dt_);
+    row.target_velocity = target_velocity(recovery(), row.gap, row.impulse, mass, returned, dt_);
   }
 
   void solve(bool anew) {
@@ -229,7 +230,7 @@ class Resolution {
       ConstraintRow& row = row_of(i);
       if (row.gap == scene_.contacts[i].gap) continue;
       row.gap = scene_.contacts[i].gap;
-      set_target(row);
+      set_target(row, 0);
     }
     add_rows_from(known);
   }
@@ -280,11 +281,20 @@ class Resolution {
     count_contacts(scene_);
     if (!scene_.zone_impulse.empty()) book_zones();
     if (scene_.step.active > 0 || at_walls) book_rows();
+    remember_loads();
     add_to_totals(scene_);
     for (std::size_t i = ordinary; i < scene_.contacts.size(); ++i)
       scene_.added.last_of_node[index(scene_.contacts[i].node[0])] = -1;
     scene_.added.before.clear();
     scene_.contacts.resize(ordinary);
+  }
+
+  void remember_loads() {
+    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
+      const Contact& contact = scene_.contacts[i];
+      if (contact.impulse > 0 || contact.gap < 0) scene_.loaded.add(contact, row_of(i).normal_work);
+    }
+    scene_.loaded.end_step();
   }
 
   // \returns whether a wall pushes

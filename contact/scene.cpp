@@ -25,6 +25,7 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   collect(scene.features, scene.surface, options);
   const std::size_t slaves = scene.surface.slaves();
   scene.velocity.resize(slaves, Vector3d::Zero());
+  scene.loaded.resize(slaves);
   scene.in_contact = scene.pushed = SlaveSet(slaves);
   scene.normal_impulse.resize(slaves, Vector3d::Zero());
   scene.friction_impulse.resize(slaves, Vector3d::Zero());

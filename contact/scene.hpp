@@ -18,6 +18,7 @@
 #include "contact/enforcement/contact_rows.hpp"
 #include "contact/enforcement/impulse_solver.hpp"
 #include "contact/enforcement/nodes_at_walls.hpp"
+#include "contact/enforcement/recovery.hpp"
 #include "contact/erosion.hpp"
 #include "contact/features/feature_motion.hpp"
 #include "contact/features/features.hpp"
@@ -113,6 +114,7 @@ struct ContactScene {
     double time = -1;                 ///< kept by the caller
   } unresolved;
 
+  LoadedNodes loaded;
   SlaveSet in_contact;                          ///< nodes that rows have moved in this step
   std::vector<Eigen::Vector3d> velocity;        ///< of each slave node; up to date for those in contact
   SlaveSet pushed;                              ///< nodes with an impulse in the last step

@@ -41,16 +41,19 @@ void book_supports(const RowMap& map, const Vector& impulse, std::span<const Vec
 
 }  // namespace
 
-RowWork book(const ConstraintRows& rows, std::span<const Vector> before, std::span<const VelocityBlock> after,
+RowWork book(ConstraintRows& rows, std::span<const Vector> before, std::span<const VelocityBlock> after,
              std::span<const BlockPlace> places, std::span<PushOnWall> walls) {
   RowWork work;
-  for (const ConstraintRow& row : rows.row) {
+  for (ConstraintRow& row : rows.row) {
     if (row.impulse == 0) continue;
     const RowMap map(rows, row);
     const Vector was = map.velocity([&](int b) { return before[index(b)]; });
     const Vector is = map.velocity([&](int b) { return after[index(b)].velocity; });
-    work.normal_before += row.impulse * dot(row.normal, was);
-    work.normal_after += row.impulse * dot(row.normal, is);
+    const double normal_before = row.impulse * dot(row.normal, was);
+    const double normal_after = row.impulse * dot(row.normal, is);
+    row.normal_work = 0.5 * (normal_before + normal_after);
+    work.normal_before += normal_before;
+    work.normal_after += normal_after;
     work.friction_before += dot(row.friction, was);
     work.friction_after += dot(row.friction, is);
     const Vector impulse = impulse_of(row);

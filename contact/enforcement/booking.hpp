@@ -36,10 +36,11 @@ struct PushOnWall {
   double work = 0;                  ///< of the wall on what it pushes
 };
 
+/// Sets the normal work of rows as well.
 /// \param before velocities of the blocks before the step's impulses, at the half step before.
 /// \param after the blocks with their velocities at the end.
 /// \param walls by number; sums are added to what they hold.
-RowWork book(const ConstraintRows& rows, std::span<const Vector3<double>> before,
+RowWork book(ConstraintRows& rows, std::span<const Vector3<double>> before,
              std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
              std::span<PushOnWall> walls);
 

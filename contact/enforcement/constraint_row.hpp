@@ -57,6 +57,7 @@ struct ConstraintRow {
   double friction_coefficient = 0;  ///< Coulomb's
   double target_velocity = 0;       ///< least normal relative velocity
   double impulse = 0;               ///< along the normal, on the first side; never negative
+  double normal_work = 0;           ///< of the normal impulse on motion, in the step
   Vector3<double> friction{0, 0, 0};       ///< tangential impulse on the first side
   Vector3<double> wall_velocity{0, 0, 0};  ///< of an immovable second side
   Vector3<double> point{0, 0, 0};          ///< where a wall is touched, for its moment

@@ -252,21 +252,21 @@ bool within(const MovingEdge& a, const MovingEdge& b, double time, double distan
   mpz_mul_2exp(reach.get_mpz_t(), reach.get_mpz_t(), moment.exponent);
   const Integer limit = reach * reach;
   const std::array<Path, 4> between = differences(a, b, scaled);
-  std::array<Vector, 4> c;
+  std::array<IntegerVector, 4> c;
   for (std::size_t k = 0; k < 4; ++k) {
     c[k] = at(between[k], moment);
     if (dot(c[k], c[k]) <= limit) return true;
   }
   for (const auto& pair : ends_against_edges) {
-    const Vector along = c[pair[1]] - c[pair[0]];
+    const IntegerVector along = c[pair[1]] - c[pair[0]];
     if (dot(c[pair[0]], along) > 0 || dot(c[pair[1]], along) < 0) continue;
-    const Vector moment_about = cross(c[pair[0]], along);
+    const IntegerVector moment_about = cross(c[pair[0]], along);
     const Integer length_squared = dot(along, along);
     if (length_squared > 0 && dot(moment_about, moment_about) <= limit * length_squared) return true;
   }
-  const Vector along_a = c[2] - c[0];
-  const Vector along_b = c[0] - c[1];
-  const Vector normal = cross(along_a, along_b);
+  const IntegerVector along_a = c[2] - c[0];
+  const IntegerVector along_b = c[0] - c[1];
+  const IntegerVector normal = cross(along_a, along_b);
   if (dot(cross(c[0], along_b), normal) > 0 || dot(cross(c[2], along_b), normal) < 0 ||
       dot(cross(c[0], along_a), normal) > 0 || dot(cross(c[1], along_a), normal) < 0)
     return false;
@@ -281,15 +281,15 @@ bool points_within(const MovingEdge& a, const MovingEdge& b, const std::array<do
   scaled.note(distance);
   const Dyadic moment = dyadic(time);
   const std::array<Path, 4> between = differences(a, b, scaled);
-  const Vector c0 = at(between[0], moment);
-  const Vector along_a = at(between[2], moment) - c0;
-  const Vector along_b = c0 - at(between[1], moment);
+  const IntegerVector c0 = at(between[0], moment);
+  const IntegerVector along_a = at(between[2], moment) - c0;
+  const IntegerVector along_b = c0 - at(between[1], moment);
   std::array<Integer, 2> shares;  // times 2^1074, which makes every parameter an integer
   for (std::size_t k = 0; k < 2; ++k) {
     const Dyadic share = dyadic(parameters[k]);
     mpz_mul_2exp(shares[k].get_mpz_t(), share.numerator.get_mpz_t(), 1074 - share.exponent);
   }
-  Vector offset;
+  IntegerVector offset;
   for (std::size_t i = 0; i < 3; ++i) {
     mpz_mul_2exp(offset[i].get_mpz_t(), c0[i].get_mpz_t(), 1074);
     offset[i] += shares[0] * along_a[i] - shares[1] * along_b[i];
@@ -302,7 +302,7 @@ bool points_within(const MovingEdge& a, const MovingEdge& b, const std::array<do
 int side_at(const MovingEdge& a, const MovingEdge& b, double time) {
   const std::array<Path, 4> between = differences(a, b, scaled_for(a, b));
   const Dyadic moment = dyadic(time);
-  const Vector c0 = at(between[0], moment);
+  const IntegerVector c0 = at(between[0], moment);
   return sgn(dot(c0, cross(at(between[2], moment) - c0, c0 - at(between[1], moment))));
 }
 

@@ -11,12 +11,12 @@
 
 namespace brio::exact {
 
-using Vector = std::array<Integer, 3>;
+using IntegerVector = std::array<Integer, 3>;
 using PolynomialVector = std::array<Polynomial, 3>;
 
-inline Vector operator-(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline Integer dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Vector cross(const Vector& a, const Vector& b) {
+inline IntegerVector operator-(const IntegerVector& a, const IntegerVector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Integer dot(const IntegerVector& a, const IntegerVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -51,15 +51,15 @@ class Scaled {
     mpz_mul_2exp(integer.get_mpz_t(), integer.get_mpz_t(), static_cast<unsigned>(exponent - 53 - unit_ + 2));
     return integer;
   }
-  Vector operator()(const Eigen::Vector3d& v) const { return {(*this)(v[0]), (*this)(v[1]), (*this)(v[2])}; }
+  IntegerVector operator()(const Eigen::Vector3d& v) const { return {(*this)(v[0]), (*this)(v[1]), (*this)(v[2])}; }
 
  private:
   int unit_ = 0;
 };
 
 struct Path {
-  Vector start;
-  Vector displacement;
+  IntegerVector start;
+  IntegerVector displacement;
 };
 
 inline Path operator-(const Path& a, const Path& b) {
@@ -73,8 +73,8 @@ inline PolynomialVector polynomial(const Path& path) {
 }
 
 // Times 2^exponent of the time.
-inline Vector at(const Path& path, const Dyadic& time) {
-  Vector result;
+inline IntegerVector at(const Path& path, const Dyadic& time) {
+  IntegerVector result;
   for (std::size_t k = 0; k < 3; ++k) {
     mpz_mul_2exp(result[k].get_mpz_t(), path.start[k].get_mpz_t(), time.exponent);
     result[k] += path.displacement[k] * time.numerator;

@@ -228,17 +228,17 @@ class ExtendedFilter {
 
 bool triangle_within(const std::array<Path, 3>& triangle, const Dyadic& time,
                      const Integer& distance_squared) {
-  const std::array<Vector, 3> to = {at(triangle[0], time), at(triangle[1], time), at(triangle[2], time)};
+  const std::array<IntegerVector, 3> to = {at(triangle[0], time), at(triangle[1], time), at(triangle[2], time)};
   for (std::size_t k = 0; k < 3; ++k) {
     if (dot(to[k], to[k]) <= distance_squared) return true;
-    const Vector& next = to[(k + 1) % 3];
-    const Vector edge = next - to[k];
+    const IntegerVector& next = to[(k + 1) % 3];
+    const IntegerVector edge = next - to[k];
     if (dot(to[k], edge) > 0 || dot(next, edge) < 0) continue;
-    const Vector moment = cross(to[k], edge);
+    const IntegerVector moment = cross(to[k], edge);
     const Integer length_squared = dot(edge, edge);
     if (length_squared > 0 && dot(moment, moment) <= distance_squared * length_squared) return true;
   }
-  const Vector area = cross(to[1] - to[0], to[2] - to[0]);
+  const IntegerVector area = cross(to[1] - to[0], to[2] - to[0]);
   for (std::size_t k = 0; k < 3; ++k)
     if (dot(area, cross(to[k], to[(k + 1) % 3])) < 0) return false;
   const Integer area_squared = dot(area, area);
@@ -280,9 +280,9 @@ bool point_within(const MovingNode& node, const MovingFace& face, const std::arr
   scaled.note(distance);
   const Dyadic moment = dyadic(time);
   const Path origin{scaled(node.start), scaled(node.displacement)};
-  Vector sum{0, 0, 0};  // times 2^1074, which makes every weight an integer
+  IntegerVector sum{0, 0, 0};  // times 2^1074, which makes every weight an integer
   for (std::size_t k = 0; k < 4; ++k) {
-    const Vector to = at(Path{scaled(face.start[k]), scaled(face.displacement[k])} - origin, moment);
+    const IntegerVector to = at(Path{scaled(face.start[k]), scaled(face.displacement[k])} - origin, moment);
     const Dyadic weight = dyadic(weights[k]);
     Integer scaled_weight;
     mpz_mul_2exp(scaled_weight.get_mpz_t(), weight.numerator.get_mpz_t(), 1074 - weight.exponent);
@@ -297,8 +297,8 @@ int side_at(const MovingNode& node, const MovingFace& face, int sub_triangle, do
   const auto parts = triangles(node, face, scaled_for(node, face));
   const Dyadic moment = dyadic(time);
   const std::array<Path, 3>& part = parts[static_cast<std::size_t>(sub_triangle)];
-  const Vector to = at(part[0], moment);
-  const Vector area = cross(at(part[1], moment) - to, at(part[2], moment) - to);
+  const IntegerVector to = at(part[0], moment);
+  const IntegerVector area = cross(at(part[1], moment) - to, at(part[2], moment) - to);
   return -sgn(dot(to, area));
 }
 

@@ -144,10 +144,10 @@ void report(const char* name, int across, const Blow& blow, const Hertz& exact) 
       100 * (blow.duration / exact.duration - 1), blow.restitution, blow.added, blow.books, blow.momentum);
 }
 
-void expect_hertz(const Blow& blow, const Hertz& exact, double tolerance, double least_restitution = 0.99) {
+void expect_hertz(const Blow& blow, const Hertz& exact, double tolerance) {
   EXPECT_NEAR(blow.force, exact.force, tolerance * exact.force);
   EXPECT_NEAR(blow.duration, exact.duration, tolerance * exact.duration);
-  EXPECT_GT(blow.restitution, least_restitution);
+  EXPECT_GT(blow.restitution, 0.99);
   EXPECT_LE(blow.restitution, 1.0);
   EXPECT_LE(blow.added, 1e-5);
   EXPECT_LE(blow.books, 1e-3);
@@ -173,8 +173,7 @@ TEST(HertzSlow, TwoBallsOfOneMesh) {
   for (int across : {16, 20, 24}) {
     const Blow blow = on_each_other(across, across);
     report("balls", across, blow, balls);
-    // Short of what is wanted, 0.99: 0.988 at 24 across. Solved to 1e-6 it is 0.9996.
-    expect_hertz(blow, balls, 0.05, 0.985);
+    expect_hertz(blow, balls, 0.05);
   }
 }
 
@@ -190,7 +189,7 @@ TEST(HertzSlow, TwoBallsOfDifferentMeshes) {
 // nodes are held sideways: impulses that hardly moved them added four times the energy of the blow in a step.
 TEST(HertzSlow, TwoBallsLooselySolved) {
   Settings settings{steel(), hex8()};
-  settings.deck.contact.emplace().options.tolerance = 1e-3;
+  settings.deck.contact.emplace().options.tolerance = 1e-2;
   const Blow blow = on_each_other(20, 24, std::move(settings));
   report("loosely solved", 20, blow, balls);
   expect_hertz(blow, balls, 0.05);

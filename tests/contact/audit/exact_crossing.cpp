@@ -12,9 +12,9 @@ ExactCrossing judge_crossing(const std::array<Vector3d, 2>& segment,
   Scaled scaled;
   for (const Vector3d& x : segment) scaled.note(x);
   for (const Vector3d& x : triangle) scaled.note(x);
-  const Vector corner[3] = {scaled(triangle[0]), scaled(triangle[1]), scaled(triangle[2])};
-  const Vector from = scaled(segment[0]), to = scaled(segment[1]);
-  const Vector normal = exact::cross(corner[1] - corner[0], corner[2] - corner[0]);
+  const IntegerVector corner[3] = {scaled(triangle[0]), scaled(triangle[1]), scaled(triangle[2])};
+  const IntegerVector from = scaled(segment[0]), to = scaled(segment[1]);
+  const IntegerVector normal = exact::cross(corner[1] - corner[0], corner[2] - corner[0]);
   const Integer above = dot(from - corner[0], normal), below = dot(to - corner[0], normal);
   ExactCrossing result;
   result.start = sgn(above);
@@ -23,8 +23,8 @@ ExactCrossing judge_crossing(const std::array<Vector3d, 2>& segment,
   // The point times (above - below), which has the sign of the start.
   const Integer scale = above - below;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector edge = corner[(k + 1) % 3] - corner[k];
-    Vector point;
+    const IntegerVector edge = corner[(k + 1) % 3] - corner[k];
+    IntegerVector point;
     for (std::size_t i = 0; i < 3; ++i) point[i] = above * to[i] - below * from[i] - scale * corner[k][i];
     result.within[k] = sgn(dot(exact::cross(edge, point), normal)) * result.start;
   }

@@ -13,18 +13,18 @@ bool operator<(const Fraction& a, const Fraction& b) {
 }
 
 // The origin against a segment between p and q.
-Fraction squared_to_segment(const Vector& p, const Vector& q) {
-  const Vector along = q - p;
+Fraction squared_to_segment(const IntegerVector& p, const IntegerVector& q) {
+  const IntegerVector along = q - p;
   const Integer length = dot(along, along);
   const Integer reach = -dot(p, along);
   if (length == 0 || reach <= 0) return {dot(p, p), 1};
   if (reach >= length) return {dot(q, q), 1};
-  const Vector area = cross(p, along);
+  const IntegerVector area = cross(p, along);
   return {dot(area, area), length};
 }
 
-Fraction squared_to_triangle(const Vector& a, const Vector& b, const Vector& c) {
-  const Vector normal = cross(b - a, c - a);
+Fraction squared_to_triangle(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c) {
+  const IntegerVector normal = cross(b - a, c - a);
   const Integer square = dot(normal, normal);
   if (square > 0 && dot(normal, cross(a, b)) >= 0 && dot(normal, cross(b, c)) >= 0 &&
       dot(normal, cross(c, a)) >= 0) {
@@ -43,9 +43,9 @@ Scaled scaled_for(const Eigen::Vector3d& node, const std::array<Eigen::Vector3d,
   return scaled;
 }
 
-std::array<Vector, 4> seen_from(const Eigen::Vector3d& node, const FaceVertices& vertices,
+std::array<IntegerVector, 4> seen_from(const Eigen::Vector3d& node, const FaceVertices& vertices,
                                 const Scaled& scaled) {
-  std::array<Vector, 4> seen;
+  std::array<IntegerVector, 4> seen;
   for (std::size_t k = 0; k < 4; ++k) seen[k] = scaled(vertices[k]) - scaled(node);
   return seen;
 }
@@ -67,7 +67,7 @@ bool SquaredDistance::at_least(double distance) const {
 
 SquaredDistance to_triangle(const Eigen::Vector3d& node, const std::array<Eigen::Vector3d, 3>& vertices) {
   const Scaled scaled = scaled_for(node, vertices);
-  const Vector origin = scaled(node);
+  const IntegerVector origin = scaled(node);
   const Fraction square = squared_to_triangle(scaled(vertices[0]) - origin, scaled(vertices[1]) - origin,
                                               scaled(vertices[2]) - origin);
   return {square.numerator, square.denominator, scaled};
@@ -84,15 +84,15 @@ SquaredDistance to_hull_surface(const Eigen::Vector3d& node, const FaceVertices&
 
 SquaredDistance between_segments(const Segment& a, const Segment& b) {
   Scaled scaled = scaled_for(a[0], std::array<Eigen::Vector3d, 3>{a[1], b[0], b[1]});
-  const Vector a0 = scaled(a[0]);
-  const Vector a1 = scaled(a[1]);
-  const Vector b0 = scaled(b[0]);
-  const Vector b1 = scaled(b[1]);
+  const IntegerVector a0 = scaled(a[0]);
+  const IntegerVector a1 = scaled(a[1]);
+  const IntegerVector b0 = scaled(b[0]);
+  const IntegerVector b1 = scaled(b[1]);
   Fraction best = std::min({squared_to_segment(a0 - b0, a0 - b1), squared_to_segment(a1 - b0, a1 - b1),
                             squared_to_segment(a0 - b0, a1 - b0), squared_to_segment(a0 - b1, a1 - b1)});
-  const Vector along_a = a1 - a0;
-  const Vector along_b = b1 - b0;
-  const Vector normal = cross(along_a, along_b);
+  const IntegerVector along_a = a1 - a0;
+  const IntegerVector along_b = b1 - b0;
+  const IntegerVector normal = cross(along_a, along_b);
   const Integer square = dot(normal, normal);
   if (square > 0) {
     const Integer s = dot(normal, cross(along_b, a0 - b0));
@@ -111,7 +111,7 @@ bool is_inside_hull(const Eigen::Vector3d& node, const FaceVertices& vertices, d
   const Integer volumes[4] = {dot(cross(x[1], x[2]), x[3]), -dot(cross(x[0], x[2]), x[3]),
                               dot(cross(x[0], x[1]), x[3]), -dot(cross(x[0], x[1]), x[2])};
   Integer largest = 0;
-  for (const Vector& v : x)
+  for (const IntegerVector& v : x)
     for (const Integer& component : v) largest = std::max(largest, Integer(abs(component)));
   const auto parts = static_cast<long>(share * 0x1p53);
   Integer least = largest * largest * largest * parts;
@@ -134,7 +134,7 @@ bool separated_by(const Eigen::Vector3d& d, const std::vector<Eigen::Vector3d>& 
   direction.note(d);
   for (const auto* points : {&first, &second})
     for (const Eigen::Vector3d& point : *points) scaled.note(point);
-  const Vector along = direction(d);
+  const IntegerVector along = direction(d);
   Integer least = dot(along, scaled(first[0]));
   for (const Eigen::Vector3d& p : first) least = std::min(least, dot(along, scaled(p)));
   Integer greatest = dot(along, scaled(second[0]));

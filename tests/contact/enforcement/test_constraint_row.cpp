@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "contact/enforcement/booking.hpp"
-#include "contact/enforcement/target_velocity.hpp"
 #include "tests/contact/enforcement/row_scenes.hpp"
 
 namespace brio {
@@ -172,20 +171,6 @@ TEST_F(Rows, PiecesJoinInTheirOrder) {
     EXPECT_EQ(norm(RowMap(one_by_one, one_by_one.row[i]).velocity(velocity_of) - expected), 0);
     EXPECT_EQ(all.row[i].gap, pieces[i / 5].row[i % 5].gap);
   }
-}
-
-TEST(TargetVelocity, GapsCloseAndOverlapsOpenALittle) {
-  const Recovery recovery{.share = 0.1, .deep = 0.1, .cap = 1e-3};
-  EXPECT_DOUBLE_EQ(target_velocity(recovery, 0.02, 5, 1, 0.5), -0.04);
-  EXPECT_DOUBLE_EQ(target_velocity(recovery, -0.005, 1e-9, 1, 0.5), 0.1 * 0.05 * 0.005 / 0.5);
-  EXPECT_DOUBLE_EQ(target_velocity(recovery, -0.3, 1e-9, 1, 0.5), 1e-3 / 0.5);
-  // Under load by as much less as it carries more than the mass gains by it.
-  EXPECT_DOUBLE_EQ(target_velocity(recovery, -0.3, 4 * 2 * 1e-3 / 0.5, 2, 0.5), 0.25 * 1e-3 / 0.5);
-  const double shallow = 0.1 * 0.05 * 0.005 / 0.5;
-  EXPECT_DOUBLE_EQ(target_velocity(recovery, -0.005, 4 * 2 * shallow, 2, 0.5), 0.25 * shallow);
-  EXPECT_EQ(target_velocity(recovery, -0.005, 0, 1, 0.5), 0)
-      << "what carries nothing yet may be under any load";
-  EXPECT_EQ(target_velocity(recovery, -0.3, 1, 0, 0.5), 0);
 }
 
 // What motion gains is the work of rows and of supports together; walls' reactions are what blocks lack.

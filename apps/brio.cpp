@@ -17,7 +17,7 @@
 #include "io/closest_word.hpp"
 #include "io/deck_error.hpp"
 #include "io/file_error.hpp"
-#include "src/breakdown.hpp"
+#include "src/base/breakdown.hpp"
 
 namespace {
 

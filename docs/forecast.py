@@ -106,7 +106,7 @@ those of the run, and time likewise; **bold** is beyond {TOLERANCE['steps']} % o
 
 {budgets}
 
-How it is done stands in src/forecast.hpp. What cannot be known from a coarser mesh and some of the steps is where the finer mesh folds, tears
+How it is done stands in src/forecast/forecast.hpp. What cannot be known from a coarser mesh and some of the steps is where the finer mesh folds, tears
 and is crushed in another way; more of the steps is what helps.
 
 {chr(10).join(head + [row(n, all_measured[n]) for n in shipped])}

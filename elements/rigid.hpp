@@ -1,6 +1,6 @@
 #pragma once
 /// A part that does not deform: what a deck says of it. It has no block and no stress; how it moves is in
-/// src/rigid.hpp.
+/// src/motion/rigid.hpp.
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "io/check_deck.hpp"
 
-#include "src/observe.hpp"
+#include "src/output/observe.hpp"
 
 namespace brio {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/forecast_deck.hpp"
-#include "src/built_features.hpp"
-#include "src/warnings.hpp"
+#include "src/forecast/built_features.hpp"
+#include "src/forecast/warnings.hpp"
 
 namespace brio {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "src/deck.hpp"
+#include "src/deck/deck.hpp"
 
 namespace brio {
 

@@ -7,9 +7,9 @@
 #include "io/deck_error.hpp"
 #include "io/file_error.hpp"
 #include "io/run_deck.hpp"
-#include "src/advance.hpp"
-#include "src/coarser.hpp"
-#include "src/output_schedule.hpp"
+#include "src/forecast/coarser.hpp"
+#include "src/output/output_schedule.hpp"
+#include "src/step/advance.hpp"
 
 namespace brio {
 

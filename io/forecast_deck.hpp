@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "io/output_cost.hpp"
-#include "src/forecast.hpp"
-#include "src/memory.hpp"
+#include "src/forecast/forecast.hpp"
+#include "src/forecast/memory.hpp"
 
 namespace brio {
 

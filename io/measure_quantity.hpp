@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/study.hpp"
+#include "src/forecast/study.hpp"
 
 namespace brio {
 

@@ -11,8 +11,8 @@
 #include <system_error>
 
 #include "io/write_results.hpp"
-#include "src/observe.hpp"
-#include "src/output_schedule.hpp"
+#include "src/output/observe.hpp"
+#include "src/output/output_schedule.hpp"
 
 namespace brio {
 

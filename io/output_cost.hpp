@@ -1,9 +1,9 @@
 #pragma once
 /// What output costs, measured: a few dumps into a folder for temporary files, which is removed.
 
-#include "src/deck.hpp"
-#include "src/model.hpp"
-#include "src/snapshot.hpp"
+#include "src/deck/deck.hpp"
+#include "src/model/model.hpp"
+#include "src/output/snapshot.hpp"
 
 namespace brio {
 

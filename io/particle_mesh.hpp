@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "src/deck.hpp"
-#include "src/mesh.hpp"
+#include "src/deck/deck.hpp"
+#include "src/deck/mesh.hpp"
 
 namespace brio {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/deck_error.hpp"
-#include "src/deck.hpp"
+#include "src/deck/deck.hpp"
 
 namespace brio {
 

@@ -14,7 +14,7 @@
 
 #include "io/closest_word.hpp"
 #include "io/yaml_source.hpp"
-#include "src/deck.hpp"
+#include "src/deck/deck.hpp"
 
 namespace brio {
 

@@ -12,7 +12,7 @@
 #include "io/dump_checksums.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/text_file.hpp"
-#include "src/snapshot.hpp"
+#include "src/output/snapshot.hpp"
 
 namespace brio {
 namespace {

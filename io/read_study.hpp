@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/deck_error.hpp"
-#include "src/study.hpp"
+#include "src/forecast/study.hpp"
 
 namespace brio {
 

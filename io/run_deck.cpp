@@ -10,12 +10,12 @@
 #include "io/read_deck.hpp"
 #include "io/scene_size.hpp"
 #include "io/write_results.hpp"
-#include "src/advance.hpp"
-#include "src/build.hpp"
-#include "src/diagnosis.hpp"
-#include "src/observe.hpp"
-#include "src/output_schedule.hpp"
-#include "src/run_warnings.hpp"
+#include "src/build/build.hpp"
+#include "src/output/observe.hpp"
+#include "src/output/output_schedule.hpp"
+#include "src/output/run_warnings.hpp"
+#include "src/step/advance.hpp"
+#include "src/step/diagnosis.hpp"
 
 namespace brio {
 

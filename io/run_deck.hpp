@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "src/base/parallel.hpp"
-#include "src/deck.hpp"
-#include "src/model.hpp"
-#include "src/summary.hpp"
+#include "src/deck/deck.hpp"
+#include "src/model/model.hpp"
+#include "src/output/summary.hpp"
 
 namespace brio {
 

@@ -17,7 +17,7 @@
 #include <system_error>
 
 #include "io/text_file.hpp"
-#include "src/memory.hpp"
+#include "src/forecast/memory.hpp"
 
 namespace brio {
 

@@ -21,7 +21,7 @@
 #include "io/run_processes.hpp"
 #include "io/text_file.hpp"
 #include "io/utf8.hpp"
-#include "src/pareto.hpp"
+#include "src/forecast/pareto.hpp"
 
 namespace brio {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/folder_lock.hpp"
-#include "src/study.hpp"
+#include "src/forecast/study.hpp"
 
 namespace brio {
 

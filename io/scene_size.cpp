@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "io/deck_error.hpp"
-#include "src/build.hpp"
-#include "src/memory.hpp"
+#include "src/build/build.hpp"
+#include "src/forecast/memory.hpp"
 
 namespace brio {
 

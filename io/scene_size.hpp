@@ -1,7 +1,7 @@
 #pragma once
 /// How large a scene is, told from its deck before anything of it is made.
 
-#include "src/deck.hpp"
+#include "src/deck/deck.hpp"
 
 namespace brio {
 

@@ -13,7 +13,7 @@
 #include "io/condition_words.hpp"
 #include "io/read_fields.hpp"
 #include "src/base/floating_point.hpp"
-#include "src/deck.hpp"
+#include "src/deck/deck.hpp"
 
 namespace brio {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/mesh.hpp"
+#include "src/deck/mesh.hpp"
 
 namespace brio {
 

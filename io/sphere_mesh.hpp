@@ -1,7 +1,7 @@
 #pragma once
 /// Meshes of solid and hollow spheres, from the six sides of a cube.
 
-#include "src/mesh.hpp"
+#include "src/deck/mesh.hpp"
 
 namespace brio {
 

@@ -1,6 +1,6 @@
 #include "io/schema_of.hpp"
 #include "io/write_schema.hpp"
-#include "src/study.hpp"
+#include "src/forecast/study.hpp"
 
 namespace brio {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/history.hpp"
+#include "src/output/history.hpp"
 
 namespace brio {
 

@@ -22,10 +22,10 @@
 #include "io/folder_lock.hpp"
 #include "io/write_vtkhdf.hpp"
 #include "io/write_xdmf.hpp"
-#include "src/deck.hpp"
-#include "src/history.hpp"
-#include "src/snapshot.hpp"
-#include "src/summary.hpp"
+#include "src/deck/deck.hpp"
+#include "src/output/history.hpp"
+#include "src/output/snapshot.hpp"
+#include "src/output/summary.hpp"
 
 namespace brio {
 

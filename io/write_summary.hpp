@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "src/summary.hpp"
+#include "src/output/summary.hpp"
 
 namespace brio {
 

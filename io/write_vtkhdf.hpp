@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "src/snapshot.hpp"
+#include "src/output/snapshot.hpp"
 
 namespace brio {
 

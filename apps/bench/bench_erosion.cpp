@@ -14,8 +14,8 @@
 #include <random>
 #include <string_view>
 
-#include "src/advance.hpp"
-#include "src/build.hpp"
+#include "src/build/build.hpp"
+#include "src/step/advance.hpp"
 
 namespace {
 

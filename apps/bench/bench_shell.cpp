@@ -19,8 +19,8 @@
 
 #include "apps/bench/wanted.hpp"
 #include "elements/block.hpp"
-#include "src/motion.hpp"
-#include "src/schedule.hpp"
+#include "src/motion/motion.hpp"
+#include "src/sweep/schedule.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/erosion.hpp"
+#include "src/sweep/erosion.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio::test {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/sphere_mesh.hpp"
-#include "src/mesh.hpp"
+#include "src/deck/mesh.hpp"
 
 namespace brio::test {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "io/generate_mesh.hpp"
-#include "src/advance.hpp"
-#include "src/build.hpp"
+#include "src/build/build.hpp"
+#include "src/step/advance.hpp"
 
 namespace brio::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "src/observe.hpp"
+#include "src/output/observe.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/core/scene.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "src/observe.hpp"
+#include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {

@@ -1,6 +1,6 @@
 // Deletion of elements: in which order, what the books say, and what flies on.
 
-#include "src/erosion.hpp"
+#include "src/sweep/erosion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <set>
 
-#include "src/observe.hpp"
+#include "src/output/observe.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/core/erosion_scene.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "src/build.hpp"
+#include "src/build/build.hpp"
 #include "tests/core/extremes.hpp"
 
 namespace brio {

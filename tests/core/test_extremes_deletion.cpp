@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/build.hpp"
+#include "src/build/build.hpp"
 #include "tests/core/extremes.hpp"
 
 namespace brio {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "src/build.hpp"
+#include "src/build/build.hpp"
 #include "tests/core/extremes.hpp"
 
 namespace brio {

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "src/coarser.hpp"
-#include "src/forecast.hpp"
-#include "src/memory.hpp"
-#include "src/output_schedule.hpp"
+#include "src/forecast/coarser.hpp"
+#include "src/forecast/forecast.hpp"
+#include "src/forecast/memory.hpp"
+#include "src/output/output_schedule.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {

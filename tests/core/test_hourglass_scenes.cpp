@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/run_warnings.hpp"
+#include "src/output/run_warnings.hpp"
 #include "tests/core/particle_scene.hpp"
 
 namespace brio::test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/step_size.hpp"
+#include "src/sweep/step_size.hpp"
 #include "tests/core/extremes.hpp"
 
 namespace brio {

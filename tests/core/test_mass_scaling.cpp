@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "src/breakdown.hpp"
-#include "src/observe.hpp"
+#include "src/base/breakdown.hpp"
+#include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {

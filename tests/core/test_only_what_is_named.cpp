@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "src/observe.hpp"
+#include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {

@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "src/output_schedule.hpp"
+#include "src/output/output_schedule.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "src/run_warnings.hpp"
+#include "src/output/run_warnings.hpp"
 #include "tests/core/particle_scene.hpp"
 
 namespace brio::test {

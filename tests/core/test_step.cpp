@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "src/observe.hpp"
+#include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {

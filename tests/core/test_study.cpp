@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "src/pareto.hpp"
-#include "src/study.hpp"
+#include "src/forecast/pareto.hpp"
+#include "src/forecast/study.hpp"
 
 namespace brio {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "contact/surface/face_geometry.hpp"
-#include "src/build_ties.hpp"
-#include "src/observe.hpp"
+#include "src/build/build_ties.hpp"
+#include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 #include "tests/core/tied_scene.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "contact/surface/face_geometry.hpp"
-#include "src/observe.hpp"
+#include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 #include "tests/core/tied_scene.hpp"
 

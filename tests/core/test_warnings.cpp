@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "src/built_features.hpp"
-#include "src/warnings.hpp"
+#include "src/forecast/built_features.hpp"
+#include "src/forecast/warnings.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {

@@ -9,7 +9,7 @@
 
 #include <unistd.h>
 
-#include "src/snapshot.hpp"
+#include "src/output/snapshot.hpp"
 
 namespace brio::test {
 

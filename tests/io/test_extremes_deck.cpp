@@ -17,8 +17,8 @@
 #include "io/generate_mesh.hpp"
 #include "io/read_deck.hpp"
 #include "io/run_deck.hpp"
-#include "src/advance.hpp"
-#include "src/build.hpp"
+#include "src/build/build.hpp"
+#include "src/step/advance.hpp"
 #include "tests/io/deck_text.hpp"
 #include "tests/io/text_of.hpp"
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "io/generate_mesh.hpp"
-#include "src/mass_properties.hpp"
+#include "src/build/mass_properties.hpp"
 
 namespace brio {
 namespace {

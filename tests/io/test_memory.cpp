@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "src/memory.hpp"
+#include "src/forecast/memory.hpp"
 
 namespace brio {
 namespace {

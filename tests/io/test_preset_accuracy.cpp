@@ -8,7 +8,7 @@
 
 #include "io/read_deck.hpp"
 #include "io/run_deck.hpp"
-#include "src/advance.hpp"
+#include "src/step/advance.hpp"
 
 namespace brio {
 namespace {

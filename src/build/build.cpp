@@ -1,0 +1,405 @@
+#include "src/build/build.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "elements/bad_element.hpp"
+#include "src/build/build_rigid.hpp"
+#include "src/build/build_ties.hpp"
+#include "src/build/contact_thickness.hpp"
+#include "src/build/contradictory_motions.hpp"
+#include "src/build/merge.hpp"
+#include "src/build/motion_through_walls.hpp"
+#include "src/build/wall_overlap.hpp"
+#include "src/deck/part_index.hpp"
+#include "src/sweep/particles.hpp"
+
+namespace brio {
+
+bool is_in_contact(const Deck& deck, const std::string& part) {
+  if (!deck.contact) return false;
+  const auto named = [&](const std::vector<std::string>& list) {
+    return std::find(list.begin(), list.end(), part) != list.end();
+  };
+  return (deck.contact->surfaces.empty() || named(deck.contact->surfaces)) && !named(deck.contact->exclude);
+}
+
+namespace {
+
+const Material& law_of(const Part& part, const Deck& deck) {
+  if (const Material* material = material_of(deck, part)) return *material;
+  throw BuildError("part '" + part.name + "': no material is named '" + part.material + "'", part.place);
+}
+
+// Elements in memory order, with nodes numbered in the order in which those elements first touch them.
+// \return the number of nodes.
+std::size_t place_parts(const Deck& deck, std::span<const Mesh> meshes, const SharedNodes& shared,
+                        Model& model, std::vector<std::vector<int>>& connectivity) {
+  int next = 0;
+  std::size_t offset = 0;  // of the part among the nodes of all meshes
+  std::vector<int> number(shared.same_as.size(), -1);
+  const auto number_of = [&](std::size_t node) {
+    if (shared.same_as.empty()) return next++;
+    int& found = number[shared.same_as[offset + node]];
+    if (found < 0) found = next++;
+    return found;
+  };
+  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+    const Mesh& mesh = meshes[p];
+    const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+    PartInModel part;
+    part.name = deck.parts[p].name;
+    part.block = p;
+    part.element_order = locality_order(mesh.position, mesh.connectivity, mesh.nodes_per_element);
+    part.element_slot.resize(part.element_order.size());
+    part.node.assign(mesh.position.size(), -1);
+    std::vector<int> nodes;
+    for (std::size_t slot = 0; slot < part.element_order.size(); ++slot) {
+      const auto e = static_cast<std::size_t>(part.element_order[slot]);
+      part.element_slot[e] = static_cast<int>(slot);
+      for (std::size_t corner = 0; corner < corners; ++corner) {
+        const auto corner_node = static_cast<std::size_t>(mesh.connectivity[e * corners + corner]);
+        int& node = part.node[corner_node];
+        if (node < 0) node = number_of(corner_node);
+        nodes.push_back(node);
+      }
+    }
+    for (int node : part.node)
+      if (node < 0)
+        throw BuildError("part '" + part.name + "' has a node that belongs to no element",
+                         deck.parts[p].place);
+    connectivity.push_back(std::move(nodes));
+    model.part_number.emplace(part.name, p);
+    model.parts.push_back(std::move(part));
+    offset += mesh.position.size();
+  }
+  return static_cast<std::size_t>(next);
+}
+
+void fill_nodes(const Deck& deck, std::span<const Mesh> meshes, const SharedNodes& shared, std::size_t count,
+                Model& model) {
+  const bool turning = std::any_of(deck.parts.begin(), deck.parts.end(),
+                                   [](const Part& part) { return has_rotations(part.element); });
+  model.nodes = Nodes(count, turning);
+  std::size_t offset = 0;
+  for (std::size_t p = 0; p < meshes.size(); ++p) {
+    for (std::size_t i = 0; i < meshes[p].position.size(); ++i) {
+      if (!shared.same_as.empty() && shared.same_as[offset + i] != offset + i) continue;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        model.nodes.record[static_cast<std::size_t>(model.parts[p].node[i])].position[axis] =
+            meshes[p].position[i][axis];
+    }
+    offset += meshes[p].position.size();
+  }
+}
+
+void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connectivity, Model& model) {
+  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+    const Part& part = deck.parts[p];
+    if (std::holds_alternative<Rigid>(part.element)) {
+      Block& nothing = model.blocks.emplace_back();
+      nothing.part = part.name;
+      nothing.element = part.element;
+      continue;
+    }
+    try {
+      model.blocks.push_back(make_block(part.name, part.element, law_of(part, deck), deck.numerics.precision,
+                                        connectivity[p], part.deletion));
+    } catch (const std::invalid_argument& fault) {
+      throw BuildError("part '" + part.name + "': " + fault.what(), part.place);
+    }
+  }
+}
+
+// By place in the block.
+std::vector<double> particle_volumes(const Mesh& mesh, const PartInModel& part) {
+  std::vector<double> volume;
+  for (const int e : part.element_order) volume.push_back(mesh.volume[static_cast<std::size_t>(e)]);
+  return volume;
+}
+
+void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  Nodes& nodes = model.nodes;
+  for (std::size_t p = 0; p < model.blocks.size(); ++p) {
+    if (model.parts[p].rigid >= 0) continue;
+    try {
+      if (!meshes[p].volume.empty())
+        find_neighbours(model.blocks[p], particle_volumes(meshes[p], model.parts[p]), nodes);
+      model.blocks[p].kernel.initialize(model.blocks[p], nodes);
+    } catch (const BadElement& fault) {
+      throw BuildError("element " + std::to_string(model.parts[p].element_order[fault.place]) + " of part '" +
+                           model.parts[p].name + "' " + fault.rule,
+                       deck.parts[p].place);
+    } catch (const std::invalid_argument& fault) {
+      throw BuildError(fault.what(), deck.parts[p].place);
+    }
+  }
+  for (PartInModel& part : model.parts) {
+    const Block& block = model.blocks[part.block];
+    for (std::size_t e = 0; e < block.element_count; ++e) part.mass += block.kernel.mass(block, e);
+  }
+  for (const RigidBody& body : model.rigid.body) model.parts[body.part].mass = body.mass;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes.record[i].inverse_mass = nodes.mass[i] > 0 ? 1 / nodes.mass[i] : 0;
+    if (nodes.has_rotations())
+      nodes.angular_velocity[i].component[3] =
+          nodes.rotational_inertia[i] > 0 ? 1 / nodes.rotational_inertia[i] : 0;
+  }
+}
+
+Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record, const std::string& place) {
+  Vector arm{};
+  for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - radial.point[i];
+  const double along = dot(arm, radial.axis) / dot(radial.axis, radial.axis);
+  for (std::size_t i = 0; i < 3; ++i) arm[i] -= along * radial.axis[i];
+  const double distance = std::sqrt(dot(arm, arm));
+  if (!(distance > 0))
+    throw BuildError("a node on the axis of 'radial' in initial_conditions has no direction to move in",
+                     place);
+  for (double& component : arm) component *= radial.speed / distance;
+  return arm;
+}
+
+void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  for (const InitialCondition& condition : deck.initial_conditions) {
+    std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
+    take_rigid(nodes, condition.where, model);
+    for (int entry : nodes) {
+      const auto node = static_cast<std::size_t>(entry);
+      NodeRecord& record = model.nodes.record[node];
+      Vector velocity = condition.velocity;
+      if (condition.spin) {
+        Vector arm{};
+        for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - condition.spin->point[i];
+        add_to(velocity, cross(condition.spin->angular_velocity, arm));
+        if (model.nodes.has_rotations() && model.nodes.rotational_inertia[node] > 0)
+          for (std::size_t i = 0; i < 3; ++i)
+            model.nodes.angular_velocity[node].component[i] = condition.spin->angular_velocity[i];
+      }
+      if (condition.radial)
+        add_to(velocity, radial_velocity(*condition.radial, record, condition.where.place));
+      for (std::size_t i = 0; i < 3; ++i) record.velocity[i] = velocity[i];
+    }
+  }
+}
+
+Vector unit_normal(const RigidWall& wall) {
+  const Triple& direction = wall.normal;
+  const double size = std::sqrt(dot(direction, direction));
+  if (!(size > 0)) throw BuildError("a rigid wall has a normal without length", wall.place);
+  return {direction[0] / size, direction[1] / size, direction[2] / size};
+}
+
+void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  for (const BoundaryCondition& condition : deck.boundary_conditions) {
+    if (const auto* wall = std::get_if<RigidWall>(&condition)) {
+      model.walls.push_back({*wall});
+      model.walls.back().wall.normal = unit_normal(*wall);
+      continue;
+    }
+    const auto& motion = std::get<PrescribedMotion>(condition);
+    std::vector<int> nodes = select_nodes(motion.where, deck, meshes, model);
+    for (const std::size_t b : take_rigid(nodes, motion.where, model))
+      for (const PrescribedComponent& component : motion.components)
+        model.rigid.body[b].given.push_back({motion.kind, component.axis, component.curve, component.place});
+    if (nodes.empty()) continue;
+    for (const PrescribedComponent& component : motion.components) {
+      if (component.axis >= 3 && !model.nodes.has_rotations()) continue;  // solids have no rotations to hold
+      model.prescribed.push_back({nodes, motion.kind, component.axis, component.curve, component.place});
+      mark(model.prescribed.back(), model.nodes);
+    }
+  }
+}
+
+PressureLoad pressure_on(const Pressure& load_entry, const Deck& deck, std::span<const Mesh> meshes,
+                         const Model& model) {
+  const std::string& side_set = load_entry.side_set;
+  const std::size_t dot_at = side_set.find('.');
+  const std::string name = side_set.substr(0, dot_at);
+  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+    if (deck.parts[p].name != name || dot_at == std::string::npos) continue;
+    const Mesh& mesh = meshes[p];
+    const auto found = mesh.side_sets.find(side_set.substr(dot_at + 1));
+    if (found == mesh.side_sets.end()) break;
+    const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+    PressureLoad load{{}, load_entry.pressure, static_cast<int>(p), {}};
+    for (const ElementSide& side : found->second) {
+      std::array<int, 4> nodes{};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const int corner =
+            corners == 8 ? sides_of_hex[static_cast<std::size_t>(side.side)][k] : static_cast<int>(k);
+        const auto entry =
+            static_cast<std::size_t>(side.element) * corners + static_cast<std::size_t>(corner);
+        nodes[k] = model.parts[p].node[static_cast<std::size_t>(mesh.connectivity[entry])];
+      }
+      load.sides.push_back(nodes);
+      load.element.push_back(side.element);
+    }
+    return load;
+  }
+  throw BuildError("no side set is named '" + side_set + "'", load_entry.place);
+}
+
+double debris_radius(const Part& part) {
+  return part.deletion ? part.deletion->debris_radius.value_or(0) : 0;
+}
+
+void check_debris_in_contact(const Deck& deck) {
+  for (const Part& part : deck.parts)
+    if (debris_radius(part) > 0 && !is_in_contact(deck, part.name))
+      throw BuildError(
+          "part '" + part.name + "' has a debris_radius but is not in contact; accepted are parts that are",
+          part.place);
+}
+
+std::vector<PairRule> pair_rules(const ContactSection& contact, std::span<const SurfacePart> parts) {
+  const auto number = [&](const std::string& name, const ContactPair& pair) {
+    const auto found =
+        std::find_if(parts.begin(), parts.end(), [&](const SurfacePart& part) { return part.name == name; });
+    if (found == parts.end())
+      throw BuildError(
+          "a pair of contact names part '" + name + "', which is not in contact; accepted are parts that are",
+          pair.place);
+    return static_cast<int>(found - parts.begin());
+  };
+  std::vector<PairRule> rules;
+  for (const ContactPair& pair : contact.pairs)
+    rules.push_back({.part = {number(pair.parts[0], pair), number(pair.parts[1], pair)},
+                     .friction = pair.friction,
+                     .touch = pair.touch});
+  return rules;
+}
+
+// Elements start as they are after nodes were moved out of overlaps; mass and inertia of rigid bodies stay.
+void follow_moved_nodes(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  Nodes& nodes = model.nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    nodes.mass[i] = 0;
+    if (nodes.has_rotations()) nodes.rotational_inertia[i] = 0;
+  }
+  for (PartInModel& part : model.parts) part.mass = 0;
+  lump_masses(deck, meshes, model);
+  measure_arms(model);
+}
+
+// Small initial overlaps are removed by moving nodes; elements that are broken were named before.
+void make_contact(const Deck& deck, std::span<const Mesh> meshes,
+                  const std::vector<std::vector<int>>& connectivity, int threads, Model& model) {
+  check_debris_in_contact(deck);
+  if (!deck.contact) return;
+  std::vector<SurfacePart> surfaces;
+  std::vector<int> part_of_surface(deck.parts.size(), -1);
+  if (can_erode(model.blocks))
+    model.surface_numbers = {.part = std::vector<int>(deck.parts.size(), -1),
+                             .element = std::vector<std::vector<int>>(deck.parts.size()),
+                             .deleted = {}};
+  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+    const Part& part = deck.parts[p];
+    if (!is_in_contact(deck, part.name)) continue;
+    part_of_surface[p] = static_cast<int>(surfaces.size());
+    if (model.surface_numbers) {
+      model.surface_numbers->part[p] = part_of_surface[p];
+      model.surface_numbers->element[p] = model.parts[p].element_slot;
+    }
+    surfaces.push_back({.name = part.name,
+                        .nodes_per_element = meshes[p].nodes_per_element,
+                        .connectivity = connectivity[p],
+                        .thickness = contact_thickness(part, meshes[p]),
+                        .rigid = model.parts[p].rigid,
+                        .debris_radius = debris_radius(part)});
+  }
+  try {
+    model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));
+    if (deck.contact->options.audit) model.contact_audits.emplace();
+    const std::vector<PairRule> rules = pair_rules(*deck.contact, surfaces);
+    if (!rules.empty()) model.contacts.back().surface.pairs = {rules, surfaces, model.nodes.size()};
+    if (!model.ties.empty()) hold(model.contacts.back(), model.ties, part_of_surface);
+    if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
+    ThreadTeam team(threads);
+    for (InitialOverlap& overlap : make_initial_gap(model.contacts.back(), model.nodes, team))
+      model.initial_overlaps.push_back(std::move(overlap));
+  } catch (const std::invalid_argument& fault) {
+    throw BuildError(fault.what(), deck.contact->place);
+  } catch (const std::length_error& fault) {
+    throw BuildError(fault.what(), deck.contact->place);
+  }
+}
+
+void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  for (const Load& entry : deck.loads) {
+    if (const auto* gravity = std::get_if<Gravity>(&entry))
+      model.loads.push_back({GravityLoad{gravity->acceleration, gravity->factor}, {}});
+    if (const auto* force = std::get_if<NodalForce>(&entry))
+      model.loads.push_back(
+          {NodalLoad{select_nodes(force->where, deck, meshes, model), force->force, force->factor}, {}});
+    if (const auto* pressure = std::get_if<Pressure>(&entry))
+      model.loads.push_back({pressure_on(*pressure, deck, meshes, model), {}});
+  }
+}
+
+void open_books(Model& model) {
+  if (!model.prescribed.empty() || !model.walls.empty() || !model.contacts.empty())
+    model.nodes.keep_velocities_before();
+  Momentum start = momentum(model.nodes);
+  add_momentum(model.rigid, start);
+  model.momentum.start = model.momentum.now = start.total;
+  model.momentum.linear_scale = start.linear_size;
+  model.momentum.angular_scale = start.angular_size;
+  double energy = kinetic_energy(model.rigid).half;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const double* v = model.nodes.record[i].velocity;
+    energy += 0.5 * model.nodes.mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!model.nodes.has_rotations()) continue;
+    const double* w = model.nodes.angular_velocity[i].component;
+    energy += 0.5 * model.nodes.rotational_inertia[i] * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+  }
+  model.energy.kinetic_start = model.energy.kinetic_half = model.energy.kinetic = energy;
+}
+
+}  // namespace
+
+Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
+  Model model;
+  std::vector<std::vector<int>> connectivity;
+  SharedNodes shared = share_nodes(deck, meshes);
+  const std::size_t node_count = place_parts(deck, meshes, shared, model, connectivity);
+  fill_nodes(deck, meshes, shared, node_count, model);
+  model.merged = std::move(shared.merged);
+  make_blocks(deck, connectivity, model);
+  make_rigid_bodies(deck, meshes, model);
+  constrain(deck, meshes, model);
+  model.initial_overlaps = remove_overlap_with_walls(
+      meshes, (deck.contact ? deck.contact->options : ContactOptions{}).initial_overlap_limit, model);
+  make_ties(deck, meshes, connectivity, model);
+  lump_masses(deck, meshes, model);
+  const std::size_t of_walls = model.initial_overlaps.size();
+  make_contact(deck, meshes, connectivity, threads, model);
+  if (model.initial_overlaps.size() > of_walls) follow_moved_nodes(deck, meshes, model);
+  if (!model.ties.empty()) condense(model.ties, model.nodes);
+  expect_nothing_behind_walls(meshes, model);
+  for (std::size_t b = 0; b < model.blocks.size(); ++b)
+    if (model.blocks[b].cloud && model.blocks[b].cloud->is_eulerian())
+      model.particle_searches.push_back({.block = b});
+  model.schedule = make_schedule(model.blocks, model.nodes.size());
+  model.sweep_results.resize(model.schedule.tasks.size());
+  if (can_erode(model.blocks)) model.erosion = make_erosion(model.blocks, model.nodes.size());
+  model.kinetic_sums.resize(range_count(model.nodes));
+  model.part_energy.resize(model.blocks.size());
+  model.hourglass_warning = deck.numerics.hourglass_warning;
+  model.control.settings = deck.time;
+  if (deck.time.mass_scaling)
+    model.added_mass = make_mass_scaling(deck.time, deck, model.blocks, model.parts);
+  set_initial_velocities(deck, meshes, model);
+  start_ties(model);
+  start_rigid_bodies(deck, meshes, model);
+  refuse_contradictory_motions(model);
+  refuse_motions_through_walls(model);
+  load(deck, meshes, model);
+  model.extent = scene_extent(model.nodes);
+  open_books(model);
+  model.probes = place_probes(deck, model.parts, model.nodes);
+  return model;
+}
+
+}  // namespace brio

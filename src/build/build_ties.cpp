@@ -1,0 +1,285 @@
+#include "src/build/build_ties.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "contact/search/global_search.hpp"
+#include "contact/surface/face_geometry.hpp"
+#include "src/build/build.hpp"
+#include "src/deck/part_index.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// What lies beyond an edge counts so many times its distance.
+constexpr double beyond_weight = 2;
+/// Weights below this are rounding of 0: such corners hold nothing.
+constexpr double held_weight = 1e-9;
+/// Initial velocities of a node and its face may differ by this share of the fastest corner: rounding.
+constexpr double same_velocity = 1e-9;
+
+std::string at(const Nodes& nodes, int node) {
+  const Vector3d x = position(nodes, node);
+  std::ostringstream text;
+  text << "at (" << x[0] << ", " << x[1] << ", " << x[2] << ")";
+  return text.str();
+}
+
+/// Faces of one part and the nodes that may be near them.
+struct Holder {
+  std::size_t part;
+  Surface surface;
+  double half_thickness;
+  bool turning;
+};
+
+Holder holder_of(std::size_t p, const Deck& deck, std::span<const Mesh> meshes,
+                 std::span<const std::vector<int>> connectivity, const Model& model) {
+  SurfacePart surface;
+  surface.name = deck.parts[p].name;
+  surface.nodes_per_element = meshes[p].nodes_per_element;
+  surface.connectivity = connectivity[p];
+  const auto* shell = std::get_if<Shell4>(&deck.parts[p].element);
+  if (shell != nullptr) surface.thickness.assign(meshes[p].element_count(), shell->thickness);
+  return {.part = p,
+          .surface = make_surface(std::span(&surface, 1), model.nodes.size()),
+          .half_thickness = shell != nullptr ? 0.5 * shell->thickness : 0,
+          .turning = shell != nullptr};
+}
+
+CandidatePairs find_near(const Holder& holder, std::span<const int> slaves, double tolerance,
+                         const Nodes& nodes) {
+  std::vector<Vector3<double>> points;
+  for (int node : slaves) {
+    const Vector3d x = position(nodes, node);
+    points.push_back({x[0], x[1], x[2]});
+  }
+  std::vector<CaptureBox> boxes;
+  for (const Face& face : holder.surface.face) {
+    const FaceVertices corners = vertices(nodes, face);
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& corner : corners) box.extend(corner);
+    const double reach = tolerance + holder.half_thickness + 2 * beyond_edge * box.diagonal().norm();
+    CaptureBox& grown = boxes.emplace_back();
+    for (int axis = 0; axis < 3; ++axis) {
+      grown.lower[axis] = box.min()[axis] - reach;
+      grown.upper[axis] = box.max()[axis] + reach;
+    }
+  }
+  CandidatePairs pairs;
+  SearchCounts counts;
+  ThreadTeam team(1);
+  GlobalSearch search;
+  search.find(points, boxes, team, pairs, counts);
+  return pairs;
+}
+
+struct Found {
+  Tie tie;
+  int face = -1;
+  double distance = 0;  ///< from the surface
+  double rank = 0;      ///< the same, more beyond an edge
+};
+
+// Of each slave: the closest face within the tolerance, the first of those as close.
+std::vector<Found> closest_faces(const Holder& holder, std::span<const int> slaves, double tolerance,
+                                 const Nodes& nodes) {
+  std::vector<Found> closest(slaves.size());
+  const CandidatePairs pairs = find_near(holder, slaves, tolerance, nodes);
+  for (std::size_t f = 0; f < holder.surface.face.size(); ++f) {
+    const Face& face = holder.surface.face[f];
+    const FaceVertices corners = vertices(nodes, face);
+    for (int s : pairs.of_box(f)) {
+      const int node = slaves[static_cast<std::size_t>(s)];
+      std::optional<Tie> tie = project(position(nodes, node), corners);
+      if (!tie) continue;
+      const double distance = std::max(std::abs(tie->gap) - holder.half_thickness, 0.0);
+      if (!(distance <= tolerance)) continue;
+      const double outside = -std::min(*std::min_element(tie->weight.begin(), tie->weight.end()), 0.0);
+      const double rank = distance + beyond_weight * outside * (corners[2] - corners[0]).norm();
+      Found& best = closest[static_cast<std::size_t>(s)];
+      if (best.face >= 0 && !(rank < best.rank)) continue;
+      tie->node = node;
+      tie->corner = face.node;
+      if (holder.turning) {
+        tie->turning = true;
+        tie->arm = position(nodes, node) - point_on(*tie, corners);
+        if (tie->gap == 0) tie->arm.setZero();
+        tie->gap = 0;
+      }
+      best = {*tie, static_cast<int>(f), distance, rank};
+    }
+  }
+  return closest;
+}
+
+class Tying {
+ public:
+  Tying(const Deck& deck, std::span<const Mesh> meshes, std::span<const std::vector<int>> connectivity,
+        Model& model)
+      : deck_(deck), meshes_(meshes), connectivity_(connectivity), model_(model) {}
+
+  void add(const TieToSurface& entry) {
+    if (index_of_.empty()) index_of_.assign(model_.nodes.size(), -1);
+    const Holder holder = holder_of(part_index(entry.names[1], deck_), deck_, meshes_, connectivity_, model_);
+    NodeSelection named;
+    named.set = entry.names[0];
+    named.place = entry.place;
+    std::vector<int> slaves = select_nodes(named, deck_, meshes_, model_);
+    std::vector<int> own = model_.parts[holder.part].node;
+    std::sort(own.begin(), own.end());
+    std::erase_if(slaves, [&](int node) { return std::binary_search(own.begin(), own.end(), node); });
+
+    TiedParts parts{.nodes = entry.names[0], .surface = entry.names[1], .place = entry.place};
+    for (const Found& found : closest_faces(holder, slaves, entry.tolerance, model_.nodes)) {
+      if (found.face < 0) continue;
+      hold(found, holder, entry);
+      ++parts.count;
+      parts.largest_gap = std::max(parts.largest_gap, found.distance);
+    }
+    if (parts.count == 0) {
+      std::ostringstream fault;
+      fault << "no node of '" << parts.nodes << "' lies within " << entry.tolerance << " of the surface of '"
+            << parts.surface << "'; at least one is expected";
+      throw BuildError(fault.str(), entry.place);
+    }
+    model_.ties.found.push_back(std::move(parts));
+  }
+
+  /// Held nodes before those that hold them.
+  void sort() {
+    std::vector<std::uint8_t> seen(model_.ties.node.size(), 0);
+    for (int i = 0; i < static_cast<int>(seen.size()); ++i) visit(i, seen);
+    std::vector<TiedNode> ordered;
+    for (std::size_t i = order_.size(); i-- > 0;)
+      ordered.push_back(model_.ties.node[static_cast<std::size_t>(order_[i])]);
+    model_.ties.node = std::move(ordered);
+  }
+
+ private:
+  void hold(const Found& found, const Holder& holder, const TieToSurface& entry) {
+    const int node = found.tie.node;
+    int& index = index_of_[static_cast<std::size_t>(node)];
+    if (index >= 0) {
+      const TiedParts& first =
+          model_.ties
+              .found[static_cast<std::size_t>(model_.ties.node[static_cast<std::size_t>(index)].connection)];
+      throw BuildError("a node of '" + entry.names[0] + "' " + at(model_.nodes, node) + " is tied to '" +
+                           first.surface + "' already; accepted is one tie a node",
+                       entry.place);
+    }
+    index = static_cast<int>(model_.ties.node.size());
+    const int slot = holder.surface.face[static_cast<std::size_t>(found.face)].element;
+    model_.ties.node.push_back(
+        {.tie = found.tie,
+         .face_part = static_cast<int>(holder.part),
+         .element = model_.parts[holder.part].element_order[static_cast<std::size_t>(slot)],
+         .connection = static_cast<int>(model_.ties.found.size())});
+  }
+
+  enum : std::uint8_t { unseen, open, done };
+
+  void visit(int i, std::vector<std::uint8_t>& seen) {
+    std::uint8_t& state = seen[static_cast<std::size_t>(i)];
+    if (state == done) return;
+    const TiedNode& held = model_.ties.node[static_cast<std::size_t>(i)];
+    if (state == open) {
+      const TiedParts& parts = model_.ties.found[static_cast<std::size_t>(held.connection)];
+      throw BuildError("a node of '" + parts.nodes + "' " + at(model_.nodes, held.tie.node) +
+                           " would be held by a face that it holds itself; accepted are ties that do not go "
+                           "round in a circle",
+                       parts.place);
+    }
+    state = open;
+    for (int corner : held.tie.corner)
+      if (const int next = index_of_[static_cast<std::size_t>(corner)]; next >= 0) visit(next, seen);
+    seen[static_cast<std::size_t>(i)] = done;
+    order_.push_back(i);
+  }
+
+  const Deck& deck_;
+  std::span<const Mesh> meshes_;
+  std::span<const std::vector<int>> connectivity_;
+  Model& model_;
+  std::vector<int> index_of_;  // of each node: its place in ties.node, or -1
+  std::vector<int> order_;
+};
+
+bool same_motion(const PrescribedNodes& a, const PrescribedNodes& b) {
+  return a.kind == b.kind && a.axis == b.axis && a.curve.points == b.curve.points;
+}
+
+bool all_corners_follow(const Tie& tie, const PrescribedNodes& motion,
+                        std::span<const PrescribedNodes> prescribed) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (std::abs(tie.weight[k]) < held_weight) continue;
+    const bool follows = std::any_of(prescribed.begin(), prescribed.end(), [&](const PrescribedNodes& other) {
+      return same_motion(motion, other) &&
+             std::binary_search(other.nodes.begin(), other.nodes.end(), tie.corner[k]);
+    });
+    if (!follows) return false;
+  }
+  return true;
+}
+
+// A support of a held node is one too many: it is left out where the corners have the same, so that planes of
+// symmetry may cut ties.
+void release_supports(const Ties& ties, Model& model) {
+  if (model.prescribed.empty()) return;
+  const std::vector<PrescribedNodes> given = model.prescribed;
+  for (const TiedNode& held : ties.node) {
+    const int node = held.tie.node;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      const int axis = given[i].axis;
+      if (axis >= 3 && !held.tie.turning) continue;
+      if (!std::binary_search(given[i].nodes.begin(), given[i].nodes.end(), node)) continue;
+      const TiedParts& parts = ties.found[static_cast<std::size_t>(held.connection)];
+      if (!all_corners_follow(held.tie, given[i], given))
+        throw BuildError("the motion of a node of '" + parts.nodes + "' " + at(model.nodes, node) +
+                             " is prescribed, but not that of the face of '" + parts.surface +
+                             "' that holds it; accepted: the same for both",
+                         parts.place);
+      std::erase(model.prescribed[i].nodes, node);
+      model.nodes.prescribed[static_cast<std::size_t>(node)] &= static_cast<std::uint8_t>(~(1 << axis));
+    }
+  }
+}
+
+}  // namespace
+
+void make_ties(const Deck& deck, std::span<const Mesh> meshes, std::span<const std::vector<int>> connectivity,
+               Model& model) {
+  Tying tying(deck, meshes, connectivity, model);
+  for (const Connection& connection : deck.connections)
+    if (const auto* entry = std::get_if<TieToSurface>(&connection)) tying.add(*entry);
+  if (model.ties.empty()) return;
+  tying.sort();
+  number(model.ties, model.nodes.size());
+  release_supports(model.ties, model);
+}
+
+void start_ties(Model& model) {
+  Ties& ties = model.ties;
+  if (ties.empty()) return;
+  Nodes& nodes = model.nodes;
+  std::vector<Vector3d> given;
+  for (const TiedNode& held : ties.node) given.push_back(velocity(nodes, held.tie.node));
+  carry_velocities(ties, nodes, 0);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const Tie& tie = ties.node[i].tie;
+    double fastest = given[i].norm();
+    for (int corner : tie.corner) fastest = std::max(fastest, velocity(nodes, corner).norm());
+    if ((given[i] - velocity(nodes, tie.node)).norm() <= same_velocity * fastest) continue;
+    const TiedParts& parts = ties.found[static_cast<std::size_t>(ties.node[i].connection)];
+    throw BuildError("a node of '" + parts.nodes + "' " + at(nodes, tie.node) +
+                         " starts with another velocity than the face of '" + parts.surface +
+                         "' that holds it; accepted: initial conditions that move both alike",
+                     parts.place);
+  }
+}
+
+}  // namespace brio

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cmath>
+
+#include "src/build/build.hpp"
+#include "src/deck/part_index.hpp"
+
+namespace brio {
+
+namespace {
+
+bool inside(const std::monostate&, const Vector&) { return true; }
+bool inside(const BoxRegion& box, const Vector& x) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (x[i] < box.lower[i] || x[i] > box.upper[i]) return false;
+  return true;
+}
+bool inside(const PlaneRegion& plane, const Vector& x) {
+  double height = 0;
+  for (std::size_t i = 0; i < 3; ++i) height += plane.normal[i] * (x[i] - plane.point[i]);
+  return std::abs(height) <= plane.tolerance * std::sqrt(dot(plane.normal, plane.normal));
+}
+bool inside(const SphereRegion& sphere, const Vector& x) {
+  double distance = 0;
+  for (std::size_t i = 0; i < 3; ++i) distance += (x[i] - sphere.centre[i]) * (x[i] - sphere.centre[i]);
+  return distance <= sphere.radius * sphere.radius;
+}
+
+}  // namespace
+
+std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std::span<const Mesh> meshes,
+                              const Model& model) {
+  std::vector<int> chosen;
+  if (!where.set.empty()) {
+    const std::size_t dot_at = where.set.find('.');
+    const std::string name = where.set.substr(0, dot_at);
+    const auto numbered = model.part_number.find(name);
+    if (numbered == model.part_number.end()) throw no_part(name, where.place);
+    const std::size_t part = numbered->second;
+    const std::string set = dot_at == std::string::npos ? "all" : where.set.substr(dot_at + 1);
+    if (set == "all") {
+      chosen = model.parts[part].node;
+    } else {
+      const auto found = meshes[part].node_sets.find(set);
+      if (found == meshes[part].node_sets.end())
+        throw BuildError("part '" + deck.parts[part].name + "' has no set '" + set + "'", where.place);
+      for (int node : found->second) chosen.push_back(model.parts[part].node[static_cast<std::size_t>(node)]);
+    }
+  } else {
+    for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+      if (!where.part.empty() && deck.parts[p].name != where.part) continue;
+      for (int node : model.parts[p].node) {
+        const double* x = model.nodes.record[static_cast<std::size_t>(node)].position;
+        if (std::visit([&](const auto& region) { return inside(region, {x[0], x[1], x[2]}); }, where.region))
+          chosen.push_back(node);
+      }
+    }
+  }
+  if (chosen.empty()) throw BuildError("a condition or load selects no node", where.place);
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());  // parts can share nodes
+  return chosen;
+}
+
+}  // namespace brio

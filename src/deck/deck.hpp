@@ -1,0 +1,486 @@
+#pragma once
+/// What a deck says. These structs are also the parameters that run: there is no parallel set.
+///
+/// A rule that binds several entries of a struct is its `fault()`: what is wrong and what is accepted, or
+/// nothing.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "contact/options.hpp"
+#include "elements/block.hpp"
+#include "materials/material.hpp"
+#include "src/base/fields.hpp"
+#include "src/deck/mesh_source.hpp"
+
+namespace brio {
+
+// ---- parts
+// ---------------------------------------------------------------------------------------------------
+
+/// Turn about an axis through the origin.
+struct Rotation {
+  Triple axis{};
+  double degrees = 0;
+  static constexpr auto fields() {
+    return field_table(
+        required("axis", &Rotation::axis, any_number, "direction of the axis through the origin"),
+        required("degrees", &Rotation::degrees, any_number, "angle, right-handed"));
+  }
+  constexpr std::string_view fault() const {
+    return is_zero(axis) ? "the axis has no direction; at least one component must differ from 0" : "";
+  }
+};
+
+/// First turned, then moved.
+struct Placement {
+  std::optional<Rotation> rotate;
+  Triple translate{};
+  static constexpr auto fields() {
+    return field_table(
+        optional("rotate", &Placement::rotate, any_number, "turn before moving"),
+        optional("translate", &Placement::translate, any_number, "move after turning, length"));
+  }
+};
+
+struct Part {
+  std::string name;
+  MeshSource mesh;
+  Placement placement;
+  Element element;
+  std::string material;
+  std::optional<Deletion> deletion{};
+  std::string place{};  ///< in the deck
+  static constexpr auto fields() {
+    return field_table(required("mesh", &Part::mesh, any_number, "shape and number of elements"),
+                       optional("placement", &Part::placement, any_number, "where the shape is put"),
+                       required("element", &Part::element, any_number, "kind of element"),
+                       required("material", &Part::material, any_number, "name of one of the materials"),
+                       optional("deletion", &Part::deletion, any_number,
+                                "when elements are deleted, besides by failure of the material"));
+  }
+};
+
+// ---- where: sets
+// -----------------------------------------------------------------------------------------------
+
+/// Nodes of a named set (`part.set`), or of all parts (or one) inside a region.
+struct BoxRegion {
+  static constexpr std::string_view name = "box";
+  static constexpr std::string_view meaning = "inside a box";
+  Triple lower{};
+  Triple upper{};
+  static constexpr auto fields() {
+    return field_table(
+        required("lower", &BoxRegion::lower, any_number, "corner with the least coordinates"),
+        required("upper", &BoxRegion::upper, any_number, "corner with the largest coordinates"));
+  }
+  constexpr std::string_view fault() const {
+    const bool ordered = lower[0] <= upper[0] && lower[1] <= upper[1] && lower[2] <= upper[2];
+    return ordered ? "" : "the box is inside out; no component of lower may exceed that of upper";
+  }
+};
+struct PlaneRegion {
+  static constexpr std::string_view name = "plane";
+  static constexpr std::string_view meaning = "near a plane";
+  Triple point{};
+  Triple normal{};
+  double tolerance = 0;
+  static constexpr auto fields() {
+    return field_table(
+        required("point", &PlaneRegion::point, any_number, "a point of the plane"),
+        required("normal", &PlaneRegion::normal, any_number, "normal of the plane"),
+        required("tolerance", &PlaneRegion::tolerance, non_negative, "distance within which nodes belong"));
+  }
+  constexpr std::string_view fault() const {
+    return is_zero(normal) ? "the normal has no direction; at least one component must differ from 0" : "";
+  }
+};
+struct SphereRegion {
+  static constexpr std::string_view name = "sphere";
+  static constexpr std::string_view meaning = "inside a sphere";
+  Triple centre{};
+  double radius = 0;
+  static constexpr auto fields() {
+    return field_table(required("centre", &SphereRegion::centre, any_number, "centre"),
+                       required("radius", &SphereRegion::radius, positive, "radius"));
+  }
+};
+/// In a deck: `set: can.bottom`, or `set: {box: {...}, part: can}`.
+using Region = std::variant<std::monostate, BoxRegion, PlaneRegion, SphereRegion>;
+struct NodeSelection {
+  std::string set;  ///< "part.set" or "part"
+  Region region;
+  std::string part;     ///< limits a region; empty: all parts
+  std::string place{};  ///< in the deck
+};
+
+// ---- when: curves
+// ----------------------------------------------------------------------------------------------
+
+/// Piecewise linear in time, constant beyond its ends. In a deck a number, or a list of [time, value].
+struct Curve {
+  std::vector<std::array<double, 2>> points;
+
+  double operator()(double time) const;
+  /// Its time derivative, from the right at a corner.
+  double slope(double time) const;
+};
+
+// ---- conditions
+// ------------------------------------------------------------------------------------------------
+
+/// Spin of a part or set about an axis through a point.
+struct Spin {
+  Triple point{};
+  Triple angular_velocity{};
+  static constexpr auto fields() {
+    return field_table(
+        required("point", &Spin::point, any_number, "a point of the axis"),
+        required("angular_velocity", &Spin::angular_velocity, any_number, "vector, radian per time"));
+  }
+};
+
+/// In a deck `part: can` or `set: can.top`, and `velocity`, `spin` or both.
+/// Velocity away from an axis, the same at any distance.
+struct RadialVelocity {
+  Triple point{};
+  Triple axis{};
+  double speed = 0;
+  static constexpr auto fields() {
+    return field_table(required("point", &RadialVelocity::point, any_number, "a point of the axis"),
+                       required("axis", &RadialVelocity::axis, any_number, "direction of the axis"),
+                       required("speed", &RadialVelocity::speed, any_number,
+                                "away from the axis; below 0: towards it, length per time"));
+  }
+  constexpr std::string_view fault() const {
+    return is_zero(axis) ? "the axis has no direction; at least one component must differ from 0" : "";
+  }
+};
+
+struct InitialCondition {
+  NodeSelection where;
+  Triple velocity{};
+  std::optional<Spin> spin;
+  std::optional<RadialVelocity> radial{};
+  static constexpr auto fields() {
+    return field_table(
+        optional("velocity", &InitialCondition::velocity, any_number,
+                 "velocity at the start, length per time"),
+        optional("spin", &InitialCondition::spin, any_number, "turning at the start, added to the velocity"),
+        optional("radial", &InitialCondition::radial, any_number,
+                 "away from an axis at the start, added to the velocity; not of rigid parts"));
+  }
+};
+
+enum class MotionKind { displacement, velocity, acceleration };
+
+/// One prescribed component of a boundary condition.
+struct PrescribedComponent {
+  int axis;  ///< 0..2 translations, 3..5 rotations
+  Curve curve;
+  std::string place{};  ///< in the deck
+};
+
+/// `fix: [x, y, z, rx, ry, rz]`, or `displacement|velocity|acceleration: {x: CURVE, ...}`.
+struct PrescribedMotion {
+  NodeSelection where;
+  MotionKind kind = MotionKind::velocity;
+  std::vector<PrescribedComponent> components;
+};
+
+/// Nodes cannot pass the plane; it may move at a given velocity.
+struct RigidWall {
+  static constexpr std::string_view name = "rigid_wall";
+  static constexpr std::string_view meaning = "a plane that nodes cannot pass";
+  Triple point{};
+  Triple normal{};
+  Triple velocity{};
+  double friction = 0;
+  std::string place{};  ///< in the deck
+  static constexpr auto fields() {
+    return field_table(required("point", &RigidWall::point, any_number, "a point of the plane at the start"),
+                       required("normal", &RigidWall::normal, any_number, "points into the free side"),
+                       optional("velocity", &RigidWall::velocity, any_number, "velocity of the wall"),
+                       optional("friction", &RigidWall::friction, non_negative, "Coulomb coefficient, -"));
+  }
+  constexpr std::string_view fault() const {
+    return is_zero(normal) ? "the normal has no direction; at least one component must differ from 0" : "";
+  }
+};
+
+using BoundaryCondition = std::variant<PrescribedMotion, RigidWall>;
+
+// ---- loads
+// -----------------------------------------------------------------------------------------------------
+
+/// `gravity: [0, 0, -9.81]`, on everything.
+struct Gravity {
+  static constexpr std::string_view name = "gravity";
+  static constexpr std::string_view meaning = "acceleration of everything";
+  Triple acceleration{};
+  Curve factor{{{0, 1}}};
+  static constexpr auto fields() {
+    return field_table(required("gravity", &Gravity::acceleration, any_number,
+                                "acceleration of everything, length per time^2"),
+                       optional("factor", &Gravity::factor, any_number, "multiplies it, -"));
+  }
+};
+/// `force: [x, y, z]` on every node of a set, times `factor` (a curve).
+struct NodalForce {
+  static constexpr std::string_view name = "force";
+  static constexpr std::string_view meaning = "the same force on every node of a set";
+  NodeSelection where;
+  Triple force{};
+  Curve factor{{{0, 1}}};
+  static constexpr auto fields() {
+    return field_table(required("set", &NodalForce::where, any_number, "nodes that are pushed"),
+                       required("force", &NodalForce::force, any_number, "on each of the nodes"),
+                       optional("factor", &NodalForce::factor, any_number, "multiplies it, -"));
+  }
+};
+/// `pressure: CURVE` on a named side set, pushing against the outward normal; follows the surface.
+struct Pressure {
+  static constexpr std::string_view name = "pressure";
+  static constexpr std::string_view meaning = "pressure on sides of elements";
+  std::string side_set;  ///< "part.set"
+  Curve pressure;
+  std::string place{};  ///< in the deck
+  static constexpr auto fields() {
+    return field_table(
+        required("side_set", &Pressure::side_set, any_number, "sides of elements that are pushed, part.set"),
+        required("pressure", &Pressure::pressure, any_number,
+                 "against the outward normal; follows the surface"));
+  }
+};
+
+using Load = std::variant<Gravity, NodalForce, Pressure>;
+
+// ---- connections
+// -----------------------------------------------------------------------------------------------
+
+/// `merge: [panel, stiffener]`: parts that share nodes.
+struct Merge {
+  static constexpr std::string_view name = "merge";
+  static constexpr std::string_view meaning = "parts that share nodes";
+  std::vector<std::string> parts;  ///< two
+  double tolerance = 0;
+  std::string place;  ///< in the deck
+  static constexpr auto fields() {
+    return field_table(
+        required("merge", &Merge::parts, any_number,
+                 "two parts; nodes of the second become nodes of the first"),
+        required("tolerance", &Merge::tolerance, positive, "largest distance of two nodes that become one"));
+  }
+};
+
+/// `tie: [stiffener, panel]`: nodes of the first that faces of the second hold.
+struct TieToSurface {
+  static constexpr std::string_view name = "tie";
+  static constexpr std::string_view meaning = "nodes that a surface holds";
+  std::vector<std::string> names;  ///< "part" or "part.set", and a part
+  double tolerance = 0;
+  std::string place;  ///< in the deck
+  static constexpr auto fields() {
+    return field_table(required("tie", &TieToSurface::names, any_number,
+                                "a part or a set whose nodes are held, and the part whose faces hold them"),
+                       required("tolerance", &TieToSurface::tolerance, positive,
+                                "largest distance of a node that is held from the surface"));
+  }
+};
+
+using Connection = std::variant<Merge, TieToSurface>;
+
+// ---- the rest
+// --------------------------------------------------------------------------------------------------
+
+/// What is said of two parts, or of a part and itself.
+struct ContactPair {
+  std::vector<std::string> parts;  ///< two
+  std::optional<double> friction{};
+  bool touch = true;
+  std::string place{};  ///< in the deck
+  static constexpr auto fields() {
+    return field_table(optional("friction", &ContactPair::friction, non_negative,
+                                "Coulomb coefficient between the two in place of that of all, -"),
+                       optional("touch", &ContactPair::touch, any_number, "false: the two never touch"));
+  }
+  constexpr std::string_view fault() const {
+    if (touch && !friction) return "nothing is said of the pair; accepted: friction, touch: false";
+    return !touch && friction ? "friction of parts that never touch; leave out one of them" : "";
+  }
+};
+
+/// `surfaces: all` or a list of parts; `exclude` takes parts out. The options stand beside them in the deck.
+struct ContactSection {
+  std::vector<std::string> surfaces;  ///< empty: all parts
+  std::vector<std::string> exclude;
+  std::vector<ContactPair> pairs;
+  ContactOptions options;
+  std::string place{};  ///< in the deck
+};
+
+/// Elements whose stable step is too short get as much mass as makes it long enough, whenever it falls.
+struct MassScaling {
+  double step = 0;
+  double largest_share = 0.05;
+  std::string place{};  ///< in the deck
+  static constexpr auto fields() {
+    return field_table(
+        required("step", &MassScaling::step, positive,
+                 "step that elements get mass for, before and during the run, time"),
+        optional("largest_share", &MassScaling::largest_share, positive,
+                 "mass added over mass of all elements at which the run stops with exit code 3, -"));
+  }
+};
+
+struct TimeSection {
+  double end = 0;
+  double step_scale = 0.9;
+  std::optional<double> step;
+  double step_growth = 1.05;
+  std::optional<MassScaling> mass_scaling{};
+  std::string place{};  ///< in the deck
+  static constexpr auto fields() {
+    return field_table(
+        required("end", &TimeSection::end, positive, "time at which the run ends"),
+        optional("step_scale", &TimeSection::step_scale, Range{.lower = 0, .upper = 1, .lower_open = true},
+                 "share of the stable step that is used, -"),
+        optional("step", &TimeSection::step, positive, "constant step; refused if above the stable step"),
+        optional("step_growth", &TimeSection::step_growth, Range{.lower = 1, .lower_open = true},
+                 "largest ratio of a step to the one before, -"),
+        optional("mass_scaling", &TimeSection::mass_scaling, any_number,
+                 "mass added to small elements so that they do not set the step; absent: none"));
+  }
+};
+
+/// Either equally spaced or at given times.
+struct FieldOutput {
+  std::optional<double> every;
+  std::vector<double> times;
+  static constexpr auto fields() {
+    return field_table(optional("every", &FieldOutput::every, positive,
+                                "time between dumps; default: a twentieth of the end time"),
+                       optional("times", &FieldOutput::times, non_negative, "times of dumps instead"));
+  }
+  std::string_view fault() const {
+    return every && !times.empty() ? "both 'every' and 'times' are given; one of them is accepted" : "";
+  }
+};
+/// A node that is watched at every row of the history.
+struct Probe {
+  std::string name;
+  Triple point{};
+  std::optional<std::string> part;
+  static constexpr auto fields() {
+    return field_table(
+        required("point", &Probe::point, any_number, "the node that is nearest to it at the start"),
+        optional("part", &Probe::part, any_number, "of this part only; default: of all"));
+  }
+};
+
+struct HistoryOutput {
+  std::optional<double> every;
+  std::vector<Probe> probes;
+  static constexpr auto fields() {
+    return field_table(
+        optional("every", &HistoryOutput::every, positive,
+                 "time between rows; default: a thousandth of the end time"),
+        optional("probes", &HistoryOutput::probes, any_number,
+                 "a map of names to nodes whose displacement and velocity are written as well"));
+  }
+};
+/// When results are brought from the memory of the system to the disk.
+enum class Sync { never, end, dumps };
+constexpr std::array<NamedValue<Sync>, 3> named_values(Sync) {
+  return {{{"never", Sync::never}, {"end", Sync::end}, {"dumps", Sync::dumps}}};
+}
+
+struct OutputSection {
+  FieldOutput fields_;
+  HistoryOutput history;
+  Sync sync = Sync::end;
+  static constexpr auto fields() {
+    return field_table(
+        optional("fields", &OutputSection::fields_, any_number, "when fields are written"),
+        optional("history", &OutputSection::history, any_number, "when energies and momenta are written"),
+        optional("sync", &OutputSection::sync, any_number,
+                 "when results are forced to the disk (fsync), so that they outlive a crash of the machine: "
+                 "at the end of the run, at every dump, or never"));
+  }
+};
+
+/// Values for what a deck leaves open.
+enum class Preset { fast, balanced, accurate };
+constexpr std::array<NamedValue<Preset>, 3> named_values(Preset) {
+  return {{{"fast", Preset::fast}, {"balanced", Preset::balanced}, {"accurate", Preset::accurate}}};
+}
+
+struct NumericsSection {
+  Preset preset = Preset::balanced;
+  Precision precision = Precision::double_precision;
+  double energy_error_limit = 0.1;
+  double hourglass_warning = 0.1;
+  static constexpr auto fields() {
+    return field_table(
+        optional("preset", &NumericsSection::preset, any_number,
+                 "settings for what the deck leaves open; balanced: the defaults of this reference"),
+        optional("precision", &NumericsSection::precision, any_number, "of element and material kernels"),
+        optional("energy_error_limit", &NumericsSection::energy_error_limit, positive,
+                 "relative energy error at which the run stops with exit code 3, -"),
+        optional("hourglass_warning", &NumericsSection::hourglass_warning, positive,
+                 "ratio of the hourglass energy of a part, where that is a thousandth of the run's energy or "
+                 "more, to its "
+                 "largest internal energy so far, beyond "
+                 "which a run warns, -"));
+  }
+};
+
+struct Deck {
+  // Compiled once: they are a third of the code of a source that takes them.
+  Deck();
+  Deck(const Deck&);
+  Deck(Deck&&) noexcept;
+  Deck& operator=(const Deck&);
+  Deck& operator=(Deck&&) noexcept;
+  ~Deck();
+
+  std::string file;  ///< as given on the command line
+  std::string title;
+  std::vector<std::pair<std::string, std::string>> units;  ///< labels only: nothing is converted
+  std::string text;                                        ///< the deck as run, with overrides, as YAML
+  std::vector<std::pair<std::string, Material>> materials;
+  std::vector<Part> parts;
+  std::vector<Connection> connections;
+  std::vector<InitialCondition> initial_conditions;
+  std::vector<BoundaryCondition> boundary_conditions;
+  std::vector<Load> loads;
+  std::optional<ContactSection> contact;
+  TimeSection time;
+  OutputSection output;
+  NumericsSection numerics;
+  static constexpr auto fields() {
+    return field_table(
+        optional("title", &Deck::title, any_number, "one line, for people"),
+        optional("units", &Deck::units, any_number, "labels such as {length: mm}; nothing is converted"),
+        required("materials", &Deck::materials, any_number, "a map of names to laws"),
+        required("parts", &Deck::parts, any_number, "a map of names to parts"),
+        optional("connections", &Deck::connections, any_number, "how parts hold together"),
+        optional("initial_conditions", &Deck::initial_conditions, any_number, "velocities at the start"),
+        optional("boundary_conditions", &Deck::boundary_conditions, any_number,
+                 "motions that are prescribed"),
+        optional("loads", &Deck::loads, any_number, "forces from outside"),
+        optional("contact", &Deck::contact, any_number, "what may touch; absent: nothing is searched"),
+        required("time", &Deck::time, any_number, "how long and in which steps"),
+        optional("output", &Deck::output, any_number, "what is written, and when"),
+        optional("numerics", &Deck::numerics, any_number, "how the computer does it"));
+  }
+};
+
+}  // namespace brio

@@ -1,0 +1,112 @@
+#include "src/motion/constraints.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace brio {
+
+namespace {
+
+Vector position_of(const Nodes& nodes, std::size_t node) {
+  const double* x = nodes.record[node].position;
+  return {x[0], x[1], x[2]};
+}
+
+}  // namespace
+
+double given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times, double velocity_before) {
+  switch (kind) {
+    case MotionKind::displacement:
+      return times.next > 0 ? (curve(times.time + times.next) - curve(times.time)) / times.next
+                            : curve.slope(times.time);
+    case MotionKind::velocity:
+      return curve(times.time + 0.5 * times.next);
+    case MotionKind::acceleration:
+      return velocity_before + times.mean() * curve(times.time);
+  }
+  return 0;
+}
+
+void mark(const PrescribedNodes& given, Nodes& nodes) {
+  if (nodes.prescribed.empty()) nodes.prescribed = AlignedBuffer<std::uint8_t>(nodes.size());
+  for (int node : given.nodes)
+    nodes.prescribed[static_cast<std::size_t>(node)] |= static_cast<std::uint8_t>(1 << given.axis);
+}
+
+Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& nodes) {
+  Reaction reaction;
+  const bool turns = given.axis >= 3;
+  const auto axis = static_cast<std::size_t>(turns ? given.axis - 3 : given.axis);
+  for (int entry : given.nodes) {
+    const auto node = static_cast<std::size_t>(entry);
+    double& velocity =
+        turns ? nodes.angular_velocity[node].component[axis] : nodes.record[node].velocity[axis];
+    const double inertia = turns ? nodes.rotational_inertia[node] : nodes.mass[node];
+    const double before =
+        (turns ? nodes.angular_velocity_before : nodes.velocity_before)[node].component[axis];
+    const double after = given_velocity(given.kind, given.curve, times, before);
+    Vector impulse{};
+    impulse[axis] = inertia * (after - velocity);
+    velocity = after;
+    if (turns) {
+      add_to(reaction.impulse.angular, impulse);
+    } else {
+      reaction.impulse.add(position_of(nodes, node), impulse);
+    }
+    reaction.before += impulse[axis] * before;
+    reaction.after += impulse[axis] * after;
+  }
+  return reaction;
+}
+
+WallReaction stop_at(const WallInRun& entry, const StepTimes& times, Nodes& nodes) {
+  const RigidWall& wall = entry.wall;
+  WallReaction reaction;
+  double offset = 0;  // of the plane along its normal at the end of the step
+  for (std::size_t i = 0; i < 3; ++i)
+    offset += wall.normal[i] * (wall.point[i] + wall.velocity[i] * (times.time + times.next));
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    NodeRecord& record = nodes.record[node];
+    const double height = wall.normal[0] * (record.position[0] + times.next * record.velocity[0]) +
+                          wall.normal[1] * (record.position[1] + times.next * record.velocity[1]) +
+                          wall.normal[2] * (record.position[2] + times.next * record.velocity[2]) - offset;
+    if (height >= 0 || times.next <= 0) continue;
+    // Impulse along the normal that puts the node on the wall; prescribed axes do not give way.
+    double compliance = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      compliance += wall.normal[static_cast<std::size_t>(axis)] *
+                    wall.normal[static_cast<std::size_t>(axis)] * nodes.free_inverse_mass(node, axis);
+    if (compliance <= 0) continue;
+    const double normal_impulse = -height / times.next / compliance;
+    Vector normal{}, tangential{}, sliding{};
+    double along = 0;
+    for (std::size_t i = 0; i < 3; ++i) along += wall.normal[i] * (record.velocity[i] - wall.velocity[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      normal[i] = normal_impulse * wall.normal[i];
+      sliding[i] = record.velocity[i] - wall.velocity[i] - along * wall.normal[i];
+    }
+    const double speed = std::sqrt(dot(sliding, sliding));
+    if (wall.friction > 0 && speed > 0) {
+      const double stick = nodes.mass[node] * speed;
+      const double size = std::min(stick, wall.friction * normal_impulse);
+      for (std::size_t i = 0; i < 3; ++i) tangential[i] = -size * sliding[i] / speed;
+    }
+    const Vector position = position_of(nodes, node);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double free = nodes.free_inverse_mass(node, static_cast<int>(i));
+      if (free == 0) normal[i] = tangential[i] = 0;
+      const double before = nodes.velocity_before[node].component[i];
+      const double after = record.velocity[i] + (normal[i] + tangential[i]) * free;
+      record.velocity[i] = after;
+      reaction.normal.before += normal[i] * before;
+      reaction.normal.after += normal[i] * after;
+      reaction.friction.before += tangential[i] * before;
+      reaction.friction.after += tangential[i] * after;
+    }
+    reaction.normal.impulse.add(position, normal);
+    reaction.friction.impulse.add(position, tangential);
+  }
+  return reaction;
+}
+
+}  // namespace brio

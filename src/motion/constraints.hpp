@@ -1,0 +1,65 @@
+#pragma once
+/// Prescribed motion of nodes, and rigid walls.
+
+#include <vector>
+
+#include "contact/ties/ties.hpp"
+#include "src/deck/deck.hpp"
+#include "src/motion/ledger.hpp"
+
+namespace brio {
+
+inline Vector to_vector(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
+/// One component of motion of a list of nodes.
+struct PrescribedNodes {
+  std::vector<int> nodes;
+  MotionKind kind = MotionKind::velocity;
+  int axis = 0;  ///< 0..2 translations, 3..5 rotations
+  Curve curve;
+  std::string place{};  ///< in the deck
+};
+
+/// Times of the step being made: forces are of `time`, velocities go from -previous/2 to +next/2 about it.
+struct StepTimes {
+  double time = 0;
+  double previous = 0;  ///< step before `time`; 0 at the start
+  double next = 0;      ///< step after it
+  double mean() const { return 0.5 * (previous + next); }
+};
+
+/// What outside bodies did to the nodes in one step: impulse, J.v- and J.v+.
+struct Reaction {
+  Impulse impulse;
+  double before = 0;
+  double after = 0;
+};
+
+/// Velocity that a given motion has over the step.
+double given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times, double velocity_before);
+
+/// Marks nodes.prescribed.
+void mark(const PrescribedNodes& given, Nodes& nodes);
+
+/// Sets the velocity after nodes were accelerated by their force. \return the impulse of the support.
+Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& nodes);
+
+/// A wall as it runs: nodes that would be behind it at the end of the step are stopped on it.
+struct WallInRun {
+  RigidWall wall;  ///< normal of unit length
+};
+
+struct WallReaction {
+  Reaction normal, friction;
+};
+
+/// Stops nodes; work and impulse of the normal and of the tangential part come apart.
+WallReaction stop_at(const WallInRun& wall, const StepTimes& times, Nodes& nodes);
+
+/// Stops held nodes, by impulses on what holds them; before the others. Held nodes then move with their
+/// faces. \param support what supports of the corners did meanwhile is added
+void stop_held_at(const WallInRun& wall, const StepTimes& times, Ties& ties, Nodes& nodes, Reaction& support);
+/// What the wall did to held nodes, once all nodes have been stopped.
+WallReaction reaction_of_held(const Ties& ties, const StepTimes& times, Nodes& nodes);
+
+}  // namespace brio

@@ -1,0 +1,84 @@
+#include "src/motion/loads.hpp"
+
+namespace brio {
+
+namespace {
+
+Vector position_of(const Nodes& nodes, int node) {
+  const double* x = nodes.record[static_cast<std::size_t>(node)].position;
+  return {x[0], x[1], x[2]};
+}
+
+void forces_of(const GravityLoad& load, double time, const Nodes& nodes, std::vector<NodeForce>& applied) {
+  const double factor = load.factor(time);
+  applied.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    applied[i].node = static_cast<int>(i);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      applied[i].force[axis] = nodes.mass[i] * factor * load.acceleration[axis];
+  }
+}
+
+void forces_of(const NodalLoad& load, double time, const Nodes&, std::vector<NodeForce>& applied) {
+  const double factor = load.factor(time);
+  applied.resize(load.nodes.size());
+  for (std::size_t i = 0; i < load.nodes.size(); ++i) {
+    applied[i].node = load.nodes[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) applied[i].force[axis] = factor * load.force[axis];
+  }
+}
+
+// Consistent forces of a uniform pressure on a bilinear side: integral of N_k (x_xi cross x_eta). With the
+// parallelogram part n0 and the linear variation of the normal along both edges it is exact for warped sides.
+void forces_of(const PressureLoad& load, double time, const Nodes& nodes, std::vector<NodeForce>& applied) {
+  const double pressure = load.pressure(time);
+  applied.resize(4 * load.sides.size());
+  constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  for (std::size_t s = 0; s < load.sides.size(); ++s) {
+    Vector along_xi{}, along_eta{}, twist{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vector x = position_of(nodes, load.sides[s][k]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        along_xi[i] += 0.25 * corner[k][0] * x[i];
+        along_eta[i] += 0.25 * corner[k][1] * x[i];
+        twist[i] += 0.25 * corner[k][0] * corner[k][1] * x[i];
+      }
+    }
+    const Vector normal = cross(along_xi, along_eta);
+    const Vector with_xi = cross(along_xi, twist);    // coefficient of xi in the area vector
+    const Vector with_eta = cross(twist, along_eta);  // coefficient of eta
+    for (std::size_t k = 0; k < 4; ++k) {
+      NodeForce& entry = applied[4 * s + k];
+      entry.node = load.sides[s][k];
+      for (std::size_t i = 0; i < 3; ++i)
+        entry.force[i] =
+            -pressure * (normal[i] + (corner[k][0] * with_xi[i] + corner[k][1] * with_eta[i]) / 3);
+    }
+  }
+}
+
+}  // namespace
+
+void apply(ActiveLoad& load, double time, Nodes& nodes) {
+  std::visit([&](const auto& kind) { forces_of(kind, time, nodes, load.applied); }, load.load);
+  for (const NodeForce& entry : load.applied)
+    for (std::size_t i = 0; i < 3; ++i)
+      nodes.force[static_cast<std::size_t>(entry.node)].component[i] += entry.force[i];
+}
+
+double power(const ActiveLoad& load, const Nodes& nodes) {
+  double sum = 0;
+  for (const NodeForce& entry : load.applied) {
+    const double* v = nodes.record[static_cast<std::size_t>(entry.node)].velocity;
+    sum += entry.force[0] * v[0] + entry.force[1] * v[1] + entry.force[2] * v[2];
+  }
+  return sum;
+}
+
+Impulse resultant(const ActiveLoad& load, const Nodes& nodes) {
+  Impulse sum;
+  for (const NodeForce& entry : load.applied) sum.add(position_of(nodes, entry.node), entry.force);
+  return sum;
+}
+
+}  // namespace brio

@@ -1,0 +1,51 @@
+#pragma once
+/// Forces from outside: gravity, nodal forces, pressure that follows its surface.
+
+#include <array>
+#include <variant>
+#include <vector>
+
+#include "src/deck/deck.hpp"
+#include "src/motion/ledger.hpp"
+
+namespace brio {
+
+struct NodeForce {
+  int node;
+  Vector force;
+};
+
+/// m g on every node.
+struct GravityLoad {
+  Vector acceleration{};
+  Curve factor;
+};
+/// The same force on each node of a list.
+struct NodalLoad {
+  std::vector<int> nodes;
+  Vector force{};
+  Curve factor;
+};
+/// Pressure against the outward normal of quadrilateral sides; each corner takes its own bilinear share.
+struct PressureLoad {
+  std::vector<std::array<int, 4>> sides;
+  Curve pressure;
+  int part = 0;
+  std::vector<int> element;  ///< of the part's mesh, that each side belongs to
+};
+
+struct ActiveLoad {
+  std::variant<GravityLoad, NodalLoad, PressureLoad> load;
+  std::vector<NodeForce> applied;  ///< of the present step
+};
+
+/// Forces of this time, added to nodes.force.
+void apply(ActiveLoad& load, double time, Nodes& nodes);
+
+/// Sum of force . velocity with the velocities that nodes have now.
+double power(const ActiveLoad& load, const Nodes& nodes);
+
+/// Force and moment about the origin.
+Impulse resultant(const ActiveLoad& load, const Nodes& nodes);
+
+}  // namespace brio

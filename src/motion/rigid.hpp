@@ -1,0 +1,111 @@
+#pragma once
+/// Rigid bodies: six degrees of freedom, free or prescribed. Their nodes stand among the others without mass;
+/// positions and velocities of nodes follow from the body, impulses on nodes go to the body.
+///
+/// A step kicks and then turns. At the present attitude the linear momentum M V and the angular momentum L
+/// about the centre take the impulses of loads, supports, contact and walls. Over the step the centre then
+/// moves by V dt, and the attitude turns as that of a free body with this L: the midpoint rule for Euler's
+/// equations, with the attitude turned by the Cayley transform of the mean rate, keeps L and the energy
+/// L.I^-1.L/2 to rounding at any step (Lewis and Simo 1994; Simo and Wong 1991).
+
+#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/features/rigid_motion.hpp"
+#include "src/base/nodes.hpp"
+#include "src/base/parallel.hpp"
+#include "src/motion/constraints.hpp"
+#include "src/motion/loads.hpp"
+#include "src/motion/motion.hpp"
+
+namespace brio {
+
+/// One prescribed component of a body's motion: translations of its centre, rotations about it; rotations by
+/// the components of the angular velocity along the fixed axes.
+struct PrescribedRigid {
+  MotionKind kind = MotionKind::velocity;
+  int axis = 0;  ///< 0..2 translations, 3..5 rotations
+  Curve curve;
+  std::string place{};  ///< in the deck
+};
+
+/// A node of a body that a wall stops in the present step.
+struct WallTouch {
+  int node = 0;
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  double normal_mass = 0;
+  double target = 0;   ///< least velocity away from the wall
+  double impulse = 0;  ///< along the wall's normal; never negative
+  Eigen::Vector3d friction = Eigen::Vector3d::Zero();
+};
+
+struct RigidBody {
+  std::size_t part = 0;
+  std::vector<int> node;             ///< of the model
+  std::vector<Eigen::Vector3d> arm;  ///< from the centre to each node, in the attitude of the start
+  std::vector<int> connectivity;     ///< nodes of the model, in the order of the part's mesh
+  int nodes_per_element = 8;
+  double thickness = 0;  ///< of shells
+
+  double mass = 0;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, in the attitude of the start
+  std::vector<PrescribedRigid> given;
+
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< about the centre, at the last half step
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();             ///< of loads, in this step
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero();  ///< the share of gravity in the force
+  std::vector<WallTouch> touch;                      ///< of the wall that is looked at
+
+  bool is_given(int axis) const;
+};
+
+struct RigidBodies {
+  std::vector<RigidBody> body;
+  std::vector<RigidMotion> motion;  ///< of each body
+
+  bool empty() const { return body.empty(); }
+};
+
+/// Start with a velocity of the centre and an angular velocity.
+void start(RigidBody& body, RigidMotion& motion, const Eigen::Vector3d& velocity,
+           const Eigen::Vector3d& angular_velocity);
+
+/// Kinetic energy of all bodies.
+KineticEnergy kinetic_energy(const RigidBodies& bodies);
+/// Adds the momentum of all bodies.
+void add_momentum(const RigidBodies& bodies, Momentum& sum);
+
+/// Forces of the loads, of which those on nodes stand in nodes.force.
+void gather_loads(RigidBodies& bodies, std::span<const ActiveLoad> loads, double time, const Nodes& nodes);
+/// Power of gravity on all bodies with their present velocities; other loads act on nodes and are known by
+/// them.
+double weight_power(const RigidBodies& bodies);
+/// Weight and its moment about the origin.
+Impulse weight(const RigidBodies& bodies);
+
+/// Kick by the loads and set the prescribed components. \return what supports did.
+Reaction accelerate(RigidBodies& bodies, const StepTimes& times);
+/// Take over what contact or walls have given, and forget it.
+void settle(RigidBodies& bodies);
+/// Velocities of all nodes of the bodies, from those of the bodies.
+void carry_velocities(const RigidBodies& bodies, Nodes& nodes, ThreadTeam& team);
+
+/// Move and turn the bodies over the step and put their nodes where they belong. \return what the supports of
+/// prescribed rotations did on the way; all of it in `after`.
+/// \throws Breakdown where a body turns too far in one step.
+Reaction move(RigidBodies& bodies, double step, Nodes& nodes, ThreadTeam& team);
+
+/// Stops the nodes of a body at a wall.
+/// \param support what supports of prescribed components did meanwhile is added
+WallReaction stop_at(const WallInRun& wall, const StepTimes& times, RigidBody& body, RigidMotion& motion,
+                     const Nodes& nodes, Reaction& support);
+/// Of the lowest node of the body above the wall as it stands at the start.
+double height_above(const WallInRun& wall, const RigidBody& body, const Nodes& nodes);
+
+}  // namespace brio

@@ -1,0 +1,127 @@
+// Rigid walls against rigid bodies: sequential impulses over the nodes that would be behind the wall.
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/motion/rigid.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr int most_passes = 50;
+constexpr double converged_share = 1e-10;
+// Share of an old overlap, left by rounding and by turning, that a step removes.
+constexpr double overlap_recovery = 0.1;
+// Nodes count while they could reach the wall at this multiple of their approach: other impulses of the step
+// may turn the body towards it.
+constexpr double approach_share = 2;
+
+Vector3d point_of(const Nodes& nodes, int node) {
+  return Vector3d(nodes.record[static_cast<std::size_t>(node)].position);
+}
+
+void find_touches(const WallInRun& entry, const StepTimes& times, RigidBody& body, const RigidMotion& motion,
+                  const Nodes& nodes) {
+  const Vector3d normal(entry.wall.normal.data());
+  const Vector3d wall_velocity(entry.wall.velocity.data());
+  const double offset = normal.dot(Vector3d(entry.wall.point.data()) + times.time * wall_velocity);
+  body.touch.clear();
+  for (int node : body.node) {
+    const Vector3d x = point_of(nodes, node);
+    const double height = normal.dot(x) - offset;
+    const Vector3d arm = x - body.centre;
+    const double reach = approach_share * times.next * (motion.velocity_at(arm) - wall_velocity).norm();
+    if (height > reach) continue;
+    WallTouch touch;
+    touch.node = node;
+    touch.arm = arm;
+    touch.target = height >= 0 ? -height / times.next : overlap_recovery * -height / times.next;
+    const double inverse = motion.inverse_mass_along(normal, arm);
+    if (!(inverse > 0)) continue;
+    touch.normal_mass = 1 / inverse;
+    body.touch.push_back(touch);
+  }
+}
+
+// \returns the change of the relative velocity that was asked for.
+double push(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_velocity, RigidMotion& motion) {
+  const double along = normal.dot(motion.velocity_at(touch.arm) - wall_velocity);
+  const double impulse = std::max(0.0, touch.impulse + touch.normal_mass * (touch.target - along));
+  const double change = impulse - touch.impulse;
+  touch.impulse = impulse;
+  if (change != 0) motion.push(change * normal, touch.arm);
+  return std::abs(change) / touch.normal_mass;
+}
+
+// Against the slip, with the effective mass in its direction.
+double rub(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_velocity, double friction,
+           RigidMotion& motion) {
+  const Vector3d relative = motion.velocity_at(touch.arm) - wall_velocity;
+  const Vector3d slip = relative - normal.dot(relative) * normal;
+  const double speed = slip.norm();
+  if (speed == 0) return 0;
+  const double inverse = motion.inverse_mass_along(slip / speed, touch.arm);
+  if (!(inverse > 0)) return 0;
+  Vector3d impulse = touch.friction - slip / inverse;
+  const double limit = friction * touch.impulse;
+  const double size = impulse.norm();
+  if (size > limit) impulse *= limit / size;
+  const Vector3d change = impulse - touch.friction;
+  touch.friction = impulse;
+  motion.push(change, touch.arm);
+  return change.norm() * inverse;
+}
+
+void book(Reaction& reaction, const Vector3d& position, const Vector3d& impulse, const WallTouch& touch,
+          const RigidMotion& motion) {
+  reaction.impulse.add(to_vector(position), to_vector(impulse));
+  reaction.before += impulse.dot(motion.velocity_before_at(touch.arm));
+  reaction.after += impulse.dot(motion.velocity_at(touch.arm));
+}
+
+}  // namespace
+
+double height_above(const WallInRun& entry, const RigidBody& body, const Nodes& nodes) {
+  const Vector3d normal(entry.wall.normal.data());
+  double least = HUGE_VAL;
+  for (int node : body.node)
+    least = std::min(least, normal.dot(point_of(nodes, node) - Vector3d(entry.wall.point.data())));
+  return least;
+}
+
+WallReaction stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& body, RigidMotion& motion,
+                     const Nodes& nodes, Reaction& support) {
+  WallReaction reaction;
+  if (times.next <= 0) return reaction;
+  find_touches(entry, times, body, motion, nodes);
+  if (body.touch.empty()) return reaction;
+  const Vector3d normal(entry.wall.normal.data());
+  const Vector3d wall_velocity(entry.wall.velocity.data());
+  double first = 0;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    double residual = 0;
+    for (WallTouch& touch : body.touch) {
+      residual = std::max(residual, push(touch, normal, wall_velocity, motion));
+      if (entry.wall.friction > 0)
+        residual = std::max(residual, rub(touch, normal, wall_velocity, entry.wall.friction, motion));
+    }
+    first = std::max(first, residual);
+    if (residual <= converged_share * first) break;
+  }
+  for (const WallTouch& touch : body.touch) {
+    const Vector3d position = body.centre + touch.arm;
+    book(reaction.normal, position, touch.impulse * normal, touch, motion);
+    book(reaction.friction, position, touch.friction, touch, motion);
+  }
+  const RigidSupport held = support_against(motion, motion.impulse, motion.moment);
+  support.before += held.work_before;
+  support.after += held.work_after;
+  support.impulse.add(to_vector(body.centre), to_vector(held.impulse));
+  add_to(support.impulse.angular, to_vector(held.moment));
+  return reaction;
+}
+
+}  // namespace brio

@@ -1,0 +1,54 @@
+#pragma once
+/// What output shows of a model: fields, history rows, end state.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "src/model/model.hpp"
+#include "src/output/history.hpp"
+#include "src/output/snapshot.hpp"
+#include "src/output/summary.hpp"
+
+namespace brio {
+
+/// Fills snapshots. Points and cells stand in the order of the parts and of their meshes, whatever the order
+/// in memory.
+class FieldObserver {
+ public:
+  /// Remembers the positions of now as the reference of displacements.
+  explicit FieldObserver(const Model& model);
+
+  /// Fields at the time of the step; call between update_velocities and update_positions.
+  const Snapshot& observe(const Model& model);
+
+ private:
+  void take_topology(const Model& model);
+  void fill_points(const Model& model);
+  void fill_contact_force(const Model& model);
+  void fill_cells(const Model& model);
+
+  Snapshot snapshot_;
+  std::vector<int> node_of_point_;
+  std::vector<std::int64_t> point_of_node_;
+  std::int64_t deleted_ = 0;  ///< elements, when the topology was taken
+  std::optional<std::size_t> thickness_, radius_, density_,
+      damage_;  ///< places of these among the cell fields
+  std::vector<double> reference_;
+};
+
+/// Names of the history's columns: time, step, energies, momenta, and the mean velocity of every part (of the
+/// first hundred parts).
+std::vector<std::string> history_columns(const Model& model);
+
+/// One row, into `row`; updates the momentum book.
+void observe_history(Model& model, std::vector<double>& row);
+
+/// End state in figures; the caller adds version, deck, status, wall time, memory and threads.
+Summary observe_end(Model& model);
+
+/// What the scene switched on: kinds of elements, laws, loads, contact, ...
+std::vector<std::string> active_features(const Model& model);
+
+}  // namespace brio

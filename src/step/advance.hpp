@@ -1,0 +1,26 @@
+#pragma once
+/// The step.
+
+#include "src/base/breakdown.hpp"
+#include "src/model/model.hpp"
+
+namespace brio {
+
+/// First half of a step: stresses and forces at the present time, the next step's size, and the velocities
+/// over it, corrected by supports, contact and walls. After it the model is complete at its time: books are
+/// balanced and results may be written. \throws Breakdown for an inverted element, a collapsed step, or an
+/// energy error beyond `energy_error_limit`.
+void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team);
+
+/// Deletes what `model.sweep_results` gave up, with all that follows from it: loads, contact surfaces,
+/// chunks. Part of `update_velocities`.
+void erode_elements(Model& model, ThreadTeam& team);
+
+/// Audits contact at the present positions if the deck asks for it (contact/audit/audit.hpp). Called where
+/// fields are written.
+void audit_contacts(Model& model, ThreadTeam& team);
+
+/// Second half: positions, and the time.
+void update_positions(Model& model, ThreadTeam& team);
+
+}  // namespace brio

@@ -1,0 +1,79 @@
+#include "src/step/leap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/breakdown.hpp"
+#include "src/model/model.hpp"
+#include "src/model/node_name.hpp"
+#include "src/step/diagnosis.hpp"
+
+namespace brio {
+
+namespace {
+
+/// Widths of the scene in a step. What follows from elastic forces is far below one: elements pass their
+/// limits before, and steps are shorter than the time of sound through an element.
+constexpr double most_widths = 100;
+
+/// Largest component of the change of velocity of a node, as `accelerate` made it.
+struct Leap {
+  std::size_t node = 0;
+  double speed = 0;
+};
+
+Leap largest_change(const Nodes& nodes, double mean_step) {
+  Leap largest;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double change =
+          std::abs(nodes.force[i].component[axis]) * (nodes.free_inverse_mass(i, axis) * mean_step);
+      if (change > largest.speed) largest = {i, change};
+    }
+  return largest;
+}
+
+}  // namespace
+
+// The energies tell a leap of most of the mass, which is what nodes near everything are; the nodes themselves
+// are looked at only then.
+void expect_no_leap(const Model& model, const KineticEnergy& kinetic) {
+  const double most = most_widths * model.extent.width / model.times.next;
+  if (!(most > 0) || kinetic.half - kinetic.now <= 0.5 * model.extent.mass * most * most) return;
+  const Leap leap = largest_change(model.nodes, model.times.mean());
+  if (!(leap.speed > most)) return;
+  throw Breakdown(
+      "forces throw " + name_of_node(model, leap.node) + " " +
+      written(leap.speed * model.times.next / model.extent.width) +
+      " widths of the scene away in one step, at time " + written(model.times.time) +
+      "; likely cause: loads that are too large for the masses they act on; check units, densities "
+      "and loads of the deck");
+}
+
+void refuse_crowd(const Model& model) {
+  const Nodes& nodes = model.nodes;
+  Vector3<double> mean{0, 0, 0};
+  const auto velocity = [&](std::size_t i) {
+    const double* v = nodes.record[i].velocity;
+    return Vector3<double>{v[0], v[1], v[2]};
+  };
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    mean = mean + (nodes.mass[i] / model.extent.mass) * velocity(i);
+  std::size_t fastest = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Vector3<double> relative = velocity(i) - mean;
+    if (const double squared = dot(relative, relative); squared > largest) {
+      largest = squared;
+      fastest = i;
+    }
+  }
+  throw Breakdown(
+      "everything comes near everything in one step, at time " + written(model.times.time) + ": " +
+      name_of_node(model, fastest) + " moves " +
+      written(std::sqrt(largest) * model.times.next / model.extent.width) +
+      " widths of the scene relative to the mean of all; likely cause: velocities or loads that are "
+      "too large; check units, densities, velocities and loads of the deck");
+}
+
+}  // namespace brio

@@ -1,0 +1,86 @@
+#pragma once
+/// Deletion of elements: out of their packs, their energy from the books of the living to that of the
+/// deleted, and what is left of their nodes. Exists only where something can be deleted.
+///
+/// A lost element gives its place to the last element of its chunk, so that the chunks of a colour go on
+/// sharing no node, and nothing that is dead is swept. When chunks have become so short that a quarter of
+/// the lanes is padding, all blocks are packed anew. Work is proportional to what is deleted.
+
+#include <compare>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "elements/block.hpp"
+#include "src/motion/ledger.hpp"
+#include "src/motion/loads.hpp"
+#include "src/sweep/schedule.hpp"
+
+namespace brio {
+
+/// Where the nodes and elements of a part went.
+struct PartInModel {
+  std::string name;
+  std::size_t block = 0;
+  std::vector<int> node;           ///< node of the part's mesh -> node of the model
+  std::vector<int> element_order;  ///< place in the block -> element of the part's mesh; -1: empty
+  std::vector<int> element_slot;   ///< element of the part's mesh -> place in the block; -1: deleted
+  int rigid = -1;                  ///< the rigid body that it is; its block is empty
+  double mass = 0;                 ///< at the start
+};
+
+struct DeletedElement {
+  int part;
+  int element;  ///< of the part's mesh
+
+  friend auto operator<=>(const DeletedElement&, const DeletedElement&) = default;
+};
+
+struct Erosion {
+  std::vector<DeletedElement> deleted;  ///< in the present step, ascending
+  std::vector<int> freed;               ///< nodes that lost their last element in the present step, ascending
+
+  std::vector<int> elements_of_node;        ///< that live
+  std::vector<std::int64_t> deleted_count;  ///< of each part, so far
+  CountByCause deleted_by_cause{};          ///< by DeletionCause, so far
+  double mass_of_deleted = 0;               ///< of deleted elements so far; it stays on their nodes
+  std::vector<int> dropping;                ///< nodes that leave before the next step, ascending
+  double dropped_mass = 0;
+
+  std::int64_t total_deleted() const;
+};
+
+/// True if an element of any block can be deleted.
+bool can_erode(std::span<const Block> blocks);
+
+/// \param parts by block: part p is block p
+Erosion make_erosion(std::span<const Block> blocks, std::size_t node_count);
+
+/// Deletes what the last sweep gave up and says so in `deleted` and `freed`.
+void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResult> results,
+           std::span<Block> blocks, std::span<PartInModel> parts, EnergyBook& energy);
+
+/// True when chunks are so short that packing anew pays.
+bool is_sparse(const SweepSchedule& schedule, std::span<const Block> blocks);
+
+/// Elements of every block side by side again, in their present order, and new chunks and colours.
+SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std::span<PartInModel> parts,
+                     std::size_t node_count);
+
+/// Takes the sides of deleted elements out of a load. \param deleted ascending
+void drop_sides(ActiveLoad& load, std::span<const DeletedElement> deleted);
+
+/// Takes nodes that leave out of a load. \param dropping ascending
+void drop_nodes(ActiveLoad& load, std::span<const int> dropping);
+
+/// Lets the nodes go that are listed in `dropping`: mass, momentum and kinetic energy go to the books.
+void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBook& energy, MomentumBook& momentum);
+
+/// Mass of nodes that still have elements, and of those that fly free.
+struct MassBalance {
+  double intact = 0, debris = 0;
+};
+MassBalance mass_balance(const Erosion& erosion, const Nodes& nodes);
+
+}  // namespace brio

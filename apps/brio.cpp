@@ -14,9 +14,9 @@
 
 #include "apps/commands.hpp"
 #include "apps/streams.hpp"
-#include "io/closest_word.hpp"
-#include "io/deck_error.hpp"
-#include "io/file_error.hpp"
+#include "io/deck/closest_word.hpp"
+#include "io/deck/deck_error.hpp"
+#include "io/files/file_error.hpp"
 #include "src/base/breakdown.hpp"
 
 namespace {

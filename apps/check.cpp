@@ -1,4 +1,4 @@
-#include "io/check_deck.hpp"
+#include "io/run/check_deck.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

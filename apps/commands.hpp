@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "contact/start/initial_gap.hpp"
-#include "io/forecast_deck.hpp"
-#include "io/run_deck.hpp"
-#include "io/run_study.hpp"
+#include "io/run/forecast_deck.hpp"
+#include "io/run/run_deck.hpp"
+#include "io/study/run_study.hpp"
 
 namespace brio {
 

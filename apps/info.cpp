@@ -1,7 +1,7 @@
 #include "apps/commands.hpp"
 #include "apps/streams.hpp"
-#include "io/read_apart.hpp"
-#include "io/read_info.hpp"
+#include "io/files/read_apart.hpp"
+#include "io/results/read_info.hpp"
 
 namespace brio {
 

@@ -1,6 +1,6 @@
 #include "apps/commands.hpp"
 #include "apps/streams.hpp"
-#include "io/write_schema.hpp"
+#include "io/schema/write_schema.hpp"
 
 namespace brio {
 

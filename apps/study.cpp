@@ -2,7 +2,7 @@
 
 #include "apps/commands.hpp"
 #include "apps/streams.hpp"
-#include "io/write_study.hpp"
+#include "io/study/write_study.hpp"
 
 namespace brio {
 

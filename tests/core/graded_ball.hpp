@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "io/sphere_mesh.hpp"
+#include "io/mesh/sphere_mesh.hpp"
 #include "src/deck/mesh.hpp"
 
 namespace brio::test {

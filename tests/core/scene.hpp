@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/generate_mesh.hpp"
+#include "io/mesh/generate_mesh.hpp"
 #include "src/build/build.hpp"
 #include "src/step/advance.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <thread>
 
-#include "io/run_deck.hpp"
+#include "io/run/run_deck.hpp"
 #include "tests/core/floating_point_traps.hpp"
 #include "tests/core/scene.hpp"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "io/read_deck.hpp"
+#include "io/deck/read_deck.hpp"
 #include "tests/core/graded_ball.hpp"
 #include "tests/core/scene.hpp"
 

@@ -10,7 +10,7 @@ What is a failure: a signal, a report of a sanitizer, an exit code that is not d
 (a run has to end when it is told to), a refusal of a deck that names no place, of a file that names no path.
 Under sanitizers everything takes ten to twenty times as long: there a mutant has twenty times the time, and what
 takes more than 20 s is run again by the optimized program, whose time counts.
-A fault inside the HDF5 library ends the child process that reads (io/read_apart.hpp); it is counted apart.
+A fault inside the HDF5 library ends the child process that reads (io/files/read_apart.hpp); it is counted apart.
 Prints a line for each failure and a table at the end; exit code 1 if there were failures.
 """
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "io/read_deck.hpp"
+#include "io/deck/read_deck.hpp"
 #include "tests/io/deck_text.hpp"
 #include "tests/io/text_of.hpp"
 

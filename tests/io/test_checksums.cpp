@@ -7,11 +7,11 @@
 #include <functional>
 #include <random>
 
-#include "io/checksum.hpp"
-#include "io/dump_checksums.hpp"
-#include "io/hdf5_file.hpp"
-#include "io/read_info.hpp"
-#include "io/write_results.hpp"
+#include "io/files/checksum.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/results/dump_checksums.hpp"
+#include "io/results/read_info.hpp"
+#include "io/results/write_results.hpp"
 #include "tests/io/result_scene.hpp"
 
 namespace brio {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/closest_word.hpp"
-#include "io/read_deck.hpp"
+#include "io/deck/closest_word.hpp"
+#include "io/deck/read_deck.hpp"
 #include "tests/io/deck_text.hpp"
 
 namespace brio {

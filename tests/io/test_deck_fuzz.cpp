@@ -3,7 +3,7 @@
 #include <random>
 #include <sstream>
 
-#include "io/read_deck.hpp"
+#include "io/deck/read_deck.hpp"
 #include "tests/io/deck_text.hpp"
 
 namespace brio {

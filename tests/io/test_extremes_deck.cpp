@@ -13,10 +13,10 @@
 #include <regex>
 #include <sstream>
 
-#include "io/deck_error.hpp"
-#include "io/generate_mesh.hpp"
-#include "io/read_deck.hpp"
-#include "io/run_deck.hpp"
+#include "io/deck/deck_error.hpp"
+#include "io/deck/read_deck.hpp"
+#include "io/mesh/generate_mesh.hpp"
+#include "io/run/run_deck.hpp"
 #include "src/build/build.hpp"
 #include "src/step/advance.hpp"
 #include "tests/io/deck_text.hpp"

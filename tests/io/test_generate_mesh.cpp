@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "io/generate_mesh.hpp"
+#include "io/mesh/generate_mesh.hpp"
 #include "src/build/mass_properties.hpp"
 
 namespace brio {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "io/read_deck.hpp"
+#include "io/deck/read_deck.hpp"
 
 namespace brio {
 namespace {

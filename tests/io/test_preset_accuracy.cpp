@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/read_deck.hpp"
-#include "io/run_deck.hpp"
+#include "io/deck/read_deck.hpp"
+#include "io/run/run_deck.hpp"
 #include "src/step/advance.hpp"
 
 namespace brio {

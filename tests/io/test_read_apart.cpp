@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "io/file_error.hpp"
-#include "io/read_apart.hpp"
+#include "io/files/file_error.hpp"
+#include "io/files/read_apart.hpp"
 #include "tests/io/result_scene.hpp"
 
 namespace brio {

@@ -10,10 +10,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/folder_lock.hpp"
-#include "io/read_info.hpp"
-#include "io/text_file.hpp"
-#include "io/write_results.hpp"
+#include "io/files/folder_lock.hpp"
+#include "io/files/text_file.hpp"
+#include "io/results/read_info.hpp"
+#include "io/results/write_results.hpp"
 #include "tests/io/faults.hpp"
 #include "tests/io/result_scene.hpp"
 #include "tests/io/text_of.hpp"

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/hdf5_file.hpp"
-#include "io/write_results.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/results/write_results.hpp"
 #include "tests/io/result_scene.hpp"
 #include "tests/io/text_of.hpp"
 

@@ -12,9 +12,9 @@
 #include <sstream>
 #include <thread>
 
-#include "io/dump_checksums.hpp"
-#include "io/hdf5_file.hpp"
-#include "io/write_results.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/results/dump_checksums.hpp"
+#include "io/results/write_results.hpp"
 #include "tests/io/faults.hpp"
 #include "tests/io/result_scene.hpp"
 #include "tests/io/text_of.hpp"

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "io/hdf5_file.hpp"
-#include "io/read_apart.hpp"
-#include "io/read_info.hpp"
-#include "io/write_results.hpp"
-#include "io/write_summary.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/files/read_apart.hpp"
+#include "io/results/read_info.hpp"
+#include "io/results/write_results.hpp"
+#include "io/results/write_summary.hpp"
 #include "tests/io/result_scene.hpp"
 
 namespace brio {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/read_deck.hpp"
-#include "io/read_study.hpp"
-#include "io/write_schema.hpp"
+#include "io/deck/read_deck.hpp"
+#include "io/schema/write_schema.hpp"
+#include "io/study/read_study.hpp"
 #include "tests/io/deck_text.hpp"
 
 namespace brio {

@@ -5,8 +5,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "io/read_deck.hpp"
-#include "io/scene_size.hpp"
+#include "io/deck/read_deck.hpp"
+#include "io/run/scene_size.hpp"
 #include "tests/system/program.hpp"
 
 namespace brio {

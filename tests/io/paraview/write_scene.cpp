@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "io/write_results.hpp"
+#include "io/results/write_results.hpp"
 #include "tests/io/result_scene.hpp"
 
 namespace {

@@ -1,0 +1,260 @@
+#include "io/deck/condition_words.hpp"
+#include "io/deck/read_fields.hpp"
+#include "io/mesh/generate_mesh.hpp"
+
+namespace brio {
+
+namespace {
+
+using SetNames = std::vector<std::string_view> (*)(const MeshSource&);
+
+/// Checks `part.set`, or `part` alone.
+void check_set(const YamlNode& node, const Slot& slot, SetNames names_of_sets) {
+  const std::size_t dot = node.text.find('.');
+  const Part& part = slot.known.part(node, std::string_view(node.text).substr(0, dot));
+  if (dot == std::string::npos) return;
+  const std::string_view set = std::string_view(node.text).substr(dot + 1);
+  const std::vector<std::string_view> names = names_of_sets(part.mesh);
+  if (names.empty())
+    throw DeckError(node.place, "part '" + part.name +
+                                    "' has no sides: it is a line of beams; parts of solids or "
+                                    "shells are accepted");
+  if (std::find(names.begin(), names.end(), set) == names.end())
+    throw DeckError(node.place, "part '" + part.name + "' has no set '" + std::string(set) + "'; " +
+                                    accepted_words(set, names));
+}
+
+int axis_of(const YamlNode& node, const std::string& word) {
+  const auto found = std::find(component_words.begin(), component_words.end(), word);
+  if (found == component_words.end())
+    throw DeckError(node.place, "'" + word + "' is not a component of a motion; " +
+                                    accepted_words(word, {component_words.begin(), component_words.end()}));
+  return static_cast<int>(found - component_words.begin());
+}
+
+/// Prescribed rotations need nodes, or a body, that can turn.
+void check_component(const YamlNode& node, const Slot& slot, const NodeSelection& where, int axis) {
+  if (axis < 3 || where.set.empty()) return;
+  const Part& part = slot.known.part(node, where.set.substr(0, where.set.find('.')));
+  if (!has_rotations(part.element) && !std::holds_alternative<Rigid>(part.element))
+    throw DeckError(node.place, "the nodes of '" + part.name + "' do not turn: its elements are '" +
+                                    std::string(name_of(part.element)) + "'; accepted: x, y, z");
+}
+
+void add_component(const YamlNode& node, const Slot& slot, PrescribedMotion& motion, const std::string& word,
+                   Curve curve) {
+  const int axis = axis_of(node, word);
+  for (const PrescribedComponent& other : motion.components)
+    if (other.axis == axis)
+      throw DeckError(node.place, "component '" + word + "' is given twice; once is accepted");
+  check_component(node, slot, motion.where, axis);
+  motion.components.push_back({axis, std::move(curve), to_string(node.place)});
+}
+
+/// `part: NAME`, or `set: ...`.
+void read_where(const YamlNode& node, const Slot& slot, const std::string& condition, NodeSelection& where) {
+  const YamlEntry* part = node.find("part");
+  const YamlEntry* set = node.find("set");
+  if ((part == nullptr) == (set == nullptr))
+    throw DeckError(node.place, condition + " names either 'part' or 'set'");
+  if (set != nullptr) {
+    read_value(*set->value, Slot{"set", any_number, slot.known}, where);
+  } else {
+    read_value(*part->value, Slot{"part", any_number, slot.known}, where.set);
+    where.place = to_string(part->value->place);
+    slot.known.part(*part->value, where.set);
+  }
+}
+
+void read_motion(const YamlNode& node, const Slot& slot, PrescribedMotion& motion) {
+  std::vector<std::string_view> accepted{"part", "set", "fix"};
+  for (const auto& [key, kind] : motion_keys) accepted.push_back(key);
+  check_keys(node, accepted);
+  const YamlEntry* given = nullptr;
+  for (const YamlEntry& entry : node.entries) {
+    if (entry.key == "set" || entry.key == "part") continue;
+    if (given != nullptr)
+      throw DeckError(entry.place,
+                      "both '" + given->key + "' and '" + entry.key + "'; one is accepted an entry");
+    given = &entry;
+  }
+  read_where(node, slot, "a boundary condition", motion.where);
+  if (given == nullptr)
+    throw DeckError(node.place, "nothing is prescribed; accepted: fix, displacement, velocity, acceleration");
+  if (given->key == "fix") {
+    const Slot fix{"fix", any_number, slot.known};
+    if (!given->value->is_sequence() || given->value->items.empty())
+      refuse(*given->value, fix, "a list of components such as [x, y, z, rx, ry, rz]");
+    motion.kind = MotionKind::velocity;
+    for (const auto& item : given->value->items)
+      add_component(*item, fix, motion, item->text, Curve{{{0, 0}}});
+    return;
+  }
+  for (const auto& [key, kind] : motion_keys)
+    if (given->key == key) motion.kind = kind;
+  const Slot components{given->key, any_number, slot.known};
+  if (!given->value->is_map() || given->value->entries.empty())
+    refuse(*given->value, components, "a map of components, such as {x: 10} or {x: [[0, 0], [1e-3, 10]]}");
+  for (const YamlEntry& entry : given->value->entries) {
+    Curve curve;
+    read_value(*entry.value, Slot{entry.key, any_number, slot.known}, curve);
+    add_component(*entry.value, components, motion, entry.key, std::move(curve));
+  }
+}
+
+void read_part_names(const YamlNode& node, const Slot& slot, std::vector<std::string>& names) {
+  if (!node.is_sequence()) refuse(node, slot, "a list of parts");
+  for (const auto& item : node.items) {
+    std::string& name = names.emplace_back();
+    read_value(*item, slot, name);
+    slot.known.part(*item, name);
+  }
+}
+
+}  // namespace
+
+void read_value(const YamlNode& node, const Slot& slot, NodeSelection& selection) {
+  selection.place = to_string(node.place);
+  if (node.is_scalar()) {
+    check_set(node, slot, node_set_names);
+    selection.set = node.text;
+    return;
+  }
+  if (!node.is_map()) refuse(node, slot, "part.set, or a region such as {box: {lower: [...], upper: [...]}}");
+  read_single_key_choice(node, slot, selection.region, {"part"});
+  if (const YamlEntry* part = node.find("part")) {
+    read_value(*part->value, Slot{"part", any_number, slot.known}, selection.part);
+    slot.known.part(*part->value, selection.part);
+  }
+}
+
+void read_value(const YamlNode& node, const Slot& slot, Curve& curve) {
+  if (node.is_scalar()) {
+    double constant = 0;
+    read_value(node, slot, constant);
+    curve.points = {{0, constant}};
+    return;
+  }
+  if (!node.is_sequence() || node.items.empty()) refuse(node, slot, "a number or a list of [time, value]");
+  curve.points.clear();
+  for (const auto& item : node.items) {
+    std::array<double, 2>& point = curve.points.emplace_back();
+    read_value(*item, slot, point);
+    if (curve.points.size() > 1 && point[0] <= curve.points[curve.points.size() - 2][0])
+      throw DeckError(item->place, "the times of '" + std::string(slot.key) +
+                                       "' do not grow; each must be later than the one before");
+  }
+}
+
+void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition) {
+  read_fields(node, slot, condition, {"part", "set"});
+  read_where(node, slot, "an initial condition", condition.where);
+  if (node.find("velocity") == nullptr && node.find("spin") == nullptr && node.find("radial") == nullptr)
+    throw DeckError(node.place, "nothing is given at the start; accepted: velocity, spin, radial");
+}
+
+void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition) {
+  require_map(node, slot);
+  if (const YamlEntry* wall = node.find(RigidWall::name)) {
+    check_keys(node, {RigidWall::name});
+    read_value(*wall->value, Slot{RigidWall::name, any_number, slot.known}, condition.emplace<RigidWall>());
+    return;
+  }
+  read_motion(node, slot, condition.emplace<PrescribedMotion>());
+}
+
+void read_value(const YamlNode& node, const Slot& slot, Load& load) {
+  require_map(node, slot);
+  for (const std::string_view name : names_of(load)) {
+    if (node.find(name) == nullptr) continue;
+    choose_alternative(load, name, [&](auto& chosen) { read_fields(node, slot, chosen); });
+    if (const YamlEntry* sides = node.find("side_set")) check_set(*sides->value, slot, side_set_names);
+    return;
+  }
+  throw DeckError(node.place, "nothing is said about the load; " + accepted_words("", names_of(load)));
+}
+
+void read_value(const YamlNode& node, const Slot& slot, Probe& probe) {
+  read_fields(node, slot, probe);
+  if (probe.part) slot.known.part(*node.find("part")->value, *probe.part);
+}
+
+namespace {
+
+void read_connection(const YamlNode& node, const Slot& slot, Merge& merge) {
+  read_fields(node, slot, merge);
+  const YamlNode& parts = *node.find("merge")->value;
+  for (std::size_t i = 0; i < parts.items.size(); ++i) {
+    const Part& part = slot.known.part(*parts.items[i], merge.parts[i]);
+    if (std::holds_alternative<Rigid>(part.element) || std::holds_alternative<Particle>(part.element))
+      throw DeckError(parts.items[i]->place,
+                      "part '" + part.name + "' is of elements '" + std::string(name_of(part.element)) +
+                          "', which share no nodes; accepted are parts of solids, shells and beams");
+  }
+  if (merge.parts.size() != 2 || merge.parts[0] == merge.parts[1])
+    throw DeckError(parts.place, "'merge' takes two different parts");
+}
+
+void refuse_rigid(const YamlNode& node, const Part& part) {
+  if (std::holds_alternative<Rigid>(part.element))
+    throw DeckError(node.place,
+                    "part '" + part.name + "' is rigid; accepted in 'tie' are parts of other elements");
+}
+
+void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) {
+  read_fields(node, slot, tie);
+  const YamlNode& names = *node.find("tie")->value;
+  if (tie.names.size() != 2)
+    throw DeckError(names.place, "'tie' takes a part or a set, and the part whose faces hold its nodes");
+  const YamlNode& slave = *names.items[0];
+  check_set(slave, slot, node_set_names);
+  const Part& held = slot.known.part(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));
+  refuse_rigid(slave, held);
+  const Part& holder = slot.known.part(*names.items[1], tie.names[1]);
+  refuse_rigid(*names.items[1], holder);
+  if (nodes_per_element(holder.element) < 4)
+    throw DeckError(names.items[1]->place,
+                    "part '" + holder.name + "' is of elements '" + std::string(name_of(holder.element)) +
+                        "', which have no faces; accepted are parts of solids and shells");
+  if (&held == &holder) throw DeckError(names.place, "'tie' takes two different parts");
+}
+
+}  // namespace
+
+void read_value(const YamlNode& node, const Slot& slot, Connection& connection) {
+  require_map(node, slot);
+  for (const std::string_view name : names_of(connection)) {
+    if (node.find(name) == nullptr) continue;
+    choose_alternative(connection, name, [&](auto& chosen) { read_connection(node, slot, chosen); });
+    return;
+  }
+  throw DeckError(node.place,
+                  "nothing is said about the connection; " + accepted_words("", names_of(connection)));
+}
+
+void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair) {
+  read_fields(node, slot, pair, {"parts"});
+  const YamlEntry* parts = node.find("parts");
+  if (parts == nullptr)
+    throw DeckError(node.place, "an entry of 'pairs' has no 'parts'; two parts are accepted");
+  read_part_names(*parts->value, Slot{"parts", any_number, slot.known}, pair.parts);
+  if (pair.parts.size() != 2)
+    throw DeckError(parts->value->place, "'parts' of a pair names " + std::to_string(pair.parts.size()) +
+                                             "; two are accepted, or one twice");
+}
+
+void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact) {
+  contact.place = to_string(node.place);
+  read_fields(node, slot, contact.options, {"surfaces", "exclude", "pairs"});
+  const YamlEntry* surfaces = node.find("surfaces");
+  if (surfaces == nullptr)
+    throw DeckError(node.place, "'contact' has no 'surfaces'; accepted: all, or a list of parts");
+  if (!surfaces->value->is_scalar() || surfaces->value->text != "all")
+    read_part_names(*surfaces->value, Slot{"surfaces", any_number, slot.known}, contact.surfaces);
+  if (const YamlEntry* exclude = node.find("exclude"))
+    read_part_names(*exclude->value, Slot{"exclude", any_number, slot.known}, contact.exclude);
+  if (const YamlEntry* pairs = node.find("pairs"))
+    read_value(*pairs->value, Slot{"pairs", any_number, slot.known}, contact.pairs);
+}
+
+}  // namespace brio

@@ -1,0 +1,48 @@
+#include "io/deck/read_deck.hpp"
+
+#include "io/deck/preset.hpp"
+#include "io/deck/read_fields.hpp"
+#include "io/deck/yaml_source.hpp"
+
+namespace brio {
+
+namespace {
+
+void check_precision(const Deck& deck, const YamlNode& root) {
+  if (deck.numerics.precision == Precision::double_precision) return;
+  for (const Part& part : deck.parts)
+    if (std::holds_alternative<Particle>(part.element))
+      throw DeckError(root.find("numerics")->value->find("precision")->value->place,
+                      "part '" + part.name + "' is of particles, which are computed in double only");
+}
+
+}  // namespace
+
+Deck read_deck(const std::string& path, const std::vector<std::string>& overrides) {
+  return parse_deck(read_text_file(path), path, overrides);
+}
+
+Deck parse_deck(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
+  std::shared_ptr<const YamlNode> root = parse_yaml(text, name);
+  if (root->is_null())
+    throw DeckError(root->place, "the deck is empty; materials, parts and time are required");
+  if (!root->is_map())
+    throw DeckError(root->place, "the deck is " + describe(*root) + "; a map of keys is expected");
+  for (const std::string& setting : overrides) root = override_value(root, setting);
+  const std::shared_ptr<const YamlNode> as_said = root;
+  root = with_preset(root);
+  Deck deck;
+  deck.file = name;
+  const KnownNames known(deck);
+  read_fields(*root, Slot{"deck", any_number, known}, deck);
+  if (deck.parts.empty())
+    throw DeckError(
+        root->find("parts")->value->place,
+        "'parts' is empty; at least one part is expected, such as {cube: {mesh: ..., element: ..., "
+        "material: ...}}");
+  check_precision(deck, *root);
+  deck.text = overrides.empty() && root == as_said ? text : write_yaml(*root);
+  return deck;
+}
+
+}  // namespace brio

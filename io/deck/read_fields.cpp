@@ -1,0 +1,128 @@
+#include "io/deck/read_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "io/deck/condition_words.hpp"
+
+namespace brio {
+
+namespace {
+
+bool looks_like_a_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("+-.0123456789eE") == std::string_view::npos &&
+         text.find_first_of("0123456789") != std::string_view::npos;
+}
+
+bool is_infinity_or_nan(std::string_view text) {
+  if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
+  if (!text.empty() && text.front() == '.') text.remove_prefix(1);
+  for (const std::string_view word : {"inf", "nan", "infinity"})
+    if (edit_distance(text, word) == 0) return true;
+  return false;
+}
+
+/// A finite number of any locale: from_chars knows none.
+double number(const YamlNode& node, const Slot& slot, std::string_view noun) {
+  const std::string wanted = accepted_numbers(slot.range, noun);
+  if (!node.is_scalar() || node.quoted) refuse(node, slot, wanted);
+  if (is_infinity_or_nan(node.text)) refuse(node, slot, wanted + " that is finite");
+  std::string_view text = node.text;
+  if (!looks_like_a_number(text)) refuse(node, slot, wanted);
+  if (text.front() == '+') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size() || fault == std::errc::invalid_argument) refuse(node, slot, wanted);
+  if (fault == std::errc::result_out_of_range)
+    refuse(node, slot, wanted + " whose size is 0 or from 1e-307 to 1e308");
+  return value;
+}
+
+}  // namespace
+
+std::string range_text(const Range& range) {
+  const bool has_lower = std::isfinite(range.lower);
+  const bool has_upper = std::isfinite(range.upper);
+  std::string text;
+  if (has_lower) text = fmt::format("{} {}", range.lower_open ? ">" : ">=", range.lower);
+  if (has_lower && has_upper) text += " and ";
+  if (has_upper) text += fmt::format("{} {}", range.upper_open ? "<" : "<=", range.upper);
+  return text;
+}
+
+std::string accepted_numbers(const Range& range, std::string_view noun) {
+  const std::string limits = range_text(range);
+  return std::string(noun) + (limits.empty() ? "" : " " + limits);
+}
+
+void refuse(const YamlNode& node, const Slot& slot, const std::string& wanted) {
+  throw DeckError(node.place,
+                  "'" + std::string(slot.key) + "' is " + describe(node) + "; expected " + wanted);
+}
+
+void require_map(const YamlNode& node, const Slot& slot) {
+  if (!node.is_map()) refuse(node, slot, "a map of keys and values");
+}
+
+void check_name(const YamlEntry& entry, std::string_view kind) {
+  if (!entry.key.empty() && entry.key.find_first_not_of(name_letters) == std::string::npos) return;
+  throw DeckError(entry.place, "'" + entry.key + "' cannot be a name in '" + std::string(kind) +
+                                   "'; accepted are letters, digits, _ and -");
+}
+
+void check_keys(const YamlNode& map, const std::vector<std::string_view>& accepted) {
+  for (const YamlEntry& entry : map.entries)
+    if (std::find(accepted.begin(), accepted.end(), entry.key) == accepted.end())
+      throw DeckError(entry.place, "unknown key '" + entry.key + "'; " + accepted_words(entry.key, accepted));
+}
+
+void read_value(const YamlNode& node, const Slot& slot, double& value) {
+  value = number(node, slot, "a number");
+  if (!slot.range.contains(value)) refuse(node, slot, accepted_numbers(slot.range, "a number"));
+}
+
+void read_value(const YamlNode& node, const Slot& slot, int& value) {
+  const std::string wanted = accepted_numbers(slot.range, "an integer");
+  const double read = number(node, slot, "an integer");
+  if (read != std::floor(read) || !slot.range.contains(read)) refuse(node, slot, wanted);
+  if (std::abs(read) > std::numeric_limits<int>::max())
+    refuse(node, slot, wanted + fmt::format(" of at most {}", std::numeric_limits<int>::max()));
+  value = static_cast<int>(read);
+}
+
+void read_value(const YamlNode& node, const Slot& slot, bool& value) {
+  if (!node.is_scalar() || node.quoted || (node.text != "true" && node.text != "false"))
+    refuse(node, slot, "true or false");
+  value = node.text == "true";
+}
+
+void read_value(const YamlNode& node, const Slot& slot, std::string& value) {
+  if (!node.is_scalar()) refuse(node, slot, "a text");
+  value = node.text;
+}
+
+const Part& KnownNames::part(const YamlNode& node, std::string_view name) const {
+  if (parts_.size() != deck_.parts.size()) {
+    parts_.clear();
+    for (const Part& part : deck_.parts) parts_[part.name] = &part;
+  }
+  if (const auto found = parts_.find(name); found != parts_.end()) return *found->second;
+  std::vector<std::string_view> names;
+  for (const Part& part : deck_.parts) names.push_back(part.name);
+  throw DeckError(node.place,
+                  "no part is called '" + std::string(name) + "'; " + accepted_words(name, names));
+}
+
+const Material& KnownNames::material(const YamlNode& node) const {
+  std::vector<std::string_view> names;
+  for (const auto& [name, material] : deck_.materials) {
+    if (name == node.text) return material;
+    names.push_back(name);
+  }
+  throw DeckError(node.place,
+                  "no material is called '" + node.text + "'; " + accepted_words(node.text, names));
+}
+
+}  // namespace brio

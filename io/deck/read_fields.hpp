@@ -1,0 +1,258 @@
+#pragma once
+/// Reads any struct of the deck from its table of `fields()`: types, ranges, missing and unknown keys.
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "io/deck/closest_word.hpp"
+#include "io/deck/yaml_source.hpp"
+#include "src/deck/deck.hpp"
+
+namespace brio {
+
+/// Names that later entries of a deck may refer to: what of the deck has been read so far.
+class KnownNames {
+ public:
+  explicit KnownNames(const Deck& deck) : deck_(deck) {}
+
+  /// \throws DeckError if no part is called so.
+  const Part& part(const YamlNode& node, std::string_view name) const;
+  /// \throws DeckError if no material is called so.
+  const Material& material(const YamlNode& node) const;
+
+ private:
+  const Deck& deck_;
+  mutable std::unordered_map<std::string_view, const Part*> parts_;  ///< filled when all parts are read
+};
+
+/// What a value is for: its key, for messages; what it may be; the names it may refer to.
+struct Slot {
+  std::string_view key;
+  Range range;
+  const KnownNames& known;
+};
+
+/// "a number > 0", "an integer >= 1 and <= 9", ...
+std::string accepted_numbers(const Range& range, std::string_view noun);
+/// Range in words: "> 0", ">= 1 and <= 9"; empty if every number belongs to it.
+std::string range_text(const Range& range);
+
+void read_value(const YamlNode& node, const Slot& slot, double& value);
+void read_value(const YamlNode& node, const Slot& slot, int& value);
+void read_value(const YamlNode& node, const Slot& slot, bool& value);
+void read_value(const YamlNode& node, const Slot& slot, std::string& value);
+
+// What has a form of its own in a deck (read_parts.cpp, read_conditions.cpp).
+void read_value(const YamlNode& node, const Slot& slot, Material& material);
+void read_value(const YamlNode& node, const Slot& slot, Element& element);
+void read_value(const YamlNode& node, const Slot& slot, MeshSource& mesh);
+void read_value(const YamlNode& node, const Slot& slot, BeamSection& section);
+void read_value(const YamlNode& node, const Slot& slot, Part& part);
+void read_value(const YamlNode& node, const Slot& slot, NodeSelection& selection);
+void read_value(const YamlNode& node, const Slot& slot, Curve& curve);
+void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition);
+void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition);
+void read_value(const YamlNode& node, const Slot& slot, Load& load);
+void read_value(const YamlNode& node, const Slot& slot, Connection& connection);
+void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair);
+void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact);
+void read_value(const YamlNode& node, const Slot& slot, Probe& probe);
+
+/// \throws DeckError "KEY is ...; WANTED is expected".
+[[noreturn]] void refuse(const YamlNode& node, const Slot& slot, const std::string& wanted);
+/// \throws DeckError unless the node is a map.
+void require_map(const YamlNode& node, const Slot& slot);
+/// \throws DeckError unless the name can stand in `part.set` and in files.
+void check_name(const YamlEntry& entry, std::string_view kind);
+/// \throws DeckError at the first key that is not among the accepted.
+void check_keys(const YamlNode& map, const std::vector<std::string_view>& accepted);
+
+template <class T>
+concept HasFault = requires(const T& value) {
+  std::string_view(value.fault());
+};
+/// A thing that refusals after the deck was read refer to.
+template <class T>
+concept HasPlace = requires(T& value) {
+  value.place = std::string();
+};
+/// A thing that is called by its key in a map, such as a part.
+template <class T>
+concept HasOwnName = requires(T& value) {
+  value.name = std::string();
+};
+
+template <HasNamedValues Enumeration>
+void read_value(const YamlNode& node, const Slot& slot, Enumeration& value) {
+  std::vector<std::string_view> words;
+  for (const auto& named : named_values(Enumeration{})) {
+    if (node.is_scalar() && node.text == named.word) {
+      value = named.value;
+      return;
+    }
+    words.push_back(named.word);
+  }
+  if (!node.is_scalar()) refuse(node, slot, "one word of " + accepted_words("", words).substr(10));
+  throw DeckError(node.place, "'" + std::string(slot.key) + "' is " + describe(node) + "; " +
+                                  accepted_words(node.text, words));
+}
+
+template <class T, std::size_t N>
+void read_value(const YamlNode& node, const Slot& slot, std::array<T, N>& values) {
+  if (!node.is_sequence() || node.items.size() != N) {
+    const std::string noun = std::is_same_v<T, int> ? "integers" : "numbers";
+    const std::string range = range_text(slot.range);
+    refuse(node, slot, "a list of " + std::to_string(N) + " " + noun + (range.empty() ? "" : " " + range));
+  }
+  for (std::size_t i = 0; i < N; ++i) read_value(*node.items[i], slot, values[i]);
+}
+
+/// A map of names, or a list.
+template <class T>
+void read_value(const YamlNode& node, const Slot& slot, std::vector<T>& values) {
+  if constexpr (HasOwnName<T>) {
+    require_map(node, slot);
+    for (const YamlEntry& entry : node.entries) {
+      check_name(entry, slot.key);
+      T& value = values.emplace_back();
+      value.name = entry.key;
+      read_value(*entry.value, {entry.key, any_number, slot.known}, value);
+      if constexpr (HasPlace<T>) value.place = to_string(entry.place);
+    }
+  } else {
+    if (!node.is_sequence()) refuse(node, slot, "a list");
+    for (const auto& item : node.items) read_value(*item, slot, values.emplace_back());
+  }
+}
+template <class T>
+void read_value(const YamlNode& node, const Slot& slot, std::vector<std::pair<std::string, T>>& values) {
+  require_map(node, slot);
+  for (const YamlEntry& entry : node.entries) {
+    check_name(entry, slot.key);
+    values.emplace_back(entry.key, T{});
+    read_value(*entry.value, {entry.key, any_number, slot.known}, values.back().second);
+  }
+}
+
+template <class T>
+void read_value(const YamlNode& node, const Slot& slot, std::optional<T>& value) {
+  read_value(node, slot, value.emplace());
+}
+
+/// The keys of a struct's table.
+template <HasFields T>
+std::vector<std::string_view> keys_of() {
+  std::vector<std::string_view> keys;
+  T::fields()([&](const auto& field) { keys.push_back(field.key); });
+  return keys;
+}
+
+/// Reads the entries of a map into a struct, in the order of its table.
+/// \param besides keys that the caller reads
+template <HasFields T>
+void read_fields(const YamlNode& map, const Slot& slot, T& value,
+                 const std::vector<std::string_view>& besides = {}) {
+  require_map(map, slot);
+  if constexpr (HasPlace<T>) value.place = to_string(map.place);
+  std::vector<std::string_view> accepted = besides;
+  for (const std::string_view key : keys_of<T>()) accepted.push_back(key);
+  check_keys(map, accepted);
+  const auto read_field = [&](const auto& field) {
+    const YamlEntry* entry = map.find(field.key);
+    if (entry == nullptr) {
+      if (field.is_required)
+        throw DeckError(map.place, "'" + std::string(slot.key) + "' has no '" + std::string(field.key) +
+                                       "'; it is required: " + std::string(field.meaning));
+      return;
+    }
+    if (entry->value->is_null())
+      throw DeckError(entry->place, "'" + std::string(field.key) +
+                                        "' has no value; expected: " + std::string(field.meaning));
+    read_value(*entry->value, Slot{field.key, field.range, slot.known}, value.*field.member);
+  };
+  T::fields()(read_field);
+  if constexpr (HasFault<T>) {
+    if (const std::string_view fault = value.fault(); !fault.empty())
+      throw DeckError(map.place, std::string(fault));
+  }
+}
+
+template <HasFields T>
+void read_value(const YamlNode& node, const Slot& slot, T& value) {
+  read_fields(node, slot, value);
+}
+
+/// The names of a variant's alternatives, in its order.
+template <class... Alternative>
+std::vector<std::string_view> names_of(const std::variant<Alternative...>&) {
+  std::vector<std::string_view> names;
+  const auto add = [&]<class One>(std::type_identity<One>) {
+    if constexpr (!std::is_same_v<One, std::monostate>) names.push_back(One::name);
+  };
+  (add(std::type_identity<Alternative>{}), ...);
+  return names;
+}
+
+/// Makes `choice` the alternative called `name` and hands it to `read`; false if none is called so.
+template <class Read, class... Alternative>
+bool choose_alternative(std::variant<Alternative...>& choice, std::string_view name, const Read& read) {
+  const auto offer = [&]<class One>(std::type_identity<One>) {
+    if constexpr (!std::is_same_v<One, std::monostate>) {
+      if (One::name != name) return false;
+      read(choice.template emplace<One>());
+      return true;
+    }
+    return false;
+  };
+  return (offer(std::type_identity<Alternative>{}) || ...);
+}
+
+/// `{KEY: NAME, ...fields}`, as materials and elements are written.
+template <class Variant>
+void read_named_choice(const YamlNode& map, const Slot& slot, std::string_view key, Variant& choice) {
+  require_map(map, slot);
+  const YamlEntry* entry = map.find(key);
+  if (entry == nullptr)
+    throw DeckError(map.place, "'" + std::string(slot.key) + "' has no '" + std::string(key) + "'; " +
+                                   accepted_words("", names_of(choice)));
+  const bool found = choose_alternative(choice, entry->value->text,
+                                        [&](auto& chosen) { read_fields(map, slot, chosen, {key}); });
+  if (!found)
+    throw DeckError(entry->value->place, "'" + std::string(key) + "' is " + describe(*entry->value) + "; " +
+                                             accepted_words(entry->value->text, names_of(choice)));
+}
+
+/// `{NAME: {...fields}}`, as meshes and regions are written.
+/// \param besides keys that may stand beside the name and are read by the caller
+template <class Variant>
+void read_single_key_choice(const YamlNode& map, const Slot& slot, Variant& choice,
+                            const std::vector<std::string_view>& besides = {}) {
+  require_map(map, slot);
+  const std::vector<std::string_view> names = names_of(choice);
+  std::vector<std::string_view> accepted = names;
+  accepted.insert(accepted.end(), besides.begin(), besides.end());
+  check_keys(map, accepted);
+  const YamlEntry* chosen_entry = nullptr;
+  for (const YamlEntry& entry : map.entries) {
+    if (std::find(besides.begin(), besides.end(), entry.key) != besides.end()) continue;
+    if (chosen_entry != nullptr)
+      throw DeckError(entry.place, "'" + std::string(slot.key) + "' is both '" + chosen_entry->key +
+                                       "' and '" + entry.key + "'; one is accepted");
+    chosen_entry = &entry;
+  }
+  if (chosen_entry == nullptr)
+    throw DeckError(map.place, "'" + std::string(slot.key) + "' is not said; " + accepted_words("", names));
+  choose_alternative(choice, chosen_entry->key, [&](auto& chosen) {
+    read_value(*chosen_entry->value, Slot{chosen_entry->key, any_number, slot.known}, chosen);
+  });
+}
+
+}  // namespace brio

@@ -1,0 +1,132 @@
+#include "io/results/write_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+#include <utility>
+
+#include "io/files/hdf5_file.hpp"
+#include "io/files/text_file.hpp"
+#include "io/files/utf8.hpp"
+#include "io/results/dump_checksums.hpp"
+#include "io/results/write_history.hpp"
+#include "io/results/write_summary.hpp"
+
+namespace brio {
+namespace {
+
+void write_record(Hdf5File& file, const RunRecord& record) {
+  file.create_group("/deck");
+  file.write_text("/deck/title", record.title);
+  file.write_text("/deck/path", as_utf8(record.deck_path));
+  file.write_text("/deck/text", record.deck_text);
+  file.write_texts("/deck/overrides", record.overrides);
+  file.write_text("/deck/version", record.version);
+  file.write_attribute("/deck", "threads", record.threads);
+}
+
+/// The data last of all: what describes them must not stand beside others.
+constexpr std::array endings{".xdmf2", ".summary.json", ".history.csv", ".vtkhdf"};
+
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::rename(from, to, error);
+  if (error) throw FileError(to, "cannot rename " + from.filename().string() + ": " + error.message());
+}
+
+}  // namespace
+
+ResultWriter::ResultWriter(std::filesystem::path folder, const std::string& name, const RunRecord& record,
+                           const std::vector<std::string>& history_columns, ResultSettings settings)
+    : folder_(std::move(folder)),
+      name_(name),
+      settings_(std::move(settings)),
+      dumps_(settings_.compression),
+      xdmf_(name + ".vtkhdf") {
+  make_folder(folder_);
+  lock_ = std::make_shared<const FolderLock>(folder_);
+  Hdf5File file = Hdf5File::create(current(".vtkhdf"));
+  write_record(file, record);
+  create_history(file, history_columns);
+  create_checksums(file);
+  file.close();
+  create_history_csv(current(".history.csv"), history_columns);
+}
+
+std::filesystem::path ResultWriter::current(const char* ending) const {
+  std::filesystem::path result = path(ending);
+  if (!published_) result += ".partial";
+  return result;
+}
+
+void ResultWriter::remove_earlier() const {
+  for (const char* ending : endings) remove_file(path(ending));
+}
+
+/// Wherever this is interrupted, no description stands beside data of another run, and the earlier results
+/// are all there.
+void ResultWriter::move_earlier_aside() const {
+  const auto exists = [](const std::filesystem::path& file) {
+    return std::filesystem::exists(std::filesystem::symlink_status(file));
+  };
+  if (std::none_of(endings.begin(), endings.end(), [&](const char* end) { return exists(path(end)); }))
+    return;
+  std::filesystem::path aside = std::filesystem::canonical(folder_);
+  aside += ".previous";
+  make_folder(aside);
+  if (std::filesystem::is_symlink(aside))
+    throw FileError(aside, "is a symbolic link: the results of the earlier run are not moved there");
+  const FolderLock lock(aside);
+  bool lost = false;
+  for (const char* ending : endings) {
+    const std::filesystem::path old = aside / (name_ + ending);
+    lost = lost || exists(old);
+    remove_file(old);
+  }
+  for (const char* ending : endings)
+    if (exists(path(ending))) rename_file(path(ending), aside / (name_ + ending));
+  if (settings_.sync != Sync::never) sync_to_disk(aside);
+  if (settings_.moved_aside) settings_.moved_aside(aside, lost);
+}
+
+void ResultWriter::publish() {
+  settings_.overwrite ? remove_earlier() : move_earlier_aside();
+  rename_file(current(".vtkhdf"), vtkhdf());
+  rename_file(current(".history.csv"), history_csv());
+  published_ = true;
+  if (sync_each_time()) sync_to_disk(folder_);
+}
+
+void ResultWriter::write(const Snapshot& snapshot) {
+  lock_->check();
+  Hdf5File file = Hdf5File::open_to_append(current(".vtkhdf"), sync_each_time());
+  const StoredDump dump = dumps_.append(file, snapshot);
+  file.close();
+  if (!published_) publish();
+  xdmf_.append(dump);
+  xdmf_.write(xdmf(), sync_each_time());
+}
+
+void ResultWriter::write(History& history) {
+  if (history.pending_rows() == 0) return;
+  lock_->check();
+  Hdf5File file = Hdf5File::open_to_append(current(".vtkhdf"), sync_each_time());
+  append_history(file, history);
+  file.close();
+  append_history_csv(current(".history.csv"), history, sync_each_time());
+  history.clear_pending();
+}
+
+void ResultWriter::write(const Summary& end_state) {
+  lock_->check();
+  if (!published_) publish();  // a run that failed before its first dump has ended as well
+  const bool sync = settings_.sync != Sync::never;
+  if (sync)
+    for (const std::filesystem::path& file : {vtkhdf(), history_csv(), xdmf()})
+      if (std::filesystem::exists(file)) sync_to_disk(file);
+  write_summary(summary(), end_state, sync);
+}
+
+}  // namespace brio

@@ -1,0 +1,90 @@
+#pragma once
+/// The result folder of a run:
+///   NAME.vtkhdf        dumps as a transient VTKHDF unstructured grid, `/history`, `/deck`
+///   NAME.xdmf2         the same dumps for ParaView versions that do not read a transient VTKHDF file
+///   NAME.history.csv   the history as a table
+///   NAME.summary.json  the end state
+///
+/// Every call opens, appends and closes, so that a running job can be looked at; a process that is killed at
+/// any moment leaves files that read up to the last complete dump, and a full disk takes back only the dump
+/// that did not fit. The results of an earlier run under the same name stay until the first dump of the new
+/// run is complete, and are then moved to the folder NAME.previous beside this one, or removed if that was
+/// asked for; until then the new files end in `.partial`. Other files of the folder are not touched. A folder
+/// in which another process writes is refused.
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/files/file_error.hpp"
+#include "io/files/folder_lock.hpp"
+#include "io/results/write_vtkhdf.hpp"
+#include "io/results/write_xdmf.hpp"
+#include "src/deck/deck.hpp"
+#include "src/output/history.hpp"
+#include "src/output/snapshot.hpp"
+#include "src/output/summary.hpp"
+
+namespace brio {
+
+/// What was run, kept in `/deck`: anybody can run it again from the result file.
+struct RunRecord {
+  std::string title;
+  std::string deck_path;
+  std::string deck_text;               ///< as read
+  std::vector<std::string> overrides;  ///< KEY.PATH=VALUE, in order
+  std::string version;
+  int threads = 1;
+};
+
+struct ResultSettings {
+  int compression = 0;  ///< gzip level of points and fields; 0 is about ten times faster
+  Sync sync = Sync::never;
+  bool overwrite = false;  ///< whether results of an earlier run are removed, not moved aside
+  /// Called when results of an earlier run were moved aside. \param lost whether others, which had been moved
+  /// aside before, were removed for them.
+  std::function<void(const std::filesystem::path& to, bool lost)> moved_aside{};
+};
+
+class ResultWriter {
+ public:
+  /// Makes the folder and the files under their `.partial` names, so that a folder that cannot be written is
+  /// known before anything is computed. Copies of a writer hold the folder together. \throws FileError
+  ResultWriter(std::filesystem::path folder, const std::string& name, const RunRecord& record,
+               const std::vector<std::string>& history_columns, ResultSettings settings = {});
+
+  /// Append a dump. \throws FileError; dumps before stay readable.
+  void write(const Snapshot& snapshot);
+
+  /// Append the pending rows to the result file and the CSV file, and clear them. \throws FileError
+  void write(History& history);
+
+  /// The end of the run. \throws FileError
+  void write(const Summary& summary);
+
+  std::filesystem::path vtkhdf() const { return path(".vtkhdf"); }
+  std::filesystem::path xdmf() const { return path(".xdmf2"); }
+  std::filesystem::path history_csv() const { return path(".history.csv"); }
+  std::filesystem::path summary() const { return path(".summary.json"); }
+
+ private:
+  std::filesystem::path path(const char* ending) const { return folder_ / (name_ + ending); }
+  /// Where the file grows at present.
+  std::filesystem::path current(const char* ending) const;
+  void publish();
+  void remove_earlier() const;
+  void move_earlier_aside() const;
+  bool sync_each_time() const { return settings_.sync == Sync::dumps; }
+
+  std::filesystem::path folder_;
+  std::string name_;
+  ResultSettings settings_;
+  std::shared_ptr<const FolderLock> lock_;
+  bool published_ = false;
+  VtkhdfWriter dumps_;
+  XdmfWriter xdmf_;
+};
+
+}  // namespace brio

@@ -1,0 +1,116 @@
+#include <nlohmann/json.hpp>
+
+#include "io/run/check_deck.hpp"
+
+namespace brio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json parts(const CheckReport& report) {
+  Json list = Json::array();
+  for (const PartReport& part : report.parts)
+    list.push_back({{"name", part.name},
+                    {"element", part.element},
+                    {"material", part.material},
+                    {"elements", part.elements},
+                    {"nodes", part.nodes},
+                    {"mass", part.mass}});
+  return list;
+}
+
+Json joints(const CheckReport& report) {
+  Json merged = Json::array(), tied = Json::array();
+  for (const MergedParts& entry : report.merged)
+    merged.push_back({{"first", entry.first},
+                      {"second", entry.second},
+                      {"nodes", entry.nodes},
+                      {"farthest", entry.farthest}});
+  for (const TiedParts& entry : report.tied)
+    tied.push_back({{"nodes", entry.nodes},
+                    {"surface", entry.surface},
+                    {"count", entry.count},
+                    {"largest_gap", entry.largest_gap}});
+  return {{"merged", merged}, {"tied", tied}};
+}
+
+Json built(const CheckReport& report) {
+  Json list = Json::array();
+  for (const BuiltFeature& feature : report.built)
+    list.push_back({{"name", feature.name},
+                    {"because", feature.because},
+                    {"detail", feature.detail},
+                    {"memory_bytes", feature.bytes}});
+  return list;
+}
+
+Json warnings(const CheckReport& report) {
+  Json list = Json::array();
+  for (const SceneWarning& warning : report.warnings)
+    list.push_back({{"subject", warning.subject}, {"what", warning.what}, {"advice", warning.advice}});
+  return list;
+}
+
+Json overlaps(const CheckReport& report) {
+  Json list = Json::array();
+  for (const InitialOverlap& overlap : report.initial_overlaps)
+    list.push_back({{"node_part", overlap.node_part},
+                    {"face_part", overlap.face_part},
+                    {"nodes", overlap.nodes},
+                    {"depth", overlap.depth},
+                    {"gap", overlap.gap},
+                    {"moved", overlap.moved}});
+  return list;
+}
+
+Json forecast(const CheckReport& report) {
+  const Forecast& forecast = report.forecast;
+  const StepForecast& steps = forecast.steps;
+  const OutputCost& output = forecast.output;
+  return {{"threads", report.threads},
+          {"marched_steps", forecast.march.steps.size()},
+          {"marched_time", forecast.march.time},
+          {"marched_seconds", forecast.march.wall_seconds},
+          {"breakdown", forecast.march.breakdown},
+          {"steps", steps.steps},
+          {"steps_least", steps.least},
+          {"steps_most", steps.most > 0 ? Json(steps.most) : Json()},
+          {"steps_exact", steps.exact},
+          {"pilots", forecast.pilot_factors},
+          {"pilot_fault", forecast.pilot_fault},
+          {"wall_seconds", forecast.seconds()},
+          {"wall_seconds_as_busy_as_now", forecast.seconds() * forecast.march.waiting()},
+          {"build_seconds", forecast.build_seconds},
+          {"step_seconds", steps.seconds},
+          {"output_seconds", output.seconds()},
+          {"peak_memory_mb", forecast.peak_memory_mb},
+          {"dumps", output.dumps},
+          {"history_rows", output.rows},
+          {"dump_bytes", output.dump_bytes},
+          {"result_bytes", forecast.result_bytes},
+          {"output_fault", forecast.output_fault}};
+}
+
+}  // namespace
+
+std::string check_json(const CheckReport& report) {
+  const Json json{{"title", report.title},
+                  {"parts", parts(report)},
+                  {"nodes", report.nodes},
+                  {"connections", joints(report)},
+                  {"initial_overlaps", overlaps(report)},
+                  {"step",
+                   {{"stable", report.stable_step},
+                    {"first", report.first_step},
+                    {"part", report.critical_part},
+                    {"element", report.critical_element}}},
+                  {"end_time", report.end},
+                  {"active_features", report.active_features},
+                  {"built", built(report)},
+                  {"not_built", report.not_built},
+                  {"warnings", warnings(report)},
+                  {"forecast", forecast(report)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace brio

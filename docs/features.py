@@ -40,10 +40,10 @@ SCENES = {
 # Feature: sources that serve nothing else, stages of the time by stage, features that `check` tells the memory of.
 FEATURES = {
     "elements of all kinds": ([], ["elements"], []),
-    "solids": (["elements/hex8*.hpp", "elements/hourglass.hpp", "elements/mean_gradient.hpp"], [], ["hex8", "hex8_full"]),
-    "shells": (["elements/shell*.hpp", "elements/through_thickness.hpp"], [], ["shell4", "rotations of nodes"]),
+    "solids": (["elements/solid/hex8*.hpp", "elements/solid/hourglass.hpp", "elements/solid/mean_gradient.hpp"], [], ["hex8", "hex8_full"]),
+    "shells": (["elements/shell*.hpp", "elements/shell/through_thickness.hpp"], [], ["shell4", "rotations of nodes"]),
     "beams": (["elements/beam*"], [], ["beam2"]),
-    "particles": (["elements/particle*", "src/sweep/particles.cpp", "io/mesh/particle_mesh.cpp"], [], ["particle"]),
+    "particles": (["elements/particle/particle*", "src/sweep/particles.cpp", "io/mesh/particle_mesh.cpp"], [], ["particle"]),
     "rigid parts": (["src/motion/rigid.cpp", "src/build/build_rigid.cpp", "src/build/mass_properties.cpp"], ["rigid"], ["rigid bodies"]),
     "contact": (["contact/detection/*.cpp", "contact/enforcement/*.cpp", "contact/resolution.cpp", "contact/scene.cpp",
                  "contact/step_totals.cpp", "contact/surface.cpp", "contact/enclosed.cpp", "contact/velocity_check.cpp",

@@ -9,15 +9,15 @@
 #include <variant>
 #include <vector>
 
-#include "elements/beam2.hpp"
+#include "elements/base/motion.hpp"
+#include "elements/beam/beam2.hpp"
 #include "elements/deletion.hpp"
-#include "elements/hex8.hpp"
-#include "elements/hex8_full.hpp"
-#include "elements/motion.hpp"
-#include "elements/particle.hpp"
-#include "elements/particle_cloud.hpp"
+#include "elements/particle/particle.hpp"
+#include "elements/particle/particle_cloud.hpp"
 #include "elements/rigid.hpp"
-#include "elements/shell4.hpp"
+#include "elements/shell/shell4.hpp"
+#include "elements/solid/hex8.hpp"
+#include "elements/solid/hex8_full.hpp"
 #include "materials/material.hpp"
 #include "src/base/aligned.hpp"
 #include "src/base/nodes.hpp"

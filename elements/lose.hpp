@@ -8,10 +8,10 @@
 
 #include <cmath>
 
+#include "elements/base/motion.hpp"
 #include "elements/block.hpp"
 #include "elements/deletion.hpp"
-#include "elements/mean_gradient.hpp"
-#include "elements/motion.hpp"
+#include "elements/solid/mean_gradient.hpp"
 #include "materials/failing.hpp"
 #include "src/base/gather.hpp"
 

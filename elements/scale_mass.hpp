@@ -1,8 +1,8 @@
 #pragma once
 /// Mass for elements whose stable step is too short.
 
+#include "elements/base/motion.hpp"
 #include "elements/block.hpp"
-#include "elements/motion.hpp"
 
 namespace brio {
 

@@ -29,7 +29,7 @@
 #include <string>
 #include <vector>
 
-#include "elements/bad_element.hpp"
+#include "elements/base/bad_element.hpp"
 #include "elements/block.hpp"
 #include "elements/lose.hpp"
 #include "elements/scale_mass.hpp"

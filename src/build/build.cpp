@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "elements/bad_element.hpp"
+#include "elements/base/bad_element.hpp"
 #include "src/build/build_rigid.hpp"
 #include "src/build/build_ties.hpp"
 #include "src/build/contact_thickness.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "elements/particle_pairs.hpp"
+#include "elements/particle/particle_pairs.hpp"
 
 namespace brio {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <random>
 
-#include "elements/motion.hpp"
+#include "elements/base/motion.hpp"
 
 namespace brio::test {
 

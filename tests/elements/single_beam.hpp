@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "elements/beam2_kernel.hpp"
+#include "elements/beam/beam2_kernel.hpp"
 #include "materials/elastic.hpp"
 
 namespace brio {

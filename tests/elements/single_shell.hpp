@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "elements/shell4.hpp"
+#include "elements/shell/shell4.hpp"
 #include "materials/elastic.hpp"
 
 namespace brio {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "elements/beam_section.hpp"
+#include "elements/beam/beam_section.hpp"
 
 namespace brio {
 namespace {

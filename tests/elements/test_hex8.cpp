@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "elements/hex8_kernel.hpp"
+#include "elements/solid/hex8_kernel.hpp"
 #include "materials/elastic.hpp"
 #include "tests/elements/hexahedra.hpp"
 

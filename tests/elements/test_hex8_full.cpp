@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "elements/hex8_full_kernel.hpp"
+#include "elements/solid/hex8_full_kernel.hpp"
 #include "materials/elastic.hpp"
 #include "tests/core/floating_point_traps.hpp"
 #include "tests/elements/hexahedra.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "elements/hex8_kernel.hpp"
+#include "elements/solid/hex8_kernel.hpp"
 #include "materials/elastic.hpp"
 #include "materials/elastic_plastic.hpp"
 #include "tests/elements/hexahedra.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "elements/mean_gradient.hpp"
+#include "elements/solid/mean_gradient.hpp"
 #include "tests/elements/hexahedra.hpp"
 
 namespace brio {

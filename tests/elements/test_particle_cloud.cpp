@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include "elements/particle_kernel.hpp"
-#include "elements/particle_pairs.hpp"
+#include "elements/particle/particle_kernel.hpp"
+#include "elements/particle/particle_pairs.hpp"
 
 namespace brio {
 namespace {

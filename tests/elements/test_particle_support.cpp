@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "elements/particle_support.hpp"
+#include "elements/particle/particle_support.hpp"
 
 namespace brio {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "elements/hex8_full_kernel.hpp"
-#include "elements/hex8_kernel.hpp"
+#include "elements/solid/hex8_full_kernel.hpp"
+#include "elements/solid/hex8_kernel.hpp"
 #include "materials/elastic.hpp"
 #include "materials/elastic_plastic.hpp"
 #include "materials/neo_hookean.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elements/hex8_full_kernel.hpp"
-#include "elements/hex8_kernel.hpp"
+#include "elements/solid/hex8_full_kernel.hpp"
+#include "elements/solid/hex8_kernel.hpp"
 #include "materials/elastic.hpp"
 #include "tests/elements/hexahedra.hpp"
 

@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "elements/hex8_kernel.hpp"
+#include "elements/solid/hex8_kernel.hpp"
 #include "elements/sweep.hpp"
 
 namespace brio {

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
-#include "elements/hex8_full_kernel.hpp"
-#include "elements/hex8_kernel.hpp"
+#include "elements/solid/hex8_full_kernel.hpp"
+#include "elements/solid/hex8_kernel.hpp"
 #include "materials/power_law_hardening.hpp"
 #include "tests/elements/hexahedra.hpp"
 #include "tests/elements/single_shell.hpp"

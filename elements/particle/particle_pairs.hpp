@@ -1,0 +1,64 @@
+#pragma once
+/// Pairs of particles: who is whose neighbour, sums over neighbours, and the forces of pairs.
+
+#include <span>
+
+#include "elements/particle/particle_cloud.hpp"
+#include "src/base/lanes.hpp"
+
+namespace brio {
+
+/// Sums over the neighbours of the particles of a pack, one a lane.
+struct alignas(64) NeighbourSums {
+  double position[3][3][lane_count<double>];        ///< sum of s x X^T
+  double velocity[3][3][lane_count<double>];        ///< sum of s v X^T
+  double position_by_velocity[lane_count<double>];  ///< sum of s x.v
+  double velocity_squared[lane_count<double>];      ///< sum of s v.v
+  double correction[6][lane_count<double>];         ///< K: xx yy zz xy yz xz
+  double volume[lane_count<double>];                ///< at the start
+  double spacing[lane_count<double>];
+  double hourglass_weight[lane_count<double>];   ///< 3 / sum of s X.X, by which a modulus makes k
+  double frequency_squared[lane_count<double>];  ///< bound for the moduli of the start
+  double weight[lane_count<double>];             ///< sum of s, where the kernel is of now
+  // Where the kernel is of now, likewise; `position` and `correction` are then those of particle_support.hpp.
+  double middle_gradient[3][3][lane_count<double>];    ///< L of the middle of the step
+  double residual_gradient[3][3][lane_count<double>];  ///< L of residual velocities
+  double share[6][lane_count<double>];                 ///< S of particle_support.hpp: xx yy zz xy yz xz
+};
+
+/// Pairs closer than twice the mean of their smoothing lengths, of lists that hold at least these.
+/// \param volume of each particle
+/// \param first, candidates of particle i are candidate[first[i]] to candidate[first[i + 1] - 1]
+/// \param smoothing smoothing length over the cube root of the volume
+/// \throws std::invalid_argument naming a particle without neighbours in three directions
+ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume, std::span<const int> first,
+                                  std::span<const int> candidate, double smoothing, const Nodes& nodes);
+
+/// Sums for `count` particles of a pack; the lanes behind repeat the last.
+void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
+                         NeighbourSums& sums);
+
+/// Adds the pair forces on `count` particles to nodes.force.
+void add_pair_forces(const ParticleCloud& cloud, Nodes& nodes, const int* node, int count);
+
+/// Makes the kernel of the cloud one of now. \param smoothing smoothing length over the spacing
+void start_eulerian(ParticleCloud& cloud, double smoothing, const Nodes& nodes);
+
+/// New lists of neighbours, from candidates that hold all that are as close as smoothing lengths and skin
+/// say.
+void set_neighbours(ParticleCloud& cloud, std::span<const int> first, std::span<const int> candidate,
+                    const Nodes& nodes);
+
+/// As sum_over_neighbours and add_pair_forces, with the kernel of now: F = I. \param step that led here
+void sum_over_neighbours_now(ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
+                             double step, NeighbourSums& sums);
+/// \param repulsion share of the tension of a pair \returns work of forces that are not those of stress
+double add_pair_forces_now(ParticleCloud& cloud, Nodes& nodes, const int* node, int count, double repulsion,
+                           double step);
+
+/// The highest frequency, squared, of the linear elastic cloud at the start, by Lanczos' method, with a
+/// margin for what that has not found.
+double highest_frequency_squared(ParticleCloud& cloud, const Nodes& nodes,
+                                 const ElasticModuli<double>& moduli, double hourglass_modulus);
+
+}  // namespace brio

@@ -1,0 +1,152 @@
+// The highest frequency of a linear elastic cloud of particles, by Lanczos' method.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "elements/particle/particle_pairs.hpp"
+
+namespace brio {
+
+namespace {
+
+constexpr int lanczos_steps = 40;
+constexpr int bisections = 60;
+/// For what so many steps have not found.
+constexpr double margin = 1.02;
+
+using Displacements = std::vector<Vector3<double>>;
+
+/// Numbers in [-1, 1) that are the same everywhere.
+class Noise {
+ public:
+  double next() {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<double>(state_ >> 11) * 0x1p-52 - 1;
+  }
+
+ private:
+  std::uint64_t state_ = 1;
+};
+
+struct Stiffness {
+  ParticleCloud& cloud;
+  const Nodes& nodes;
+  ElasticModuli<double> moduli;
+  double hourglass_modulus;
+
+  double mass(std::size_t i) const { return nodes.mass[static_cast<std::size_t>(cloud.first_node) + i]; }
+
+  // Columns of A for displacements u.
+  ParticleForce force_of(std::size_t i, const Displacements& u) const {
+    Tensor<double> sum{};
+    for (std::size_t k = cloud.first[i]; k < cloud.first[i] + static_cast<std::size_t>(cloud.count[i]); ++k) {
+      const Vector3<double> d = u[static_cast<std::size_t>(cloud.neighbour[k])] - u[i];
+      const double* w = cloud.pair[k].weighted;
+      for (int c = 0; c < 3; ++c) {
+        sum.m[0][c] += w[c] * d.x;
+        sum.m[1][c] += w[c] * d.y;
+        sum.m[2][c] += w[c] * d.z;
+      }
+    }
+    const SymmetricTensor<double>& k = cloud.correction[i];
+    const Tensor<double> correction{{{k.xx, k.xy, k.xz}, {k.xy, k.yy, k.yz}, {k.xz, k.yz, k.zz}}};
+    const Tensor<double> gradient = sum * correction;
+    const double volume = cloud.volume[i];
+    const double stiffness = hourglass_modulus * volume * cloud.hourglass_weight[i];
+    Tensor<double> stress;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        stress.m[r][c] = volume * (moduli.shear * (gradient.m[r][c] + gradient.m[c][r]) +
+                                   (r == c ? moduli.first_lame * trace(gradient) : 0));
+    const Tensor<double> a = stress * correction;
+    ParticleForce force{};
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) force.column[c][r] = a.m[r][c] - stiffness * gradient.m[r][c];
+    force.column[0][3] = stiffness;
+    return force;
+  }
+
+  // Accelerations, towards the displacements.
+  void apply(const Displacements& u, Displacements& result) const {
+    for (std::size_t i = 0; i < u.size(); ++i) cloud.force[i] = force_of(i, u);
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const ParticleForce& own = cloud.force[i];
+      double force[3] = {};
+      for (std::size_t k = cloud.first[i]; k < cloud.first[i] + static_cast<std::size_t>(cloud.count[i]);
+           ++k) {
+        const auto j = static_cast<std::size_t>(cloud.neighbour[k]);
+        const ParticleForce& other = cloud.force[j];
+        const double* w = cloud.pair[k].weighted;
+        const double stiffness = w[3] * (own.column[0][3] + other.column[0][3]);
+        const Vector3<double> d = u[j] - u[i];
+        const double difference[3] = {d.x, d.y, d.z};
+        for (int r = 0; r < 3; ++r) {
+          force[r] += stiffness * difference[r];
+          for (int c = 0; c < 3; ++c) force[r] += w[c] * (own.column[c][r] + other.column[c][r]);
+        }
+      }
+      const double inverse = -1 / mass(i);
+      result[i] = {inverse * force[0], inverse * force[1], inverse * force[2]};
+    }
+  }
+
+  // With the masses over the first one, so that its size is that of the squared numbers alone.
+  double product(const Displacements& a, const Displacements& b) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += mass(i) / mass(0) * dot(a[i], b[i]);
+    return sum;
+  }
+};
+
+/// Largest eigenvalue of a symmetric tridiagonal matrix, by bisection: with a shift above it all pivots are
+/// negative.
+double largest_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside) {
+  double lower = diagonal[0], upper = diagonal[0];
+  for (std::size_t i = 0; i < diagonal.size(); ++i) {
+    const double reach = (i > 0 ? beside[i - 1] : 0) + (i + 1 < diagonal.size() ? beside[i] : 0);
+    lower = std::max(lower, diagonal[i]);
+    upper = std::max(upper, diagonal[i] + reach);
+  }
+  for (int pass = 0; pass < bisections; ++pass) {
+    const double shift = 0.5 * (lower + upper);
+    double pivot = diagonal[0] - shift;
+    bool all_negative = pivot < 0;
+    for (std::size_t i = 1; i < diagonal.size() && all_negative; ++i) {
+      pivot = diagonal[i] - shift - beside[i - 1] * beside[i - 1] / pivot;
+      all_negative = pivot < 0;
+    }
+    (all_negative ? upper : lower) = shift;
+  }
+  return upper;
+}
+
+}  // namespace
+
+double highest_frequency_squared(ParticleCloud& cloud, const Nodes& nodes,
+                                 const ElasticModuli<double>& moduli, double hourglass_modulus) {
+  const Stiffness stiffness{cloud, nodes, moduli, hourglass_modulus};
+  const std::size_t n = cloud.size();
+  Displacements before(n, {0, 0, 0}), now(n), next(n);
+  Noise noise;
+  for (Vector3<double>& v : now) v = {noise.next(), noise.next(), noise.next()};
+  const double length = std::sqrt(stiffness.product(now, now));
+  for (Vector3<double>& v : now) v = (1 / length) * v;
+  std::vector<double> diagonal, beside;
+  for (int step = 0; step < lanczos_steps; ++step) {
+    stiffness.apply(now, next);
+    diagonal.push_back(stiffness.product(now, next));
+    const double coupling = beside.empty() ? 0 : beside.back();
+    for (std::size_t i = 0; i < n; ++i) next[i] = next[i] - diagonal.back() * now[i] - coupling * before[i];
+    const double size = std::sqrt(stiffness.product(next, next));
+    if (!(size > 1e-12 * diagonal.front())) break;
+    beside.push_back(size);
+    for (std::size_t i = 0; i < n; ++i) {
+      before[i] = now[i];
+      now[i] = (1 / size) * next[i];
+    }
+  }
+  return margin * largest_eigenvalue(diagonal, beside);
+}
+
+}  // namespace brio

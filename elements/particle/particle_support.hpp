@@ -1,0 +1,105 @@
+#pragma once
+/// How far the neighbours of a particle, as they stand now, tell of the motion around it.
+///
+/// Neighbours all around have moments M = sum s x x^T close to V I, with the volume V of the particle; at a
+/// flat surface of a body half of that in one direction. Where bodies of particles flatten out, or break up,
+/// it may be any small number, and K = M^-1, with it the frequency of the particle, any large one. Along
+/// principal directions a of M whose moment m_a is below a share of V, the floor, the particle strains, and
+/// pulls, by the share S_a = m_a / floor only, so that a sheet or a thread of particles loses its strength
+/// across smoothly:
+///
+///     D = sym(S L S),      A = V S P S K,      S K = 1 / max(m_a, floor).
+///
+/// Power is the same from both sides, and sum s x (A x)^T = V S P S is symmetric: energy and both momenta are
+/// kept as they are with S = I.
+
+#include <algorithm>
+
+#include "elements/particle/particle_weights.hpp"
+#include "materials/principal_stress.hpp"
+#include "src/base/tensor.hpp"
+
+namespace brio {
+
+/// Moments over the volume below which a direction is poor in neighbours. A corner of a box, an octant of
+/// neighbours, has 0.05 in its poorest direction.
+inline constexpr double least_support = 0.02;
+
+class ParticleSupport {
+ public:
+  /// \param volume of the particle
+  ParticleSupport(const SymmetricTensor<double>& moments, double volume) {
+    const double floor = least_support * volume;
+    const SymmetricTensor<double> cofactor = adjugate(moments);
+    const double determinant = moments.xx * cofactor.xx + moments.xy * cofactor.xy + moments.xz * cofactor.xz;
+    const double half_trace = 0.5 * trace(moments);
+    // The product of the two larger moments is at most the square of half the trace.
+    is_whole_ = determinant > floor * half_trace * half_trace;
+    if (is_whole_) {
+      inverse_ = (1 / determinant) * cofactor;
+      return;
+    }
+    axes_ = principal_axes(moments);
+    const double moment[3] = {axes_.value.x, axes_.value.y, axes_.value.z};
+    for (int a = 0; a < 3; ++a) {
+      share_[a] = std::clamp(moment[a] / floor, 0.0, 1.0);
+      inverse_value_[a] = 1 / std::max(moment[a], floor);
+    }
+    inverse_ = on_axes(inverse_value_[0], inverse_value_[1], inverse_value_[2]);
+  }
+
+  /// S K
+  const SymmetricTensor<double>& inverse() const { return inverse_; }
+  SymmetricTensor<double> share() const {
+    return is_whole_ ? isotropic(1.0) : on_axes(share_[0], share_[1], share_[2]);
+  }
+  /// Of S S K: over that of the start, the growth of the highest frequency squared.
+  double stiffness() const {
+    if (is_whole_) return trace(inverse_);
+    return share_[0] * inverse_value_[0] + share_[1] * inverse_value_[1] + share_[2] * inverse_value_[2];
+  }
+  /// The inverse of S K: M, raised to the floor.
+  SymmetricTensor<double> raised(const SymmetricTensor<double>& moments) const {
+    if (is_whole_) return moments;
+    return on_axes(1 / inverse_value_[0], 1 / inverse_value_[1], 1 / inverse_value_[2]);
+  }
+
+  /// sym(S L S) and the spin. \param sum of s v x^T
+  Tensor<double> velocity_gradient(const Tensor<double>& sum) const {
+    const Tensor<double> product = sum * full(inverse_);
+    return is_whole_ ? product : held_back(product);
+  }
+
+ private:
+  SymmetricTensor<double> on_axes(double a, double b, double c) const {
+    const double value[3] = {a, b, c};
+    const auto entry = [&](int i, int j) {
+      double sum = 0;
+      for (int k = 0; k < 3; ++k) sum += value[k] * axes_.direction.m[i][k] * axes_.direction.m[j][k];
+      return sum;
+    };
+    return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(0, 2)};
+  }
+
+  /// \param product L S. Of the spin about two axes each of them tells by its share; with one share of 0 the
+  /// other tells it as that of a rigid rotation.
+  Tensor<double> held_back(const Tensor<double>& product) const {
+    const Tensor<double>& q = axes_.direction;
+    const Tensor<double> b = transposed(q) * product * q;
+    Tensor<double> gradient;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const double squares = share_[i] * share_[i] + share_[j] * share_[j];
+        const double spin = squares > 0 ? (share_[j] * b.m[i][j] - share_[i] * b.m[j][i]) / squares : 0;
+        gradient.m[i][j] = 0.5 * (share_[i] * b.m[i][j] + share_[j] * b.m[j][i]) + spin;
+      }
+    return q * gradient * transposed(q);
+  }
+
+  PrincipalAxes<double> axes_;
+  double share_[3], inverse_value_[3];
+  SymmetricTensor<double> inverse_;
+  bool is_whole_;
+};
+
+}  // namespace brio

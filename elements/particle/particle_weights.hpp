@@ -1,0 +1,59 @@
+#pragma once
+/// The cubic B-spline in three dimensions (Monaghan & Lattanzio 1985), and moments of neighbourhoods.
+
+#include <cmath>
+#include <numbers>
+
+#include "elements/particle/particle_pairs.hpp"
+
+namespace brio {
+
+/// W(r) h^3 pi at r / h.
+template <class T>
+BRIO_INLINE T kernel_shape(T q) {
+  const T near = 1.0 + q * q * (0.75 * q - 1.5);
+  const T rest = 2.0 - q;
+  return where(q < T(1.0), near, where(q < T(2.0), 0.25 * rest * rest * rest, T(0.0)));
+}
+
+/// -W'(r) / r. \param inverse_length 1 / h
+template <class T>
+BRIO_INLINE T kernel_weight(T distance_squared, T inverse_length) {
+  const T inverse_squared = inverse_length * inverse_length;
+  const T q_squared = distance_squared * inverse_squared;
+  const T q = sqrt(q_squared);
+  const T size = std::numbers::inv_pi * inverse_squared * inverse_squared * inverse_length;
+  const MaskOf<T> is_near = q < T(1.0);
+  const T shape = where(is_near, 3.0 - 2.25 * q, 0.75 * (2.0 - q) * (2.0 - q) / where(is_near, T(1.0), q));
+  return where(q_squared < T(4.0), size * shape, T(0.0));
+}
+
+/// A neighbourhood whose moments have a determinant below this share of that of a round one lies in a plane
+/// or on a line.
+inline constexpr double least_roundness = 1e-6;
+
+/// The inverse times the determinant.
+inline SymmetricTensor<double> adjugate(const SymmetricTensor<double>& m) {
+  return {m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz, m.xx * m.yy - m.xy * m.xy,
+          m.xz * m.yz - m.xy * m.zz, m.xy * m.xz - m.yz * m.xx, m.xy * m.yz - m.xz * m.yy};
+}
+
+/// The inverse; 0 where the neighbours do not stand in three directions.
+inline SymmetricTensor<double> inverse_moments(const SymmetricTensor<double>& m) {
+  const SymmetricTensor<double> cofactor = adjugate(m);
+  const double determinant = m.xx * cofactor.xx + m.xy * cofactor.xy + m.xz * cofactor.xz;
+  const double mean = trace(m) / 3;
+  if (!(determinant > least_roundness * mean * mean * mean)) return {};
+  return (1 / determinant) * cofactor;
+}
+
+/// Fills the lanes behind the first `count` with the last of these.
+inline void repeat_last_lane(NeighbourSums& sums, int count) {
+  constexpr std::size_t width = lane_count<double>;
+  auto* number = reinterpret_cast<double*>(&sums);  // nothing but numbers by lanes
+  for (std::size_t row = 0; row < sizeof(NeighbourSums) / sizeof(double); row += width)
+    for (auto lane = static_cast<std::size_t>(count); lane < width; ++lane)
+      number[row + lane] = number[row + static_cast<std::size_t>(count) - 1];
+}
+
+}  // namespace brio

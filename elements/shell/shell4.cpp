@@ -1,0 +1,9 @@
+#include "elements/shell/shell4.hpp"
+
+#include "elements/sweep.hpp"
+
+namespace brio {
+
+void choose_kernel(const Shell4&, Block& block) { choose_kernel_of<Shell4>(block); }
+
+}  // namespace brio

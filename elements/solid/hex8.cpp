@@ -1,0 +1,17 @@
+#include "elements/solid/hex8_kernel.hpp"
+#include "elements/sweep.hpp"
+
+namespace brio {
+
+// In a source of its own, so that both rates compile at the same time.
+extern template void choose_kernel_of<Hex8Kernel<ObjectiveRate::jaumann>>(Block& block);
+
+void choose_kernel(const Hex8& element, Block& block) {
+  if (element.objective_rate == ObjectiveRate::green_naghdi) {
+    choose_kernel_of<Hex8Kernel<ObjectiveRate::green_naghdi>>(block);
+  } else {
+    choose_kernel_of<Hex8Kernel<ObjectiveRate::jaumann>>(block);
+  }
+}
+
+}  // namespace brio

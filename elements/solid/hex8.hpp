@@ -1,0 +1,44 @@
+#pragma once
+/// Eight-node hexahedron with one integration point: what a deck says of it. Its mathematics is in
+/// hex8_kernel.hpp.
+
+#include <string_view>
+
+#include "elements/solid/objective_rate.hpp"
+#include "elements/solid/solid.hpp"
+#include "src/base/fields.hpp"
+
+namespace brio {
+
+/// Above this, hourglass modes would compete with the uniform strains for the stable step.
+inline constexpr Range hourglass_stiffness_range{.lower = 0, .upper = 0.15};
+
+struct Hex8 {
+  static constexpr std::string_view name = "hex8";
+  static constexpr int nodes = 8;
+  static constexpr bool rotations = false;
+  template <class Law>
+  static constexpr bool accepts = is_solid_law<Law>;
+
+  ObjectiveRate objective_rate = ObjectiveRate::green_naghdi;
+  double hourglass_stiffness = 0.05;
+  double hourglass_viscosity = 0;
+  double linear_bulk_viscosity = 0.06;
+  double quadratic_bulk_viscosity = 1.2;
+
+  static constexpr auto fields() {
+    return field_table(
+        optional("objective_rate", &Hex8::objective_rate, any_number, "how stress follows rotation"),
+        optional("hourglass_stiffness", &Hex8::hourglass_stiffness, hourglass_stiffness_range,
+                 "elastic hourglass control, share of the modulus of bending, -; at 1/9 an elastic box bends "
+                 "exactly; in a brick that flows, at most 0.01"),
+        optional("hourglass_viscosity", &Hex8::hourglass_viscosity, fraction,
+                 "viscous hourglass control, share of critical damping, -"),
+        optional("linear_bulk_viscosity", &Hex8::linear_bulk_viscosity, non_negative,
+                 "bulk viscosity b1, share of critical damping of dilatation, -"),
+        optional("quadratic_bulk_viscosity", &Hex8::quadratic_bulk_viscosity, non_negative,
+                 "bulk viscosity b2, for shocks, in compression only, -"));
+  }
+};
+
+}  // namespace brio

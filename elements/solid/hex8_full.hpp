@@ -1,0 +1,34 @@
+#pragma once
+/// Eight-node hexahedron with 2x2x2 points: what a deck says of it. Its mathematics is in
+/// hex8_full_kernel.hpp.
+
+#include <string_view>
+
+#include "elements/solid/objective_rate.hpp"
+#include "elements/solid/solid.hpp"
+#include "src/base/fields.hpp"
+
+namespace brio {
+
+struct Hex8Full {
+  static constexpr std::string_view name = "hex8_full";
+  static constexpr int nodes = 8;
+  static constexpr bool rotations = false;
+  template <class Law>
+  static constexpr bool accepts = is_solid_law<Law>;
+
+  ObjectiveRate objective_rate = ObjectiveRate::green_naghdi;
+  double linear_bulk_viscosity = 0.06;
+  double quadratic_bulk_viscosity = 1.2;
+
+  static constexpr auto fields() {
+    return field_table(
+        optional("objective_rate", &Hex8Full::objective_rate, any_number, "how stress follows rotation"),
+        optional("linear_bulk_viscosity", &Hex8Full::linear_bulk_viscosity, non_negative,
+                 "bulk viscosity b1, share of critical damping of dilatation, -"),
+        optional("quadratic_bulk_viscosity", &Hex8Full::quadratic_bulk_viscosity, non_negative,
+                 "bulk viscosity b2, for shocks, in compression only, -"));
+  }
+};
+
+}  // namespace brio

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double radius = 0.05;
+constexpr double particle_radius = 0.05;
 constexpr double mass = 0.7;
 constexpr double speed = 10;
 
@@ -54,9 +54,11 @@ class Scene {
       nodes.mass[n] = mass;
       nodes.record[n].inverse_mass = thrown ? 1 / mass : 0;
     }
-    const std::vector<SurfacePart> parts{
-        {.name = "cube", .connectivity = cube_, .thickness = {}},
-        {.name = "particle", .nodes_per_element = 1, .connectivity = particle_, .thickness = {2 * radius}}};
+    const std::vector<SurfacePart> parts{{.name = "cube", .connectivity = cube_, .thickness = {}},
+                                         {.name = "particle",
+                                          .nodes_per_element = 1,
+                                          .connectivity = particle_,
+                                          .thickness = {2 * particle_radius}}};
     scene = make_contact_scene({}, parts, nodes);
   }
 
@@ -90,7 +92,7 @@ TEST_P(OneParticle, IsStoppedByOneImpulse) {
   for (const double dt : {1e-5, 1e-3, 2e-2}) {  // 1e-4, 0.01 and 0.2 of the cube a step
     const double gap = 0.37 * speed * dt;
     // The skin of the cube; the diameter of the particle is the smallest edge.
-    const double touching = radius + skin_share * 2 * radius;
+    const double touching = particle_radius + skin_share * 2 * particle_radius;
     Scene scene(aim + (touching + gap) * from, -speed * from);
     Vector3d impulse = Vector3d::Zero();
     for (int i = 0; i < 20; ++i) impulse += scene.step(dt);

@@ -5,7 +5,7 @@
 #include <array>
 #include <string_view>
 
-#include "tests/contact/adversarial_queries.hpp"
+#include "tests/contact/geometry/adversarial_queries.hpp"
 
 namespace brio::test {
 

@@ -1,6 +1,6 @@
 #include "tests/contact/audit/exact_crossing.hpp"
 
-#include "tests/contact/exact_geometry.hpp"
+#include "tests/contact/geometry/exact_geometry.hpp"
 
 namespace brio::test {
 

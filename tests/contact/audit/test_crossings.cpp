@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "contact/ties/ties.hpp"
-#include "tests/contact/adversarial_queries.hpp"
 #include "tests/contact/audit/audit_scene.hpp"
 #include "tests/contact/audit/exact_crossing.hpp"
+#include "tests/contact/geometry/adversarial_queries.hpp"
 
 namespace brio::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "contact/audit/distance.hpp"
-#include "tests/contact/adversarial_queries.hpp"
 #include "tests/contact/audit/audit_scene.hpp"
+#include "tests/contact/geometry/adversarial_queries.hpp"
 
 namespace brio::test {
 namespace {

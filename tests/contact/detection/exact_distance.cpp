@@ -44,7 +44,7 @@ Scaled scaled_for(const Eigen::Vector3d& node, const std::array<Eigen::Vector3d,
 }
 
 std::array<IntegerVector, 4> seen_from(const Eigen::Vector3d& node, const FaceVertices& vertices,
-                                const Scaled& scaled) {
+                                       const Scaled& scaled) {
   std::array<IntegerVector, 4> seen;
   for (std::size_t k = 0; k < 4; ++k) seen[k] = scaled(vertices[k]) - scaled(node);
   return seen;

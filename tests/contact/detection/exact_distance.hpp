@@ -8,7 +8,7 @@
 
 #include "contact/geometry/closest_point.hpp"
 #include "contact/geometry/closest_segments.hpp"
-#include "tests/contact/exact_geometry.hpp"
+#include "tests/contact/geometry/exact_geometry.hpp"
 
 namespace brio::exact {
 

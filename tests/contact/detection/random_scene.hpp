@@ -3,7 +3,7 @@
 
 #include "contact/pairs/feature_pairs.hpp"
 #include "contact/surface/exclusion.hpp"
-#include "tests/contact/adversarial_queries.hpp"
+#include "tests/contact/geometry/adversarial_queries.hpp"
 
 namespace brio {
 

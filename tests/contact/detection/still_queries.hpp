@@ -3,7 +3,7 @@
 
 #include "contact/geometry/closest_point.hpp"
 #include "contact/geometry/closest_segments.hpp"
-#include "tests/contact/adversarial_queries.hpp"
+#include "tests/contact/geometry/adversarial_queries.hpp"
 
 namespace brio {
 

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "tests/contact/adversarial_queries.hpp"
 #include "tests/contact/detection/packs.hpp"
+#include "tests/contact/geometry/adversarial_queries.hpp"
 
 namespace brio {
 namespace {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "contact/geometry/closest_on_segments.hpp"
-#include "tests/contact/adversarial_edges.hpp"
 #include "tests/contact/detection/exact_distance.hpp"
 #include "tests/contact/detection/packs.hpp"
 #include "tests/contact/detection/still_queries.hpp"
-#include "tests/contact/exact_edges.hpp"
+#include "tests/contact/geometry/adversarial_edges.hpp"
+#include "tests/contact/geometry/exact_edges.hpp"
 #include "tests/core/floating_point_traps.hpp"
 
 namespace brio {

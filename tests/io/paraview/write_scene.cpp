@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/results/write_results.hpp"
-#include "tests/io/result_scene.hpp"
+#include "tests/io/results/result_scene.hpp"
 
 namespace {
 

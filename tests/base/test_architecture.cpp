@@ -71,28 +71,66 @@ TEST(Architecture, IncludesFollowTheArrows) {
   EXPECT_GT(seen, 20u);
 }
 
-// The rooms of a folder in order: each includes those before it, and itself.
-TEST(Architecture, RoomsOfContactFollowTheirOrder) {
-  const std::vector<std::string> order{"geometry",  "search",      "surface", "ties",  "features", "pairs",
-                                       "detection", "enforcement", "",        "start", "audit"};
-  const auto place = [&](const std::string& path) {
-    // What is asked for and what is found are read everywhere.
-    if (path == "contact/options.hpp" || path == "contact/pair.hpp") return 1;
-    const fs::path folder = fs::path(path).parent_path();
-    const std::string room = folder == "contact" ? "" : folder.filename().string();
-    const auto found = std::find(order.begin(), order.end(), room);
-    EXPECT_NE(found, order.end()) << path;
-    return static_cast<int>(found - order.begin());
-  };
-  const std::regex include(R"re(^#include "(contact/[^"]+)")re");
-  for (const SourceFile& file : source_files()) {
-    if (file.room != "contact") continue;
-    for (const std::string& line : file.lines) {
-      std::smatch match;
-      if (!std::regex_search(line, match, include)) continue;
-      EXPECT_LE(place(match[1]), place(file.path)) << file.path << " must not include " << match[1];
+// The rooms of a folder in order: each includes itself and those before it. The folder itself is a room "".
+struct Rooms {
+  std::string folder;
+  std::vector<std::string> order;
+  std::string elsewhere{};  ///< files that count as another room's
+  std::string as_room{};
+};
+
+const std::vector<Rooms> rooms_of_folders{
+    // What is asked of contact and what it finds are read everywhere.
+    {"contact",
+     {"geometry", "search", "surface", "ties", "features", "pairs", "detection", "enforcement", "", "start",
+      "audit"},
+     "contact/(options|pair)\\.hpp",
+     "search"},
+    // A block holds elements of any kind; the source of a kind compiles the sweep over its blocks.
+    {"elements",
+     {"base", "solid", "shell", "beam", "particle", ""},
+     "elements/(solid|shell|beam|particle)/.*\\.cpp",
+     ""},
+    {"src", {"deck", "motion", "sweep", "model", "build", "step", "output", "forecast"}},
+    {"io", {"files", "mesh", "deck", "schema", "results", "run", "study"}},
+};
+
+std::ptrdiff_t place_of(const std::string& path, const Rooms& rooms) {
+  const std::string parent = fs::path(path).parent_path().generic_string();
+  std::string room = parent == rooms.folder ? "" : parent.substr(rooms.folder.size() + 1);
+  if (std::regex_match(path, std::regex(rooms.elsewhere))) room = rooms.as_room;
+  const auto found = std::find(rooms.order.begin(), rooms.order.end(), room);
+  EXPECT_NE(found, rooms.order.end()) << path << ": no room of that name";
+  return found - rooms.order.begin();
+}
+
+TEST(Architecture, RoomsFollowTheirOrder) {
+  const std::vector<SourceFile> files = source_files();
+  for (const Rooms& rooms : rooms_of_folders) {
+    const std::regex include("^#include \"(" + rooms.folder + "/[^\"]+)\"");
+    std::size_t seen = 0;
+    for (const SourceFile& file : files) {
+      if (file.room != rooms.folder) continue;
+      for (const std::string& line : file.lines) {
+        std::smatch match;
+        if (!std::regex_search(line, match, include) || room_of(match[1]) != rooms.folder) continue;
+        ++seen;
+        EXPECT_LE(place_of(match[1], rooms), place_of(file.path, rooms))
+            << file.path << " must not include " << match[1];
+      }
     }
+    EXPECT_GT(seen, 20u) << rooms.folder;
   }
+}
+
+TEST(Architecture, NoFolderIsCrowded) {
+  constexpr int most = 20;  // sources and headers beside each other
+  std::map<std::string, int> count;
+  for (const char* folder : {"src", "materials", "elements", "contact", "io", "apps", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+      if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
+        ++count[fs::relative(entry.path().parent_path(), root).generic_string()];
+  for (const auto& [folder, files] : count) EXPECT_LE(files, most) << folder;
 }
 
 // A word may stand only in files whose path begins with one of the given places.

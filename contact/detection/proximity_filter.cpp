@@ -98,6 +98,30 @@ bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot,
   };
   return look(foot.start, 0) || look(foot.end, 1);
 }
+// Of an edge. The diagonals of a flat face stand for nothing of their own: where one of its corners comes
+// nearer by less than the face may be thick, the edge keeps the distance.
+bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint& foot, const Vector3d& away,
+                                      double slack, bool radii, OtherSide other) const {
+  const auto allowed = [&](int neighbour) {
+    double thickest = 0;
+    for (int f : own.face) {
+      if (f < 0) continue;
+      const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+      if (std::find(corner.begin(), corner.end(), neighbour) != corner.end())
+        thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, f, radii));
+    }
+    return thickest;
+  };
+  const auto look = [&](const Vector3d& from, double share) {
+    return std::all_of(own.wing.begin(), own.wing.end(), [&](int neighbour) {
+      if (neighbour < 0) return true;
+      const Vector3d arm = motion_.start(neighbour) + share * motion_.displacement(neighbour) - from;
+      const double height = arm.dot(away);
+      return height >= -slack * arm.norm() || height >= -allowed(neighbour) || is_one_piece(neighbour, other);
+    });
+  };
+  return look(foot.start, 0) || look(foot.end, 1);
+}
 ProximityFilter::MovingPoint ProximityFilter::point_of(int node) const {
   return {motion_.start(node), motion_.start(node) + motion_.displacement(node)};
 }
@@ -256,8 +280,8 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
 // Whether the foot on an edge is a local minimum on the union of edges and faces. Ends of edges of faces are
 // nodes, which have their own constraints. \param on the number of the edge, or of the end's node below -1
 bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const MovingPoint& foot,
-                                         const Vector3d& away, double slack, double distance, OtherSide other,
-                                         int& on) const {
+                                         const Vector3d& away, double slack, double distance, bool radii,
+                                         OtherSide other, int& on) const {
   const EdgeFeature& own = edge(e);
   on = e;
   if (own.is_point()) return true;
@@ -266,7 +290,7 @@ bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const MovingPo
     const bool at_end = std::min(parameter, 1 - parameter) <= rounding_of_foot(slack, distance);
     if (at_end && own.of_face() && look_away(features_.ring.of(end), point_of(end), away, slack, other))
       return false;
-    return own.faces > 2 || look_away(own.wing, foot, away, slack, other);
+    return own.faces > 2 || wings_look_away(own, foot, away, slack, radii, other);
   }
   if (own.of_face()) return false;
   on = -2 - end;
@@ -311,8 +335,11 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const bool own = a.shell && b.shell && a.body == b.body;
   const OtherSide faces_of_a = own ? OtherSide(a.face) : OtherSide();
   const OtherSide faces_of_b = own ? OtherSide(b.face) : OtherSide();
-  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, faces_of_b, on_a) ||
-      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, faces_of_a, on_b))
+  const bool radii = pairs_.edge_edge.has_radii(pair);
+  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, radii, faces_of_b,
+                          on_a) ||
+      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, radii, faces_of_a,
+                          on_b))
     return;
   const Flatness flat_a = flatness(a, foot_a.start, near.normal),
                  flat_b = flatness(b, foot_b.start, near.normal);

@@ -49,6 +49,8 @@ class ProximityFilter {
   template <class List>
   bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away, double slack,
                  OtherSide other) const;
+  bool wings_look_away(const EdgeFeature& own, const MovingPoint& foot, const Eigen::Vector3d& away,
+                       double slack, bool radii, OtherSide other) const;
   MovingPoint point_of(int node) const;
   static double slack_of(const Eigen::Vector3d& foot, double distance);
   bool is_near(const Contact& contact) const;
@@ -57,7 +59,7 @@ class ProximityFilter {
                           const Eigen::Vector3d& normal, double slack, OtherSide other,
                           std::array<int, 2>& support) const;
   bool is_minimum_on_edge(int edge, double parameter, const MovingPoint& foot, const Eigen::Vector3d& away,
-                          double slack, double distance, OtherSide other, int& on) const;
+                          double slack, double distance, bool radii, OtherSide other, int& on) const;
   bool lay_in_plane(const NearPair<4>& near, double slack, Contact& contact) const;
   /// Of the faces at an edge or a node: the largest cosine of a normal and a direction; whether they bend.
   struct Edginess {

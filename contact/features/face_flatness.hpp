@@ -49,9 +49,13 @@ class FaceFlatness {
 
   /// Whether an edge is paired, with what keeps their radii.
   bool pairs(const EdgeFeature& edge, bool radii) const {
-    if (!edge.is_diagonal()) return true;
-    const Flatness flatness = flat_[static_cast<std::size_t>(edge.face[0])];
-    return flatness == Flatness::none || (flatness == Flatness::radii && !radii);
+    return !edge.is_diagonal() || !is_flat(edge.face[0], radii);
+  }
+  /// Thickness below which the hull of a face stays while its diagonals are not paired, with what keeps their
+  /// radii; 0: they are.
+  double thickness_of_flat(const SurfaceFeatures& features, int face, bool radii) const {
+    const auto f = static_cast<std::size_t>(face);
+    return is_flat(face, radii) ? flat_thickness(features, f, flat_[f]) : 0;
   }
 
  private:
@@ -59,6 +63,10 @@ class FaceFlatness {
   struct Until {
     double thin = 0, convex = 0;
   };
+  bool is_flat(int face, bool radii) const {
+    const Flatness flatness = flat_[static_cast<std::size_t>(face)];
+    return flatness == Flatness::all || (flatness == Flatness::radii && radii);
+  }
   static bool may_reach(double path, const SurfaceFeatures& features, std::size_t face,
                         const FeatureMotion& motion);
 

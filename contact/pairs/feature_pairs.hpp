@@ -62,6 +62,7 @@ class FeaturePairs {
   /// The next search is for all.
   void expire() { reach_.clear(); }
   std::uint64_t searches() const { return searches_; }
+  const FaceFlatness& flatness() const { return flat_; }
 
  private:
   struct Scene {

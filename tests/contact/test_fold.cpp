@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "contact/audit/audit.hpp"
+#include "contact/geometry/closest_segments.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -64,6 +67,48 @@ TEST(WarpedCell, ASideOfANeighbourDoesNotPassTheCrossDiagonal) {
   }
   EXPECT_LT(model.x(5)[2], -0.29);
   EXPECT_LT(model.x(1)[2] + model.x(3)[2], -0.1) << "the diagonal has been taken along";
+}
+
+// The sharp edge of a bar that is pressed on a sheet whose cells are warped by less than counts: their
+// diagonals are no features, and no corner that lies a little nearer may let a side go.
+TEST(WarpedCells, KeepTheirThicknessFromASharpEdge) {
+  constexpr double thickness = 0.5;
+  for (unsigned seed = 0; seed < 5; ++seed) {
+    std::mt19937 engine(seed);
+    const auto number = [&] { return std::uniform_real_distribution<double>(-1, 1)(engine); };
+    SpringModel model;
+    const int across = 6;
+    model.add_sheet({across, across}, {1.0 * across, 1.0 * across}, thickness, 1, [&](const Vector3d& x) {
+      return Vector3d(x[0] + 0.1 * number(), x[1] + 0.1 * number(), 0.0035 * number());
+    });
+    const double turn = 0.3 + 0.2 * number();
+    const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(turn, Vector3d::UnitZ()) *
+                                      Eigen::AngleAxisd(0.25 * std::numbers::pi, Vector3d::UnitX()))
+                                         .toRotationMatrix();
+    const int first = model.add_box({1, 1, 1}, {8, 1, 1}, 1, [&](const Vector3d& x) -> Vector3d {
+      return rotation * (x - Vector3d(4, 0, 0)) + Vector3d(3, 3, 0.5 * thickness + 0.02);
+    });
+    model.start({});
+    for (int n = 0; n < first; ++n) model.hold(n, n + 1);
+    for (int n = first; n < model.count(); ++n) model.set_velocity(n, {0, 0, -1});
+    model.gravity = {0, 0, -10};
+    model.damping = 1;
+    double least = 1;
+    for (int step = 0; step < 1000; ++step) {
+      model.step(1e-3);
+      for (int j = 0; j <= across; ++j)
+        for (int i = 0; i <= across; ++i)
+          for (const auto& [di, dj] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
+            if (i + di > across || j + dj > across || j + dj < 0) continue;
+            const int from = i + (across + 1) * j, to = i + di + (across + 1) * (j + dj);
+            const ClosestSegments seen = closest_points_of_segments({model.x(from), model.x(to)},
+                                                                    {model.x(first), model.x(first + 1)});
+            least = std::min(least, std::sqrt(seen.squared_distance));
+          }
+    }
+    EXPECT_GT(least, 0.5 * thickness) << seed;
+    EXPECT_GT(model.scene.step.active, 0);
+  }
 }
 
 }  // namespace

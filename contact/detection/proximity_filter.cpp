@@ -86,34 +86,11 @@ bool ProximityFilter::is_one_piece(int neighbour, OtherSide other) const {
 // Whether no neighbour in the list comes nearer than the foot along the direction away from the other side:
 // at the start of the step, or where the motion leads, so that what carries is not let go for a step in which
 // a neighbour is a little nearer.
-template <class List>
+template <class List, class Allowed>
 bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away,
-                                double slack, OtherSide other) const {
+                                double slack, OtherSide other, const Allowed& allowed) const {
   const auto look = [&](const Vector3d& from, double share) {
     return std::all_of(neighbours.begin(), neighbours.end(), [&](int neighbour) {
-      if (neighbour < 0) return true;
-      const Vector3d arm = motion_.start(neighbour) + share * motion_.displacement(neighbour) - from;
-      return arm.dot(away) >= -slack * arm.norm() || is_one_piece(neighbour, other);
-    });
-  };
-  return look(foot.start, 0) || look(foot.end, 1);
-}
-// Of an edge. The diagonals of a flat face stand for nothing of their own: where one of its corners comes
-// nearer by less than the face may be thick, the edge keeps the distance.
-bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint& foot, const Vector3d& away,
-                                      double slack, bool radii, OtherSide other) const {
-  const auto allowed = [&](int neighbour) {
-    double thickest = 0;
-    for (int f : own.face) {
-      if (f < 0) continue;
-      const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
-      if (std::find(corner.begin(), corner.end(), neighbour) != corner.end())
-        thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, f, radii));
-    }
-    return thickest;
-  };
-  const auto look = [&](const Vector3d& from, double share) {
-    return std::all_of(own.wing.begin(), own.wing.end(), [&](int neighbour) {
       if (neighbour < 0) return true;
       const Vector3d arm = motion_.start(neighbour) + share * motion_.displacement(neighbour) - from;
       const double height = arm.dot(away);
@@ -122,6 +99,28 @@ bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint&
   };
   return look(foot.start, 0) || look(foot.end, 1);
 }
+template <class List>
+bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away,
+                                double slack, OtherSide other) const {
+  return look_away(neighbours, foot, away, slack, other, [](int) { return 0.0; });
+}
+
+// Of an edge. The diagonals of a flat face stand for nothing of their own: where one of its corners comes
+// nearer by less than the face may be thick, the edge keeps the distance.
+bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint& foot, const Vector3d& away,
+                                      double slack, bool radii, OtherSide other) const {
+  return look_away(own.wing, foot, away, slack, other, [&](int neighbour) {
+    double thickest = 0;
+    for (int f : own.face) {
+      if (f < 0) continue;
+      const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+      if (std::find(corner.begin(), corner.end(), neighbour) != corner.end())
+        thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, f, radii));
+    }
+    return thickest;
+  });
+}
+
 ProximityFilter::MovingPoint ProximityFilter::point_of(int node) const {
   return {motion_.start(node), motion_.start(node) + motion_.displacement(node)};
 }

@@ -46,6 +46,10 @@ class ProximityFilter {
   /// The other side, where it is of the same shell: neighbours that are one piece with it do not count.
   using OtherSide = std::span<const int>;
   bool is_one_piece(int neighbour, OtherSide other) const;
+  /// \param allowed by how much a neighbour may come nearer all the same
+  template <class List, class Allowed>
+  bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away, double slack,
+                 OtherSide other, const Allowed& allowed) const;
   template <class List>
   bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away, double slack,
                  OtherSide other) const;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <new>
 #include <sstream>
@@ -73,19 +74,19 @@ void add_run_command(CLI::App& program, int& exit_code) {
   command->callback([arguments, &exit_code] { exit_code = brio::run(*arguments); });
 }
 
-void set_pilot_budget(const std::string& budget, brio::ForecastOptions& options) {
+void set_coarse_run_budget(const std::string& budget, brio::ForecastOptions& options) {
   std::size_t read = 0;
   double number = -1;
   try {
     number = std::stod(budget, &read);
   } catch (const std::logic_error&) {
   }
-  const bool is_share = read > 0 && budget.substr(read) == "%";
-  if (!(number >= 0 && number < HUGE_VAL) || (read != budget.size() && !is_share))
-    throw CLI::ValidationError("--pilot",
-                               "'" + budget + "' is no budget; accepted: seconds >= 0, or a share as 40%");
-  options.pilot_s = is_share ? HUGE_VAL : number;
-  options.pilot_share = is_share ? 0.01 * number : HUGE_VAL;
+  const bool is_percentage = read > 0 && budget.substr(read) == "%";
+  if (!(number >= 0 && number < HUGE_VAL) || (read != budget.size() && !is_percentage))
+    throw CLI::ValidationError(
+        "--coarse-run", "'" + budget + "' is no budget; accepted: seconds >= 0, or a percentage as 40%");
+  options.coarse_run_s = is_percentage ? HUGE_VAL : number;
+  options.coarse_run_fraction = is_percentage ? 0.01 * number : HUGE_VAL;
 }
 
 void add_check_command(CLI::App& program) {
@@ -95,20 +96,32 @@ void add_check_command(CLI::App& program) {
   };
   auto arguments = std::make_shared<Arguments>();
   brio::ForecastOptions& options = arguments->options;
-  options.pilot_s = 90;
-  options.pilot_share = 0.4;
+  options.coarse_run_s = 90;
+  options.coarse_run_fraction = 0.4;
   CLI::App* command = program.add_subcommand(
-      "check", "Read a deck, build its scene, say what it is and what a run of it would take");
+      "check", "Read a deck, build its scene, say what it is and predict the cost of a run");
   command->add_option("deck", options.deck, "YAML deck")->required();
   add_threads(command, options.threads);
-  command
-      ->add_option_function<std::string>(
-          "--pilot", [&options](const std::string& budget) { set_pilot_budget(budget, options); },
-          "time to foresee how the step falls, by coarser scenes and more steps: seconds, or P% of what the "
-          "run takes; 0: none; default: 90 s, but at most 40 % of the run")
-      ->type_name("SECONDS|P%")
-      ->expected(0, 1)
-      ->default_str("90");
+  const auto add_budget = [command](const char* name, const std::function<void(const std::string&)>& set,
+                                    const char* meaning) {
+    return command->add_option_function<std::string>(name, set, meaning)
+        ->type_name("SECONDS|P%")
+        ->expected(0, 1)
+        ->default_str("90");
+  };
+  add_budget(
+      "--coarse-run", [&options](const std::string& budget) { set_coarse_run_budget(budget, options); },
+      "budget to predict the decrease of the stable time step, by runs with coarser meshes and further timed "
+      "steps: seconds, or P% of the predicted run; 0: none; default: 90 s, but at most 40 % of the run");
+  add_budget(
+      "--pilot",
+      [&options](const std::string& budget) {
+        brio::write_error(
+            "brio: --pilot is called --coarse-run now; the old name is accepted for one version\n");
+        set_coarse_run_budget(budget, options);
+      },
+      "old name of --coarse-run")
+      ->group("");
   add_overrides(command, options.overrides);
   command->add_flag("--json", arguments->json, "print all of it as JSON");
   command->callback([arguments] { brio::check(arguments->options, arguments->json); });

@@ -74,17 +74,19 @@ std::string rounded_duration(double seconds) {
 void print_steps(const Forecast& forecast) {
   const StepForecast& steps = forecast.steps;
   if (steps.exact) {
-    write_out("  steps      {:.0f}, all of them marched\n", steps.steps);
-  } else if (forecast.pilot_factors.empty()) {
-    write_out("  steps      {:.0f} if the step stays as it is; a scene that is crushed takes more\n",
-              steps.steps);
+    write_out("  steps      {:.0f}, all of them timed\n", steps.steps);
+  } else if (forecast.coarse_run_factors.empty()) {
+    write_out(
+        "  steps      {:.0f} if the stable time step is constant; it decreases in a scene that is crushed\n",
+        steps.steps);
   } else {
     write_out(
-        "  steps      {:.0f}, between {:.0f} and {:.0f}, as told by a pilot with elements {:g} times "
+        "  steps      {:.0f}, between {:.0f} and {:.0f}, from a coarse run with elements {:g} times "
         "as long\n",
-        steps.steps, steps.least, steps.most, forecast.pilot_factors.back());
+        steps.steps, steps.least, steps.most, forecast.coarse_run_factors.back());
   }
-  if (!forecast.pilot_fault.empty()) write_out("             of the pilots: {}\n", forecast.pilot_fault);
+  if (!forecast.coarse_run_fault.empty())
+    write_out("             coarse runs: {}\n", forecast.coarse_run_fault);
 }
 
 void print_results(const Forecast& forecast) {
@@ -102,33 +104,34 @@ void print_results(const Forecast& forecast) {
 }
 
 void print_forecast(const Forecast& forecast, int threads) {
-  const March& march = forecast.march;
-  if (march.steps.empty()) return;
-  write_out("\nforecast for {} thread{}, from {} steps to time {:.4g}, marched in {:.2f} s:\n", threads,
-            threads == 1 ? "" : "s", march.steps.size(), march.time, march.wall_seconds);
-  if (!march.breakdown.empty()) write_out("  breakdown  {}\n", march.breakdown);
+  const TimedRun& run = forecast.timed_run;
+  if (run.steps.empty()) return;
+  write_out("\nforecast for {} thread{}, from {} steps to time {:.4g}, timed in {:.2f} s:\n", threads,
+            threads == 1 ? "" : "s", run.steps.size(), run.time, run.wall_seconds);
+  if (!run.breakdown.empty()) write_out("  breakdown  {}\n", run.breakdown);
   print_steps(forecast);
   write_out("  wall time  {}: {} to build, {} for steps, {} for output", rounded_duration(forecast.seconds()),
             rounded_duration(forecast.build_seconds), rounded_duration(forecast.steps.seconds),
             rounded_duration(forecast.output.seconds()));
-  if (march.waiting() > 1.1)
-    write_out("; with the machine as busy as now {}", rounded_duration(forecast.seconds() * march.waiting()));
+  if (run.waiting() > 1.1)
+    write_out("; with the machine as busy as now {}", rounded_duration(forecast.seconds() * run.waiting()));
   write_out("\n  memory     {:.1f} MB at its peak\n", forecast.peak_memory_mb);
   print_results(forecast);
   if (!forecast.steps.exact)
-    write_out("  assumed    {}\n", forecast.pilot_factors.empty()
-                                       ? "step, contact and cost of a step stay as they were marched"
-                                       : "cost of a step changes with that of the pilot");
+    write_out("  assumed    {}\n", forecast.coarse_run_factors.empty()
+                                       ? "time step, contact and cost of a step stay as they were timed"
+                                       : "cost of a step changes with that of the coarse run");
 }
 
-// What a terminal shows while pilots run.
+// What a terminal shows during coarse runs.
 void tell_wait(const ForecastOptions& options) {
-  if (!(options.pilot_s > 0 && options.pilot_share > 0) || isatty(STDERR_FILENO) == 0) return;
+  if (!(options.coarse_run_s > 0 && options.coarse_run_fraction > 0) || isatty(STDERR_FILENO) == 0) return;
   std::string limits;
-  if (options.pilot_s < HUGE_VAL) limits = rounded_duration(options.pilot_s);
-  if (options.pilot_share < HUGE_VAL)
-    limits += fmt::format("{}{:g} % of the run", limits.empty() ? "" : " or ", 100 * options.pilot_share);
-  write_error("marching to foretell the run, at most {} (--pilot=0: not at all)\n", limits);
+  if (options.coarse_run_s < HUGE_VAL) limits = rounded_duration(options.coarse_run_s);
+  if (options.coarse_run_fraction < HUGE_VAL)
+    limits +=
+        fmt::format("{}{:g} % of the run", limits.empty() ? "" : " or ", 100 * options.coarse_run_fraction);
+  write_error("coarse runs to predict the time step, at most {} (--coarse-run=0: none)\n", limits);
 }
 
 }  // namespace

@@ -279,8 +279,8 @@ class Resolution {
     const bool at_walls = take_over_walls();
     sum_impulses(scene_);
     count_contacts(scene_);
-    if (!scene_.zone_impulse.empty()) book_zones();
-    if (scene_.step.active > 0 || at_walls) book_rows();
+    if (!scene_.zone_impulse.empty()) account_zones();
+    if (scene_.step.active > 0 || at_walls) account_rows();
     remember_loads();
     add_to_totals(scene_);
     for (std::size_t i = ordinary; i < scene_.contacts.size(); ++i)
@@ -312,7 +312,7 @@ class Resolution {
   }
 
   // Before the impulses of rows are given to the bodies, which hold those of zones.
-  void book_zones() {
+  void account_zones() {
     ContactStep& step = scene_.step;
     for (std::size_t s = 0; s < scene_.zone_impulse.size(); ++s) {
       const Vector3d& impulse = scene_.zone_impulse[s];
@@ -327,7 +327,7 @@ class Resolution {
       for (int axis = 0; axis < 3; ++axis)
         if (nodes_.free_inverse_mass(node, axis) == 0) reaction[axis] = -impulse[axis];
       const Vector3d position(nodes_.record[node].position);
-      book_support({reaction, position.cross(reaction), reaction.dot(before), reaction.dot(after)});
+      account_support({reaction, position.cross(reaction), reaction.dot(before), reaction.dot(after)});
     }
     for (const RigidMotion& body : bodies_) {
       step.normal_work_before +=
@@ -335,11 +335,11 @@ class Resolution {
       step.normal_work_after += body.impulse.dot(body.velocity) + body.moment.dot(body.angular_velocity);
       RigidSupport support = support_against(body, body.impulse, body.moment);
       support.moment += body.centre.cross(support.impulse);
-      book_support(support);
+      account_support(support);
     }
     for (std::size_t b = 0; b < rows_.block.size(); ++b) rows_.block[b].velocity = final_velocity(b);
   }
-  void book_support(const RigidSupport& support) {
+  void account_support(const RigidSupport& support) {
     ContactStep& step = scene_.step;
     step.support_impulse += support.impulse;
     step.support_moment += support.moment;
@@ -362,10 +362,10 @@ class Resolution {
     }
   }
 
-  void book_rows() {
+  void account_rows() {
     std::vector<PushOnWall>& pushes = scene_.walls.push;
     pushes.assign(walls_.size(), {});
-    const RowWork work = book(rows_.rows, rows_.before, rows_.block, rows_.place, pushes);
+    const RowWork work = account_work(rows_.rows, rows_.before, rows_.block, rows_.place, pushes);
     ContactStep& step = scene_.step;
     for (const PushOnWall& push : pushes) {
       step.wall_impulse -= to_eigen(push.impulse);

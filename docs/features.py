@@ -74,7 +74,7 @@ def command(program, verb, scene, *more):
 
 
 def memory_and_time(program, scene):
-    checked = json.loads(subprocess.run(command(program, "check", scene, "--json", "--pilot=0"), check=True,
+    checked = json.loads(subprocess.run(command(program, "check", scene, "--json", "--coarse-run=0"), check=True,
                                         capture_output=True).stdout)
     with tempfile.TemporaryDirectory() as folder:
         ended = json.loads(subprocess.run(command(program, "run", scene, "--quiet", "--json", "--output", folder),

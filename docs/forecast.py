@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes docs/forecast.md: what `brio check` foretells of each shipped deck, and what the run then took.
+"""Writes docs/forecast.md: the forecast of `brio check` for each shipped deck, and the measured run.
 
     docs/forecast.py [--program build/release/brio] [--jobs N] [--folder build/forecast]
 
@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-BUDGETS = {"default": [], "10 s": ["--pilot=10"]}
+BUDGETS = {"default": [], "10 s": ["--coarse-run=10"]}
 # Scenes on which no constant of the forecast was chosen.
 OTHERS = {
     "can_buckling, 72 x 45": ("can_buckling.yaml", ["parts.can.mesh.cylinder.elements=[72, 45]"]),
@@ -66,8 +66,8 @@ def measure(program, deck, overrides):
     return measured
 
 
-def off(foretold, measured, kind):
-    error = 100 * (foretold / measured - 1)
+def off(predicted, measured, kind):
+    error = 100 * (predicted / measured - 1)
     text = f"{error:+.0f} %" if abs(error) >= 0.5 else "0"
     return f"**{text}**" if abs(error) > TOLERANCE[kind] else text
 
@@ -96,18 +96,18 @@ def page(all_measured):
     head = ["| deck | steps | s | " + " | ".join(f"{b}: s | steps | time" for b in BUDGETS) + " |",
             "| --- | --- | --- |" + " --- | --- | --- |" * len(BUDGETS)]
     budgets = "\n".join(f"- {b}, shipped decks: {counts(all_measured, shipped, b)}" for b in BUDGETS)
-    return f"""# What `brio check` foretells
+    return f"""# The forecast of `brio check`
 
 <!-- Written by docs/forecast.py; do not edit. -->
 
-Of each deck: steps and seconds of the processor that the run took on one thread, output included; and what `brio check` took and foretold,
-with its default budget (90 s, but at most 40 % of what it foretells; about 1 s before that) and with `--pilot=10`. Steps as foretold over
-those of the run, and time likewise; **bold** is beyond {TOLERANCE['steps']} % of steps or {TOLERANCE['time']} % of time. Exact: `check` came to the end itself.
+Of each deck: time steps and processor seconds of the run on one thread, output included; and the processor seconds of `brio check`,
+with its default budget of coarse runs (90 s, but at most 40 % of the predicted run; about 1 s before that) and with `--coarse-run=10`. Steps: predicted over
+measured number, time likewise; **bold** is beyond {TOLERANCE['steps']} % of steps or {TOLERANCE['time']} % of time. Exact: `check` reached the end time itself.
 
 {budgets}
 
-How it is done stands in src/forecast/forecast.hpp. What cannot be known from a coarser mesh and some of the steps is where the finer mesh folds, tears
-and is crushed in another way; more of the steps is what helps.
+The method is described in src/forecast/forecast.hpp. A coarser mesh and the first steps do not show where the finer mesh folds, fractures
+or is crushed in another way; a larger budget does.
 
 {chr(10).join(head + [row(n, all_measured[n]) for n in shipped])}
 

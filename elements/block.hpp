@@ -73,7 +73,7 @@ struct BlockKernel {
   double (*gyration)(const Block&, std::size_t element);
   /// Second part of the sweep, when all first parts are done: forces between elements, added to nodes.force
   /// of a chunk's own nodes. Null for elements that act on their own nodes alone.
-  /// \returns work since the last step that no first part has booked.
+  /// \returns work since the last step that no first part has accounted for.
   double (*exchange)(Block&, Chunk, Nodes&, double step);
 };
 

@@ -19,8 +19,8 @@ using CountByCause = std::array<std::int64_t, deletion_causes.size()>;
 
 /// What becomes of a node when its last element is deleted.
 enum class FreeNodes {
-  keep,  ///< it flies on with its mass
-  drop   ///< it leaves the run; its mass, momentum and energy are booked as deleted
+  keep,  ///< it remains as a free point mass
+  drop   ///< it is removed; its mass, momentum and kinetic energy count as deleted
 };
 constexpr std::array<NamedValue<FreeNodes>, 2> named_values(FreeNodes) {
   return {{{"keep", FreeNodes::keep}, {"drop", FreeNodes::drop}}};

@@ -1,10 +1,11 @@
 #pragma once
-/// Lanes of a pack whose elements are to be deleted, and what their last step leaves in the books.
+/// Lanes of a pack whose elements are to be deleted, and the energy of their last step.
 ///
-/// An element is deleted at the step at which it asks, before its forces act. Work is booked by the trapezoid
-/// rule: of the step's increments one half belongs to the forces at its start, which acted, and one half to
-/// those at its end, which now do not. That half, f . v dt/2, is taken back; then what the element has
-/// received is what its forces did, and energy is kept as exactly as without deletion.
+/// An element is deleted in the step in which a criterion holds, before its forces act. Its energy is
+/// integrated by the trapezoidal rule: one half of the increment belongs to the forces at the start of the
+/// step, which acted, and one half to those at its end, which do not. That half, f . v dt/2, is subtracted.
+/// The energy of the element then equals the work of its forces, and energy is balanced as exactly as without
+/// deletion.
 
 #include <cmath>
 

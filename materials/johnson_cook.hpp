@@ -51,8 +51,8 @@ struct ThermalSoftening {
   double start() const { return initial_temperature.value_or(reference_temperature); }
 };
 
-/// The yield stress in one step: plastic strain starts from `base`, at the temperature of the start.
-/// hardening.hpp says what it provides.
+/// The yield stress in one step: plastic strain starts from `base`, at the temperature at the start of the
+/// step. hardening.hpp says what it provides.
 template <class T>
 struct JohnsonCookHardening {
   double initial, constant, exponent, rate_constant;

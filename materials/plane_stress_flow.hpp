@@ -163,7 +163,7 @@ BRIO_INLINE bool flow_along_tangents(const PlaneStressFlow<T>& trial, const Hard
   flow.shear_squared *= squared_scale;
   flow.transverse_squared *= squared_scale;
 
-  T yield = scale * start.stress;  // of the tangent, at the plastic strain of the start
+  T yield = scale * start.stress;  // of the tangent, at the plastic strain at the start of the step
   T h = slope_scale * start.slope;
   T inverse_yield, inverse_rate;
   const auto at_start = flow.series({T(1.0), T(1.0), T(1.0)}, h);

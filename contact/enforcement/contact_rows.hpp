@@ -18,8 +18,8 @@
 #include <span>
 #include <vector>
 
-#include "contact/enforcement/booking.hpp"
 #include "contact/enforcement/constraint_row.hpp"
+#include "contact/enforcement/impulse_work.hpp"
 #include "contact/enforcement/nodes_at_walls.hpp"
 #include "contact/features/features.hpp"
 #include "contact/features/rigid_motion.hpp"

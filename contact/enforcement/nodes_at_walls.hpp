@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/enforcement/booking.hpp"
+#include "contact/enforcement/impulse_work.hpp"
 #include "contact/features/feature_motion.hpp"
 #include "contact/surface/surface.hpp"
 #include "src/base/tensor.hpp"

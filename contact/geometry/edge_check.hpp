@@ -49,7 +49,7 @@ struct EdgeContact {
   /// side, and zero if there is none.
   Eigen::Vector3d normal;
   double distance;  // then: within rounding of the reach, or less at time 0
-  /// Of (a - b) . (along a x along b) just before the time: that of the start, unless the lines that the
+  /// Of (a - b) . (along a x along b) just before the time: that at the start, unless the lines that the
   /// edges lie on have passed each other beside them.
   int side;
 };

@@ -72,7 +72,7 @@ struct NodeMotion {
 };
 
 /// Let the nodes go that are marked: they take their mass back from the corners and keep their velocity.
-/// \returns what motion has lost by that, for the books.
+/// \returns the kinetic energy lost by that, for the energy balance.
 NodeMotion release(Ties& ties, Nodes& nodes);
 
 /// Forces and moments of held nodes to the corners, in a fixed order.

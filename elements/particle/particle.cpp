@@ -57,7 +57,7 @@ void publish(ParticleCloud& cloud, const int* node, int count, const ParticleFor
   }
 }
 
-/// With the kernel of now. \param volume at the end of the step
+/// Updated-Lagrangian kernel. \param volume at the end of the step
 void publish_now(ParticleCloud& cloud, const Particle& particle, const int* node, int count, Number volume,
                  const ParticleForces<Number>& forces) {
   const auto [least, largest] = particle.smoothing_bounds.value_or(default_smoothing_bounds);

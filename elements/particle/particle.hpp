@@ -39,14 +39,15 @@ struct Particle {
   static constexpr auto fields() {
     return field_table(
         optional("kernel", &Particle::kernel, any_number,
-                 "total_lagrangian: between the neighbours of the start, for bodies that deform; eulerian: "
-                 "between those of now, for bodies that flow, mix and part"),
+                 "total_lagrangian: neighbours and weights of the initial configuration, for solids; "
+                 "eulerian: of the "
+                 "present configuration (updated Lagrangian), for fluids and fragmentation"),
         optional("smoothing_length", &Particle::smoothing_length, Range{.lower = 1, .upper = 2},
                  "of the kernel, whose radius is twice that, over the spacing of the particles; default: "
                  "1.1, or 1.5 "
                  "where the kernel is eulerian"),
         optional("smoothing_bounds", &Particle::smoothing_bounds, positive,
-                 "eulerian: least and largest smoothing length over that of the start; default: [0.5, 2]"),
+                 "eulerian: least and largest smoothing length over the initial one; default: [0.5, 2]"),
         optional(
             "hourglass_stiffness", &Particle::hourglass_stiffness, fraction,
             "total_lagrangian: elastic control of motions that the velocity gradient does not see, share "

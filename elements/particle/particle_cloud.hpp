@@ -61,7 +61,7 @@ struct ParticleCloud {
   double largest_gradient_size = 0;  ///< at the start
   double frequency_squared = 0;      ///< the highest, at the start
 
-  // Of the eulerian form, whose pair vectors and weights are those of now: empty in the other.
+  // Of the updated-Lagrangian (eulerian) kernel, in present pair vectors and weights: empty in the other.
   double smoothing = 0;                         ///< length at the start over the spacing
   double skin = 0;                              ///< by which neighbours are searched further
   AlignedBuffer<double> smoothing_length;       ///< now

@@ -1,4 +1,4 @@
-// Particles whose pair vectors and weights are those of now.
+// Particles with an updated-Lagrangian kernel: present pair vectors and weights.
 
 #include <algorithm>
 #include <cmath>
@@ -201,7 +201,7 @@ void start_eulerian(ParticleCloud& cloud, double smoothing, const Nodes& nodes) 
 
 void set_neighbours(ParticleCloud& cloud, std::span<const int> first, std::span<const int> candidate,
                     const Nodes& nodes) {
-  cloud.pair = {};  // those of the start have served
+  cloud.pair = {};  // the initial ones are no longer needed
   std::size_t total = 0;
   const auto for_each_pair = [&](std::size_t i, const auto& take) {
     for (int k = first[i]; k < first[i + 1]; ++k) {

@@ -24,8 +24,8 @@ struct ParticleMotion {
   T hourglass_weight;   ///< by which a modulus makes k
   T residual_power;     ///< sum of s e.v
   T residual_rate;      ///< sum of s times the rate of e squared
-  T frequency_squared;  ///< bound for the moduli of the start
-  T weight;             ///< sum of s, where the kernel is of now
+  T frequency_squared;  ///< bound for the initial moduli
+  T weight;             ///< sum of s, updated-Lagrangian kernel
   // Likewise:
   Tensor<T> middle_gradient;    ///< L of the middle of the step
   Tensor<T> residual_gradient;  ///< L of residual velocities
@@ -113,8 +113,8 @@ struct ParticleKernel : Particle {
     return moduli.shear * (3.0 * moduli.first_lame + 2.0 * moduli.shear) / (moduli.first_lame + moduli.shear);
   }
 
-  /// N of the middle of the step, and the volumes: from F at the end; or, with the kernel of now, whose
-  /// weights change within the step, from L of the middle itself.
+  /// N of the middle of the step, and the volumes: from F at the end; or, with the updated-Lagrangian kernel,
+  /// whose weights change within the step, from L of the middle itself.
   template <class T>
   BRIO_INLINE StepVolume<T> end_of_step(const ParticleMotion<T>& motion, T half_step, const Tensor<T>& l,
                                         T last_volume, Tensor<T>& n) const {

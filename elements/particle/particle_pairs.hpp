@@ -18,9 +18,9 @@ struct alignas(64) NeighbourSums {
   double volume[lane_count<double>];                ///< at the start
   double spacing[lane_count<double>];
   double hourglass_weight[lane_count<double>];   ///< 3 / sum of s X.X, by which a modulus makes k
-  double frequency_squared[lane_count<double>];  ///< bound for the moduli of the start
-  double weight[lane_count<double>];             ///< sum of s, where the kernel is of now
-  // Where the kernel is of now, likewise; `position` and `correction` are then those of particle_support.hpp.
+  double frequency_squared[lane_count<double>];  ///< bound for the initial moduli
+  double weight[lane_count<double>];             ///< sum of s, updated-Lagrangian kernel
+  // Of the updated-Lagrangian kernel; `position` and `correction` are then those of particle_support.hpp.
   double middle_gradient[3][3][lane_count<double>];    ///< L of the middle of the step
   double residual_gradient[3][3][lane_count<double>];  ///< L of residual velocities
   double share[6][lane_count<double>];                 ///< S of particle_support.hpp: xx yy zz xy yz xz
@@ -41,7 +41,7 @@ void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const i
 /// Adds the pair forces on `count` particles to nodes.force.
 void add_pair_forces(const ParticleCloud& cloud, Nodes& nodes, const int* node, int count);
 
-/// Makes the kernel of the cloud one of now. \param smoothing smoothing length over the spacing
+/// Changes the kernel of the cloud to updated Lagrangian. \param smoothing smoothing length over the spacing
 void start_eulerian(ParticleCloud& cloud, double smoothing, const Nodes& nodes);
 
 /// New lists of neighbours, from candidates that hold all that are as close as smoothing lengths and skin
@@ -49,10 +49,11 @@ void start_eulerian(ParticleCloud& cloud, double smoothing, const Nodes& nodes);
 void set_neighbours(ParticleCloud& cloud, std::span<const int> first, std::span<const int> candidate,
                     const Nodes& nodes);
 
-/// As sum_over_neighbours and add_pair_forces, with the kernel of now: F = I. \param step that led here
+/// As sum_over_neighbours and add_pair_forces, for the updated-Lagrangian kernel: F = I. \param step that led
+/// here
 void sum_over_neighbours_now(ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
                              double step, NeighbourSums& sums);
-/// \param repulsion share of the tension of a pair \returns work of forces that are not those of stress
+/// \param repulsion fraction of the tension of a pair \returns work of forces that are not those of stress
 double add_pair_forces_now(ParticleCloud& cloud, Nodes& nodes, const int* node, int count, double repulsion,
                            double step);
 

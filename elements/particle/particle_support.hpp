@@ -53,7 +53,7 @@ class ParticleSupport {
   SymmetricTensor<double> share() const {
     return is_whole_ ? isotropic(1.0) : on_axes(share_[0], share_[1], share_[2]);
   }
-  /// Of S S K: over that of the start, the growth of the highest frequency squared.
+  /// Of S S K: over the initial one, the growth of the highest frequency squared.
   double stiffness() const {
     if (is_whole_) return trace(inverse_);
     return share_[0] * inverse_value_[0] + share_[1] * inverse_value_[1] + share_[2] * inverse_value_[2];

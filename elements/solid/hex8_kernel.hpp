@@ -4,8 +4,8 @@
 /// The gradient is taken once, on the configuration at the end of the step: L_end. The velocity gradient of
 /// the middle follows exactly for affine motion, so that a rigid rotation of any size strains nothing, and so
 /// does the volume of the middle, V_mid = V det(I - dt/2 L_end). Forces are V sigma B at the end; the work
-/// booked is V_mid (sigma_old + sigma_new)/2 : D dt, which differs from the work of the forces by third order
-/// in the step.
+/// accounted for is V_mid (sigma_old + sigma_new)/2 : D dt, which differs from the work of the forces by
+/// third order in the step.
 
 #include "elements/solid/hex8.hpp"
 #include "elements/solid/hourglass.hpp"

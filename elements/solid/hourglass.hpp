@@ -218,7 +218,8 @@ BRIO_INLINE HourglassVectors<T> hourglass_forces(const HourglassAxes<T>& axes,
   return force;
 }
 
-/// Strains of the last step are carried to the stiffness of now and grow. \return the work over stiffness.
+/// Rescales the strains of the last step to the present stiffness and adds the increment. \return the work
+/// over stiffness.
 template <class T>
 BRIO_INLINE T stretch_hourglass(HourglassStrain<T>& strain, T carried, const HourglassStrain<T>& growth,
                                 T share) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run would take, told from its first steps: made in memory, with a model of its own.
+/// Forecast of steps, wall time, memory and results of a run, from a timed run and coarse runs in memory.
 
 #include <filesystem>
 #include <string>
@@ -15,19 +15,18 @@ struct ForecastOptions {
   std::filesystem::path deck;
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE
   int threads = 1;
-  double march_s = 1;      ///< of the work_clock, for steps of the scene itself
-  double pilot_s = 0;      ///< most of it for pilots and for more steps; 0: none
-  double pilot_share = 1;  ///< of the run foretold, most of it for the same
+  double timed_run_s = 1;          ///< budget of the first timed run, by the work_clock
+  double coarse_run_s = 0;         ///< budget of coarse runs and further timed steps; 0: none
+  double coarse_run_fraction = 1;  ///< the same as a fraction of the predicted run
 };
 
 struct Forecast {
   double end = 0;
   double first_step = 0;
-  March march;
+  TimedRun timed_run;
   StepForecast steps;
-  std::vector<double>
-      pilot_factors;        ///< of the pilots that came to their ends: how much coarser; the last is read
-  std::string pilot_fault;  ///< why there is none, if one was asked for
+  std::vector<double> coarse_run_factors;  ///< of the coarse runs that reached the end time; the last is used
+  std::string coarse_run_fault;            ///< why there is none, if one was asked for
   double build_seconds = 0;
   OutputCost output;
   std::string output_fault;   ///< why output could not be measured
@@ -50,7 +49,7 @@ struct ScenePrepared {
 /// \throws DeckError, and Breakdown where the first step cannot be made
 ScenePrepared prepare_scene(const ForecastOptions& options);
 
-/// Marches the scene.
+/// Advances the scene.
 Forecast forecast(const ForecastOptions& options, ScenePrepared& scene);
 
 /// Both. \throws DeckError, and Breakdown where the first step cannot be made

@@ -115,8 +115,8 @@ class Output {
     if (fields_due || history_.full()) writer_.write(history_);
   }
 
-  /// The model has broken down: its books become those of the last good state, which is written unless it is
-  /// there already.
+  /// After a breakdown: energy and momentum balance become those of the last good state, which is written
+  /// unless it has been.
   void write_last_good_state() {
     const StageTimer timer(model_.stages, Stage::output);
     model_.energy = good_.energy;
@@ -143,8 +143,8 @@ class Output {
 
   /// What was true at the state that the observer holds.
   struct GoodState {
-    EnergyBook energy;
-    MomentumBook momentum;
+    EnergyBalance energy;
+    MomentumBalance momentum;
     StepTimes times;
     std::int64_t step = 0;
     std::vector<double> row;
@@ -176,8 +176,8 @@ std::string fault_of(const Action& action) {
 
 // From a first step that is made to the end, a failure or a stop.
 // \param fault of the first step \return why it ended early, empty if it did not.
-std::string march(const Deck& deck, const RunOptions& options, Model& model, Output& output, ThreadTeam& team,
-                  std::string fault, Summary& state) {
+std::string run_to_end(const Deck& deck, const RunOptions& options, Model& model, Output& output,
+                       ThreadTeam& team, std::string fault, Summary& state) {
   ProgressReporter progress(options, deck.time.end);
   state.status = "finished";
   while (true) {
@@ -264,7 +264,7 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.initial_overlaps = model.initial_overlaps;
   Output output(deck, model, writer);
   Summary state;
-  outcome.message = march(deck, options, model, output, team, fault, state);
+  outcome.message = run_to_end(deck, options, model, output, team, fault, state);
   const Impulse momentum_of_good = model.momentum.now;
 
   outcome.summary = observe_end(model);

@@ -68,18 +68,18 @@ Json forecast(const CheckReport& report) {
   const StepForecast& steps = forecast.steps;
   const OutputCost& output = forecast.output;
   return {{"threads", report.threads},
-          {"marched_steps", forecast.march.steps.size()},
-          {"marched_time", forecast.march.time},
-          {"marched_seconds", forecast.march.wall_seconds},
-          {"breakdown", forecast.march.breakdown},
+          {"timed_steps", forecast.timed_run.steps.size()},
+          {"timed_time", forecast.timed_run.time},
+          {"timed_seconds", forecast.timed_run.wall_seconds},
+          {"breakdown", forecast.timed_run.breakdown},
           {"steps", steps.steps},
           {"steps_least", steps.least},
           {"steps_most", steps.most > 0 ? Json(steps.most) : Json()},
           {"steps_exact", steps.exact},
-          {"pilots", forecast.pilot_factors},
-          {"pilot_fault", forecast.pilot_fault},
+          {"coarse_runs", forecast.coarse_run_factors},
+          {"coarse_run_fault", forecast.coarse_run_fault},
           {"wall_seconds", forecast.seconds()},
-          {"wall_seconds_as_busy_as_now", forecast.seconds() * forecast.march.waiting()},
+          {"wall_seconds_as_busy_as_now", forecast.seconds() * forecast.timed_run.waiting()},
           {"build_seconds", forecast.build_seconds},
           {"step_seconds", steps.seconds},
           {"output_seconds", output.seconds()},
@@ -88,7 +88,13 @@ Json forecast(const CheckReport& report) {
           {"history_rows", output.rows},
           {"dump_bytes", output.dump_bytes},
           {"result_bytes", forecast.result_bytes},
-          {"output_fault", forecast.output_fault}};
+          {"output_fault", forecast.output_fault},
+          // Old names of five of them, for one version.
+          {"marched_steps", forecast.timed_run.steps.size()},
+          {"marched_time", forecast.timed_run.time},
+          {"marched_seconds", forecast.timed_run.wall_seconds},
+          {"pilots", forecast.coarse_run_factors},
+          {"pilot_fault", forecast.coarse_run_fault}};
 }
 
 }  // namespace

@@ -338,7 +338,7 @@ void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   }
 }
 
-void open_books(Model& model) {
+void start_balances(Model& model) {
   if (!model.prescribed.empty() || !model.walls.empty() || !model.contacts.empty())
     model.nodes.keep_velocities_before();
   Momentum start = momentum(model.nodes);
@@ -397,7 +397,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   refuse_motions_through_walls(model);
   load(deck, meshes, model);
   model.extent = scene_extent(model.nodes);
-  open_books(model);
+  start_balances(model);
   model.probes = place_probes(deck, model.parts, model.nodes);
   return model;
 }

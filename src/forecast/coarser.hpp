@@ -1,5 +1,5 @@
 #pragma once
-/// The same deck with fewer elements, for a pilot.
+/// The same deck with fewer elements, for a coarse run.
 
 #include "src/deck/deck.hpp"
 

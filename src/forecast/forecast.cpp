@@ -10,85 +10,86 @@ namespace brio {
 
 namespace {
 
-// Exponent of the number of elements with which falls grow, see the header.
+// Exponent of the number of elements with which log r grows, see the header.
 constexpr double usual_exponent = 0.4, largest_exponent = 1;
-// Mean square of a fall, over all of the time, that says as much of the share as experience does.
-constexpr double telling_fall = 0.1;
-// Shares of the time over which what a pilot misses fades, and where elements are deleted.
-constexpr double lasting = 0.5, lasting_among_deletions = 0.05;
+// Weight of the usual ratio in the fit: a mean square of log r over the whole time.
+constexpr double weight_of_usual = 0.1;
+// Decay time over the end time, without and with deletions.
+constexpr double decay = 0.5, decay_with_deletions = 0.05;
 
-// The last two steps of a run share what is left and say nothing of the bound.
-std::span<const MarchedStep> telling(const March& march) {
-  std::span<const MarchedStep> steps = march.steps;
-  return march.reached_end && steps.size() > 4 ? steps.first(steps.size() - 2) : steps;
+// Without the last two steps of a finished run: they divide the remaining time and are below the bound.
+std::span<const TimedStep> steps_at_the_bound(const TimedRun& run) {
+  std::span<const TimedStep> steps = run.steps;
+  return run.reached_end && steps.size() > 4 ? steps.first(steps.size() - 2) : steps;
 }
 
-// log of the first step over that of a time.
-double fall(const March& march, double time) {
-  const std::span<const MarchedStep> steps = telling(march);
+// log of the first time step over that at a time.
+double log_decrease(const TimedRun& run, double time) {
+  const std::span<const TimedStep> steps = steps_at_the_bound(run);
   auto after = std::upper_bound(steps.begin(), steps.end(), time,
-                                [](double t, const MarchedStep& step) { return t < step.time; });
+                                [](double t, const TimedStep& step) { return t < step.time; });
   if (after != steps.begin()) --after;
   return std::log(steps.front().size / after->size);
 }
 
-// A pilot that shows little of the fall at the end of the march is believed less: 0 to 1.
-double doubt_in(const March& own, const March& pilot, double share) {
-  constexpr double small_fall = 0.1;
-  const std::span<const MarchedStep> steps = telling(own);
-  const double shown = share * fall(pilot, own.time);
+// Weight of a constant time step, 0 to 1: large where the coarse run missed the decrease of the timed run.
+double weight_of_constant_step(const TimedRun& own, const TimedRun& coarse, double ratio) {
+  constexpr double small_decrease = 0.1;
+  const std::span<const TimedStep> steps = steps_at_the_bound(own);
+  const double shown = ratio * log_decrease(coarse, own.time);
   const double missed = std::log(steps.front().size / steps.back().size) - shown;
-  return missed * missed / (missed * missed + shown * shown + small_fall * small_fall);
+  return missed * missed / (missed * missed + shown * shown + small_decrease * small_decrease);
 }
 
-// Takes steps that are still to come between those of two forecasts, in logarithms; each costs what it did.
-void lean_towards(const StepForecast& other, double weight, const March& own, StepForecast& forecast) {
-  const auto marched = static_cast<double>(own.steps.size());
+// Geometric mean, with weights, of the numbers of steps of two forecasts; remaining steps cost what they did.
+void average_with(const StepForecast& other, double weight, const TimedRun& own, StepForecast& forecast) {
+  const auto timed = static_cast<double>(own.steps.size());
   const double steps = std::pow(forecast.steps, 1 - weight) * std::pow(other.steps, weight);
-  const double change = (steps - marched) / (forecast.steps - marched);
+  const double change = (steps - timed) / (forecast.steps - timed);
   forecast.seconds = own.seconds() + change * (forecast.seconds - own.seconds());
   forecast.steps = steps;
 }
 
-// Time per step of a march as a straight line in that of a pilot at the same times, c + b (p - mean p): with
-// the slope that fits, between none and that of proportion, which is taken where the pilot's hardly changes.
+// Time per step as a straight line in that of the coarse run at the same times, c + b (p - mean p). The slope
+// is fitted between zero and proportionality, and is near the latter where the time of the coarse run hardly
+// changes.
 struct CostLine {
-  double mean = 0, slope = 0;  ///< slope times the mean of the pilot over that of the march: 0 to 1
-  double pilot_mean = 1;
-  double at(double pilot) const { return mean * (1 + slope * (pilot / pilot_mean - 1)); }
+  double mean = 0, slope = 0;  ///< slope times mean of the coarse run over mean of the timed run: 0 to 1
+  double coarse_mean = 1;
+  double at(double coarse) const { return mean * (1 + slope * (coarse / coarse_mean - 1)); }
 };
 
-// Mean over about a fiftieth of the steps, around each.
-std::vector<double> smooth_cost(const March& march) {
-  constexpr std::size_t stretches = 50;
-  const std::size_t steps = march.steps.size(), length = steps / stretches + 1;
+// Mean over intervals of about a fiftieth of the steps.
+std::vector<double> smooth_cost(const TimedRun& run) {
+  constexpr std::size_t intervals = 50;
+  const std::size_t steps = run.steps.size(), length = steps / intervals + 1;
   std::vector<double> cost(steps);
   for (std::size_t begin = 0; begin < steps; begin += length) {
     const std::size_t count = std::min(length, steps - begin);
     double sum = 0;
-    for (std::size_t i = begin; i < begin + count; ++i) sum += march.steps[i].seconds;
+    for (std::size_t i = begin; i < begin + count; ++i) sum += run.steps[i].seconds;
     std::fill_n(cost.begin() + static_cast<std::ptrdiff_t>(begin), count, sum / static_cast<double>(count));
   }
   return cost;
 }
 
-CostLine cost_line(const March& own, const March& pilot, const std::vector<double>& pilot_cost) {
+CostLine cost_line(const TimedRun& own, const TimedRun& coarse, const std::vector<double>& coarse_cost) {
   constexpr double weight_of_proportion = 0.05;  // as a variance of relative cost
   const std::vector<double> own_cost = smooth_cost(own);
   std::vector<double> at_same_time(own.steps.size());
   std::size_t next = 0;
   for (std::size_t i = 0; i < own.steps.size(); ++i) {
-    while (next + 1 < pilot.steps.size() && pilot.steps[next + 1].time <= own.steps[i].time) ++next;
-    at_same_time[i] = pilot_cost[next];
+    while (next + 1 < coarse.steps.size() && coarse.steps[next + 1].time <= own.steps[i].time) ++next;
+    at_same_time[i] = coarse_cost[next];
   }
   const auto count = static_cast<double>(own.steps.size());
   CostLine line;
   line.mean = std::accumulate(own_cost.begin(), own_cost.end(), 0.0) / count;
-  line.pilot_mean = std::accumulate(at_same_time.begin(), at_same_time.end(), 0.0) / count;
-  if (!(line.pilot_mean > 0)) return {line.mean, 0, 1};  // shorter than the clock can tell
+  line.coarse_mean = std::accumulate(at_same_time.begin(), at_same_time.end(), 0.0) / count;
+  if (!(line.coarse_mean > 0)) return {line.mean, 0, 1};  // below the resolution of the clock
   double both = weight_of_proportion * count, square = both;
   for (std::size_t i = 0; i < own.steps.size(); ++i) {
-    const double x = at_same_time[i] / line.pilot_mean - 1;
+    const double x = at_same_time[i] / line.coarse_mean - 1;
     both += x * (own_cost[i] / line.mean - 1);
     square += x * x;
   }
@@ -98,7 +99,7 @@ CostLine cost_line(const March& own, const March& pilot, const std::vector<doubl
 
 }  // namespace
 
-StepForecast forecast_steps(const March& own, double end) {
+StepForecast forecast_steps(const TimedRun& own, double end) {
   StepForecast forecast;
   const double left = own.reached_end ? 0 : std::ceil((end - own.time) / own.steps.back().size * (1 - 1e-12));
   forecast.steps = forecast.least = static_cast<double>(own.steps.size()) + left;
@@ -108,60 +109,63 @@ StepForecast forecast_steps(const March& own, double end) {
   return forecast;
 }
 
-double share_of_fall(const March& own, const March& pilot, double usual, double end) {
-  double both = telling_fall * end * usual, square = telling_fall * end;
-  for (const MarchedStep& step : telling(own)) {
-    const double of_pilot = fall(pilot, step.time);
-    both += step.size * of_pilot * std::log(own.steps.front().size / step.size);
-    square += step.size * of_pilot * of_pilot;
+double decrease_ratio(const TimedRun& own, const TimedRun& coarse, double usual, double end) {
+  double both = weight_of_usual * end * usual, square = weight_of_usual * end;
+  for (const TimedStep& step : steps_at_the_bound(own)) {
+    const double of_coarse_run = log_decrease(coarse, step.time);
+    both += step.size * of_coarse_run * std::log(own.steps.front().size / step.size);
+    square += step.size * of_coarse_run * of_coarse_run;
   }
   return std::max(both / square, 0.3);
 }
 
-StepForecast forecast_steps(const March& own, const March& pilot, Reading reading, double end) {
+StepForecast forecast_steps(const TimedRun& own, const TimedRun& coarse, Extrapolation extrapolation,
+                            double end) {
   StepForecast forecast = forecast_steps(own, end);
   if (own.reached_end) return forecast;
-  const double first = telling(own).front().size;
-  const double missed = std::log(first / telling(own).back().size) - reading.share * fall(pilot, own.time);
-  const std::vector<double> pilot_cost = smooth_cost(pilot);
-  const CostLine cost = cost_line(own, pilot, pilot_cost);
-  forecast.share_of_fall = reading.share;
+  const double first = steps_at_the_bound(own).front().size;
+  const double missed = std::log(first / steps_at_the_bound(own).back().size) -
+                        extrapolation.ratio * log_decrease(coarse, own.time);
+  const std::vector<double> coarse_cost = smooth_cost(coarse);
+  const CostLine cost = cost_line(own, coarse, coarse_cost);
+  forecast.decrease_ratio = extrapolation.ratio;
   forecast.steps = static_cast<double>(own.steps.size());
   forecast.seconds = own.seconds();
-  for (std::size_t i = 0; i < pilot.steps.size(); ++i) {
-    const MarchedStep& step = pilot.steps[i];
+  for (std::size_t i = 0; i < coarse.steps.size(); ++i) {
+    const TimedStep& step = coarse.steps[i];
     const double time = std::max(step.time, own.time);
     const double covered = std::min(step.time + step.size, end) - time;
     if (covered <= 0) continue;
-    const double left = missed * std::exp((own.time - time) / reading.lasting);
-    const double size = first * std::exp(-reading.share * fall(pilot, time) - left);
+    const double left = missed * std::exp((own.time - time) / extrapolation.decay_time);
+    const double size = first * std::exp(-extrapolation.ratio * log_decrease(coarse, time) - left);
     forecast.steps += covered / size;
-    forecast.seconds += covered / size * cost.at(pilot_cost[i]);
+    forecast.seconds += covered / size * cost.at(coarse_cost[i]);
   }
   forecast.least = forecast.most = forecast.steps;
   return forecast;
 }
 
-StepForecast forecast_steps(const March& own, const Pilot& pilot, double end) {
+StepForecast forecast_steps(const TimedRun& own, const CoarseRun& coarse, double end) {
   const StepForecast stays = forecast_steps(own, end);
   if (own.reached_end) return stays;
-  const bool eroded = pilot.march.steps.back().deleted > 0;
-  const double usual = std::pow(pilot.factor, usual_exponent);
-  const double share = eroded ? usual : share_of_fall(own, pilot.march, usual, end);
-  const double fades = (eroded ? lasting_among_deletions : lasting) * end;
-  StepForecast forecast = forecast_steps(own, pilot.march, {share, fades}, end);
-  if (!eroded) lean_towards(stays, doubt_in(own, pilot.march, share), own, forecast);
+  const bool eroded = coarse.run.steps.back().deleted > 0;
+  const double usual = std::pow(coarse.factor, usual_exponent);
+  const double ratio = eroded ? usual : decrease_ratio(own, coarse.run, usual, end);
+  const double decay_time = (eroded ? decay_with_deletions : decay) * end;
+  StepForecast forecast = forecast_steps(own, coarse.run, {ratio, decay_time}, end);
+  if (!eroded) average_with(stays, weight_of_constant_step(own, coarse.run, ratio), own, forecast);
   double least = std::min(forecast.steps, stays.steps), most = std::max(forecast.steps, stays.steps);
-  for (const Reading& reading : {Reading{1, fades}, Reading{share, HUGE_VAL},
-                                 Reading{std::pow(pilot.factor, largest_exponent), fades}}) {
-    const double steps = forecast_steps(own, pilot.march, reading, end).steps;
+  for (const Extrapolation& extrapolation :
+       {Extrapolation{1, decay_time}, Extrapolation{ratio, HUGE_VAL},
+        Extrapolation{std::pow(coarse.factor, largest_exponent), decay_time}}) {
+    const double steps = forecast_steps(own, coarse.run, extrapolation, end).steps;
     least = std::min(least, steps);
     most = std::max(most, steps);
   }
-  // Readings may agree and be wrong: steps that are still to come are known to a tenth at best.
-  const auto marched = static_cast<double>(own.steps.size());
-  forecast.least = marched + 0.9 * (least - marched);
-  forecast.most = marched + 1.1 * (most - marched);
+  // Extrapolations may agree and be wrong: remaining steps are predicted to a tenth at best.
+  const auto timed = static_cast<double>(own.steps.size());
+  forecast.least = timed + 0.9 * (least - timed);
+  forecast.most = timed + 1.1 * (most - timed);
   return forecast;
 }
 

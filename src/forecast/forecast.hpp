@@ -1,51 +1,54 @@
 #pragma once
-/// How many steps a run takes and how long they last, from the first of them, which were marched.
+/// Number and cost of the time steps of a run, predicted from a timed run of its first steps.
 ///
-/// Where the step stays as it is, so do number and cost. A scene that is crushed loses step, and nothing in
-/// its first steps says how much. A pilot does: the same deck, coarsely meshed, marched to its end. Its step
-/// falls at much the same times, but less, the coarser it is. With r the first step over the step of a time,
+/// Where the stable time step is constant, so are number and cost. In a scene that is crushed the stable time
+/// step decreases, and its first steps do not say by how much. A coarse run does: the same deck, coarsely
+/// meshed, run to its end. Its time step decreases at much the same times, but by less, the coarser it is.
+/// With r(t) = (first time step) / (time step at t),
 ///
-///     log r(t) = share * log r_pilot(t) + missed * exp(-(t - t_marched) / lasting),
+///     log r(t) = ratio * log r_coarse(t) + missed * exp(-(t - t_timed) / decay_time),
 ///
-/// with what is missed where the march ended, and the share that fits best over the time that both were
-/// marched, as far as their falls say anything, and else is usual: log r grows as a power of the number of
-/// elements along an edge. Measured on ten scenes, the exponent is 0 to 0.4 for struck rods, for birds and
-/// for pipes that tear, 0.5 for bricks, 0.7 for plates that tear and 1 for walls that fold. Where elements
-/// are deleted, those that have set the step may be gone at any time: there the march says nothing of what
-/// follows. Elsewhere the forecast leans towards a step that stays as it is, the more the pilot missed (in
-/// logarithms). Time per step grows with that of the pilot, by as much as it was seen to.
+/// where `missed` is the difference at the end of the timed run, and `ratio` is fitted over the time that
+/// both have covered, as far as the decreases seen there determine it. Otherwise it is the usual one: log r
+/// grows as a power of the number of elements along an edge. Measured on ten scenes, the exponent is 0 to 0.4
+/// for struck rods, for birds and for pipes that fracture, 0.5 for bricks, 0.7 for plates that fracture and 1
+/// for walls that fold. Where elements are deleted, those that have set the time step may be deleted at any
+/// time: there the timed run predicts nothing. Elsewhere the prediction is averaged (in logarithms) with that
+/// of a constant time step, whose weight grows with `missed`. Time per step grows with that of the coarse
+/// run, by the measured slope.
 
-#include "src/forecast/march.hpp"
+#include "src/forecast/timed_run.hpp"
 
 namespace brio {
 
 struct StepForecast {
   double steps = 0;
-  /// Of all readings of the pilot, and a tenth more; without a pilot, `most` is 0.
+  /// Bounds over all extrapolations of the coarse run, widened by a tenth; without one, `most` is 0.
   double least = 0, most = 0;
-  double seconds = 0;        ///< of all steps, as a march counts them
-  double share_of_fall = 1;  ///< of the pilot's fall
-  bool exact = false;        ///< the march came to the end
+  double seconds = 0;         ///< of all steps, by the work_clock
+  double decrease_ratio = 1;  ///< log of the decrease of the time step over that of the coarse run
+  bool exact = false;         ///< the timed run reached the end time
 };
 
-struct Pilot {
-  double factor = 2;  ///< by which its elements are longer
-  March march;        ///< to the end
+struct CoarseRun {
+  double factor = 2;  ///< ratio of element lengths, coarse over original
+  TimedRun run;       ///< to the end time
 };
 
-/// The step stays as it is.
-StepForecast forecast_steps(const March& own, double end);
-StepForecast forecast_steps(const March& own, const Pilot& pilot, double end);
+/// With a constant time step.
+StepForecast forecast_steps(const TimedRun& own, double end);
+StepForecast forecast_steps(const TimedRun& own, const CoarseRun& coarse, double end);
 
-/// How a pilot is read.
-struct Reading {
-  double share = 1;    ///< of its fall
-  double lasting = 1;  ///< time over which what it missed fades
+/// Parameters of the extrapolation from a coarse run.
+struct Extrapolation {
+  double ratio = 1;
+  double decay_time = 1;
 };
-/// The same, read in one way.
-StepForecast forecast_steps(const March& own, const March& pilot, Reading reading, double end);
+/// The same, for one set of parameters.
+StepForecast forecast_steps(const TimedRun& own, const TimedRun& coarse, Extrapolation extrapolation,
+                            double end);
 
-/// The share of a pilot's fall that a march shows as far as it goes, and `usual` as far as it says nothing.
-double share_of_fall(const March& own, const March& pilot, double usual, double end);
+/// Least-squares fit of the ratio of decreases, regularized towards `usual`.
+double decrease_ratio(const TimedRun& own, const TimedRun& coarse, double usual, double end);
 
 }  // namespace brio

@@ -262,10 +262,11 @@ void warn_of_flowing_solids(const Deck& deck, Warnings& warnings) {
     if (particle == nullptr || !particle->is_eulerian() || material == nullptr) continue;
     if (std::visit([](const auto& law) { return law.poissons_ratio; }, *material) > nearly_incompressible)
       continue;
-    warnings.push_back({"part '" + part.name + "'",
-                        "particles of now for a material with the stiffness of a solid: slow, and they come "
-                        "apart in tension",
-                        "kernel: total_lagrangian, unless it flows"});
+    warnings.push_back(
+        {"part '" + part.name + "'",
+         "an updated-Lagrangian (eulerian) kernel for a material with the stiffness of a solid: slow, "
+         "with numerical fracture in tension",
+         "kernel: total_lagrangian, unless it flows"});
   }
 }
 

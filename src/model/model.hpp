@@ -18,7 +18,7 @@
 #include "src/model/scene_extent.hpp"
 #include "src/model/stage_times.hpp"
 #include "src/motion/constraints.hpp"
-#include "src/motion/ledger.hpp"
+#include "src/motion/energy_balance.hpp"
 #include "src/motion/loads.hpp"
 #include "src/motion/motion.hpp"
 #include "src/motion/rigid.hpp"
@@ -61,8 +61,9 @@ struct Model {
   std::vector<MergedParts> merged;                           ///< one a merge
   Ties ties;
   SweepSchedule schedule;
-  std::vector<SweepResult> sweep_results;         ///< one a task
-  std::vector<ParticleSearch> particle_searches;  ///< of blocks of particles whose kernel is of now
+  std::vector<SweepResult> sweep_results;  ///< one a task
+  std::vector<ParticleSearch>
+      particle_searches;  ///< of blocks of particles with an updated-Lagrangian kernel
   std::vector<ActiveLoad> loads;
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
@@ -77,10 +78,10 @@ struct Model {
 
   std::optional<AddedMass> added_mass;  ///< if the deck asks for mass scaling
 
-  EnergyBook energy;
+  EnergyBalance energy;
   std::vector<PartEnergy> part_energy;  ///< one a part
   double hourglass_warning = 0;         ///< limit of the ratio of hourglass to internal energy
-  MomentumBook momentum;
+  MomentumBalance momentum;
   std::vector<ProbeInRun> probes;           ///< one a probe of the deck
   std::vector<KineticEnergy> kinetic_sums;  ///< one a range of nodes
   StageTimes stages;

@@ -5,7 +5,7 @@
 
 #include "contact/ties/ties.hpp"
 #include "src/deck/deck.hpp"
-#include "src/motion/ledger.hpp"
+#include "src/motion/energy_balance.hpp"
 
 namespace brio {
 

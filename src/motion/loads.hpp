@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "src/deck/deck.hpp"
-#include "src/motion/ledger.hpp"
+#include "src/motion/energy_balance.hpp"
 
 namespace brio {
 

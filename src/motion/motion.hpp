@@ -6,7 +6,7 @@
 
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
-#include "src/motion/ledger.hpp"
+#include "src/motion/energy_balance.hpp"
 
 namespace brio {
 

@@ -45,13 +45,13 @@ struct WallTouch {
 struct RigidBody {
   std::size_t part = 0;
   std::vector<int> node;             ///< of the model
-  std::vector<Eigen::Vector3d> arm;  ///< from the centre to each node, in the attitude of the start
+  std::vector<Eigen::Vector3d> arm;  ///< from the centre to each node, in the initial attitude
   std::vector<int> connectivity;     ///< nodes of the model, in the order of the part's mesh
   int nodes_per_element = 8;
   double thickness = 0;  ///< of shells
 
   double mass = 0;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, in the attitude of the start
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, in the initial attitude
   std::vector<PrescribedRigid> given;
 
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();

@@ -75,8 +75,8 @@ double rub(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_veloci
   return change.norm() * inverse;
 }
 
-void book(Reaction& reaction, const Vector3d& position, const Vector3d& impulse, const WallTouch& touch,
-          const RigidMotion& motion) {
+void account(Reaction& reaction, const Vector3d& position, const Vector3d& impulse, const WallTouch& touch,
+             const RigidMotion& motion) {
   reaction.impulse.add(to_vector(position), to_vector(impulse));
   reaction.before += impulse.dot(motion.velocity_before_at(touch.arm));
   reaction.after += impulse.dot(motion.velocity_at(touch.arm));
@@ -113,8 +113,8 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& 
   }
   for (const WallTouch& touch : body.touch) {
     const Vector3d position = body.centre + touch.arm;
-    book(reaction.normal, position, touch.impulse * normal, touch, motion);
-    book(reaction.friction, position, touch.friction, touch, motion);
+    account(reaction.normal, position, touch.impulse * normal, touch, motion);
+    account(reaction.friction, position, touch.friction, touch, motion);
   }
   const RigidSupport held = support_against(motion, motion.impulse, motion.moment);
   support.before += held.work_before;

@@ -260,17 +260,17 @@ std::vector<std::string> history_columns(const Model& model) {
 
 void observe_history(Model& model, std::vector<double>& row) {
   balance_momentum(model);
-  const EnergyBook& energy = model.energy;
-  const MomentumBook& book = model.momentum;
+  const EnergyBalance& energy = model.energy;
+  const MomentumBalance& balance = model.momentum;
   row.assign({model.times.time, static_cast<double>(model.step), model.times.next, energy.kinetic,
               energy.internal, energy.hourglass, energy.viscous, energy.deleted, -energy.contact.at_step(),
               -energy.friction.at_step(), energy.external.at_step(), energy.sum(), energy.relative_error(),
               energy.contact_added_max});
-  for (const Vector& vector : {book.now.linear, book.now.angular})
+  for (const Vector& vector : {balance.now.linear, balance.now.angular})
     row.insert(row.end(), vector.begin(), vector.end());
-  row.push_back(book.linear_imbalance());
-  row.push_back(book.angular_imbalance());
-  for (const Vector& vector : {book.supports.linear, book.walls.linear})
+  row.push_back(balance.linear_imbalance());
+  row.push_back(balance.angular_imbalance());
+  for (const Vector& vector : {balance.supports.linear, balance.walls.linear})
     row.insert(row.end(), vector.begin(), vector.end());
   row.push_back(static_cast<double>(deleted_so_far(model)));
   for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p) {
@@ -366,7 +366,7 @@ Summary observe_end(Model& model) {
     summary.mass.of_deleted_elements = model.erosion->mass_of_deleted;
     summary.deleted_by_cause = model.erosion->deleted_by_cause;
   }
-  const EnergyBook& energy = model.energy;
+  const EnergyBalance& energy = model.energy;
   summary.energy = {.kinetic = energy.kinetic,
                     .internal = energy.internal,
                     .hourglass = energy.hourglass,

@@ -17,7 +17,7 @@ namespace brio {
 /// in memory.
 class FieldObserver {
  public:
-  /// Remembers the positions of now as the reference of displacements.
+  /// Stores the present positions as the reference of displacements.
   explicit FieldObserver(const Model& model);
 
   /// Fields at the time of the step; call between update_velocities and update_positions.
@@ -42,7 +42,7 @@ class FieldObserver {
 /// first hundred parts).
 std::vector<std::string> history_columns(const Model& model);
 
-/// One row, into `row`; updates the momentum book.
+/// One row, into `row`; updates the momentum balance.
 void observe_history(Model& model, std::vector<double>& row);
 
 /// End state in figures; the caller adds version, deck, status, wall time, memory and threads.

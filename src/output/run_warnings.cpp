@@ -14,8 +14,9 @@ std::string warning_of_pairs(const Model& model, const ParticleSearch& search) {
   return "part '" + model.parts[search.block].name +
          "': " + written(std::round(100 * search.paired.largest_share)) + " % of the particles at time " +
          written(search.paired.time) +
-         " were closer to another than half of their spacing; in tension and in thin sheets particles whose "
-         "kernel is of now gather in pairs, and their stress is too low; 'kernel: total_lagrangian' holds "
+         " were closer to another than half of their spacing; in tension and in thin sheets particles with "
+         "an updated-Lagrangian kernel gather in pairs, and their stress is too low; 'kernel: "
+         "total_lagrangian' holds "
          "tension";
 }
 

@@ -36,7 +36,7 @@ double load_work(Model& model) {
   return sum;
 }
 
-void book_load_impulses(Model& model) {
+void account_load_impulses(Model& model) {
   if (!has_loads(model)) return;
   const StageTimer timer(model.stages, Stage::loads);
   const auto add = [&](Impulse impulse) {
@@ -146,7 +146,7 @@ void choose_step(Model& model) {
   control.largest = std::max(control.largest, step);
 }
 
-void book_support(Model& model, const Reaction& reaction) {
+void account_support(Model& model, const Reaction& reaction) {
   model.energy.external.before += reaction.before;
   model.energy.external.after += reaction.after;
   model.momentum.supports.add(reaction.impulse);
@@ -170,13 +170,13 @@ void constrain(Model& model) {
   if (model.prescribed.empty()) return;
   const StageTimer timer(model.stages, Stage::constraints);
   for (const PrescribedNodes& given : model.prescribed)
-    book_support(model, prescribe(given, model.times, model.nodes));
+    account_support(model, prescribe(given, model.times, model.nodes));
 }
 
 void accelerate_rigid(Model& model, ThreadTeam& team) {
   if (model.rigid.empty()) return;
   const StageTimer timer(model.stages, Stage::rigid);
-  book_support(model, accelerate(model.rigid, model.times));
+  account_support(model, accelerate(model.rigid, model.times));
   carry_velocities(model.rigid, model.nodes, team);
 }
 
@@ -236,7 +236,7 @@ void resolve_contact(Model& model, ThreadTeam& team) {
   }
 }
 
-void book_wall(Model& model, const WallReaction& reaction) {
+void account_wall(Model& model, const WallReaction& reaction) {
   model.energy.contact.before += reaction.normal.before;
   model.energy.contact.after += reaction.normal.after;
   model.energy.friction.before += reaction.friction.before;
@@ -251,23 +251,23 @@ void stop_at_walls(Model& model) {
   for (const WallInRun& wall : model.walls) {
     Reaction support_of_ties;
     if (!model.ties.empty()) stop_held_at(wall, model.times, model.ties, model.nodes, support_of_ties);
-    book_wall(model, stop_at(wall, model.times, model.nodes));
+    account_wall(model, stop_at(wall, model.times, model.nodes));
     if (!model.ties.empty()) {
-      book_wall(model, reaction_of_held(model.ties, model.times, model.nodes));
-      book_support(model, support_of_ties);
+      account_wall(model, reaction_of_held(model.ties, model.times, model.nodes));
+      account_support(model, support_of_ties);
     }
     for (std::size_t b = 0; b < model.rigid.body.size(); ++b) {
       Reaction support;
-      book_wall(model,
-                stop_at(wall, model.times, model.rigid.body[b], model.rigid.motion[b], model.nodes, support));
-      book_support(model, support);
+      account_wall(model, stop_at(wall, model.times, model.rigid.body[b], model.rigid.motion[b], model.nodes,
+                                  support));
+      account_support(model, support);
     }
     settle(model.rigid);
   }
 }
 
-// That of all nodes if they moved by the rounding of the largest coordinate in a step: what is less than this
-// is not motion. A scene at rest has nothing else in its books until its loads begin.
+// Kinetic energy of all nodes if they moved by the rounding error of the largest coordinate in a time step:
+// the only energy of a scene at rest before its loads begin.
 double energy_of_rounding(const Model& model) {
   double mass = 0, largest = 0;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -279,11 +279,11 @@ double energy_of_rounding(const Model& model) {
   return 0.5 * mass * speed * speed;
 }
 
-// Of the energy of a run: less in the hourglass control of a part than this is not worth a word.
-constexpr double least_share_of_interest = 1e-3;
+// Hourglass energies below this fraction of the energy of the run are ignored.
+constexpr double ignored_fraction = 1e-3;
 
-void check_books(Model& model, double energy_error_limit) {
-  EnergyBook& energy = model.energy;
+void check_energy_balance(Model& model, double energy_error_limit) {
+  EnergyBalance& energy = model.energy;
   if (model.step == 0) energy.reference = energy_of_rounding(model);
   energy.reference =
       std::max({energy.reference, energy.kinetic_start, std::abs(energy.sum()), energy.internal});
@@ -296,7 +296,7 @@ void check_books(Model& model, double energy_error_limit) {
                                           : "the energy is not a number at time ") +
                     written(model.times.time) + "; " + cause_of_energy_error(model));
   for (PartEnergy& part : model.part_energy)
-    part.note_ratio(model.times.time, least_share_of_interest * energy.reference, model.hourglass_warning);
+    part.note_ratio(model.times.time, ignored_fraction * energy.reference, model.hourglass_warning);
 }
 
 }  // namespace
@@ -320,7 +320,7 @@ void erode_elements(Model& model, ThreadTeam& team) {
 }
 
 void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team) {
-  EnergyBook& energy = model.energy;
+  EnergyBalance& energy = model.energy;
   for (Work* work : {&energy.external, &energy.contact, &energy.friction}) work->begin_step();
 
   if (model.erosion) {
@@ -347,7 +347,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   stop_at_walls(model);
   carry_rigid(model, team);
   energy.external.after += load_work(model);
-  book_load_impulses(model);
+  account_load_impulses(model);
   if (!model.nodes.velocity_before.empty()) {
     const StageTimer timer(model.stages, Stage::nodes);
     kinetic = kinetic_energy(model.nodes, model.kinetic_sums, team);
@@ -355,7 +355,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   const KineticEnergy rigid = kinetic_energy(model.rigid);
   energy.kinetic = kinetic.now + rigid.now;
   energy.kinetic_half = kinetic.half + rigid.half;
-  check_books(model, energy_error_limit);
+  check_energy_balance(model, energy_error_limit);
 }
 
 void audit_contacts(Model& model, ThreadTeam& team) {

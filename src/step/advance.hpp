@@ -7,9 +7,9 @@
 namespace brio {
 
 /// First half of a step: stresses and forces at the present time, the next step's size, and the velocities
-/// over it, corrected by supports, contact and walls. After it the model is complete at its time: books are
-/// balanced and results may be written. \throws Breakdown for an inverted element, a collapsed step, or an
-/// energy error beyond `energy_error_limit`.
+/// over it, corrected by supports, contact and walls. After it the model is complete at its time: energy and
+/// momentum balance are up to date and results may be written. \throws Breakdown for an inverted element, a
+/// collapsed step, or an energy error beyond `energy_error_limit`.
 void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team);
 
 /// Deletes what `model.sweep_results` gave up, with all that follows from it: loads, contact surfaces,

@@ -87,7 +87,7 @@ bool starts_too_fast(const Model& model, double sound) {
 
 std::string likely_cause(const Model& model, const Fastest& fastest) {
   const double speed = fastest.speed;
-  const EnergyBook& energy = model.energy;
+  const EnergyBalance& energy = model.energy;
   const double missing = std::abs(energy.relative_error()) * energy.reference;
   if (!std::isfinite(missing)) return not_a_number;
   if (starts_too_fast(model, speed_of_sound(model.blocks[fastest.part->block])))

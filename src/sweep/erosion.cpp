@@ -24,7 +24,7 @@ void leave_nodes(Erosion& erosion, const Block& block, std::size_t place) {
   }
 }
 
-void book(const Block& block, std::size_t place, EnergyBook& energy) {
+void account(const Block& block, std::size_t place, EnergyBalance& energy) {
   const HeldEnergy held = held_energy(block, place);
   energy.internal -= held.internal;
   energy.hourglass -= held.hourglass;
@@ -80,7 +80,7 @@ Erosion make_erosion(std::span<const Block> blocks, std::size_t node_count) {
 }
 
 void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResult> results,
-           std::span<Block> blocks, std::span<PartInModel> parts, EnergyBook& energy) {
+           std::span<Block> blocks, std::span<PartInModel> parts, EnergyBalance& energy) {
   erosion.deleted.clear();
   erosion.freed.clear();
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
@@ -97,7 +97,7 @@ void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResul
       erosion.deleted.push_back({static_cast<int>(task.block), part.element_order[place]});
       erosion.mass_of_deleted += block.kernel.mass(block, place);
       ++erosion.deleted_count[task.block];
-      book(block, place, energy);
+      account(block, place, energy);
       leave_nodes(erosion, block, place);
       if (block.cloud) cut_particle(*block.cloud, block.node(place, 0) - block.cloud->first_node);
       fill_place(block, task.chunk, place, part);
@@ -167,7 +167,7 @@ void drop_nodes(ActiveLoad& load, std::span<const int> dropping) {
                 [&](int node) { return std::binary_search(dropping.begin(), dropping.end(), node); });
 }
 
-void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBook& energy, MomentumBook& momentum) {
+void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBalance& energy, MomentumBalance& momentum) {
   for (const int entry : erosion.dropping) {
     const auto node = static_cast<std::size_t>(entry);
     NodeRecord& record = nodes.record[node];

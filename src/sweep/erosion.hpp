@@ -1,6 +1,6 @@
 #pragma once
-/// Deletion of elements: out of their packs, their energy from the books of the living to that of the
-/// deleted, and what is left of their nodes. Exists only where something can be deleted.
+/// Deletion of elements: out of their packs, their energy from the internal and hourglass energy of the model
+/// to that of the deleted, and what is left of their nodes. Exists only where something can be deleted.
 ///
 /// A lost element gives its place to the last element of its chunk, so that the chunks of a colour go on
 /// sharing no node, and nothing that is dead is swept. When chunks have become so short that a quarter of
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "elements/block.hpp"
-#include "src/motion/ledger.hpp"
+#include "src/motion/energy_balance.hpp"
 #include "src/motion/loads.hpp"
 #include "src/sweep/schedule.hpp"
 
@@ -59,7 +59,7 @@ Erosion make_erosion(std::span<const Block> blocks, std::size_t node_count);
 
 /// Deletes what the last sweep gave up and says so in `deleted` and `freed`.
 void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResult> results,
-           std::span<Block> blocks, std::span<PartInModel> parts, EnergyBook& energy);
+           std::span<Block> blocks, std::span<PartInModel> parts, EnergyBalance& energy);
 
 /// True when chunks are so short that packing anew pays.
 bool is_sparse(const SweepSchedule& schedule, std::span<const Block> blocks);
@@ -74,8 +74,9 @@ void drop_sides(ActiveLoad& load, std::span<const DeletedElement> deleted);
 /// Takes nodes that leave out of a load. \param dropping ascending
 void drop_nodes(ActiveLoad& load, std::span<const int> dropping);
 
-/// Lets the nodes go that are listed in `dropping`: mass, momentum and kinetic energy go to the books.
-void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBook& energy, MomentumBook& momentum);
+/// Lets the nodes go that are listed in `dropping`: their mass, momentum and kinetic energy are counted as
+/// deleted.
+void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBalance& energy, MomentumBalance& momentum);
 
 /// Mass of nodes that still have elements, and of those that fly free.
 struct MassBalance {

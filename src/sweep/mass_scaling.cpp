@@ -67,7 +67,7 @@ AddedMass make_mass_scaling(const TimeSection& time, const Deck& deck, std::span
 
 void hand_out(AddedMass& mass, const SweepSchedule& schedule, std::span<const SweepResult> results,
               std::span<const Block> blocks, std::span<const PartInModel> parts, Nodes& nodes,
-              EnergyBook& energy, MomentumBook& momentum, bool at_start) {
+              EnergyBalance& energy, MomentumBalance& momentum, bool at_start) {
   Given given;
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
     const SweepTask& task = schedule.tasks[t];

@@ -1,13 +1,13 @@
 #pragma once
 /// Mass that small elements get so that they do not set the step. It comes with the velocity of its node:
-/// what that brings in energy and momentum is booked as work and impulse of supports, or, at the start, as
+/// what that brings in energy and momentum counts as work and impulse of supports, or, at the start, as
 /// there from the start.
 
 #include <span>
 #include <vector>
 
 #include "src/deck/deck.hpp"
-#include "src/motion/ledger.hpp"
+#include "src/motion/energy_balance.hpp"
 #include "src/sweep/erosion.hpp"
 #include "src/sweep/schedule.hpp"
 
@@ -31,6 +31,6 @@ AddedMass make_mass_scaling(const TimeSection& time, const Deck& deck, std::span
 /// \throws Breakdown where more has been added than the deck accepts.
 void hand_out(AddedMass& mass, const SweepSchedule& schedule, std::span<const SweepResult> results,
               std::span<const Block> blocks, std::span<const PartInModel> parts, Nodes& nodes,
-              EnergyBook& energy, MomentumBook& momentum, bool at_start);
+              EnergyBalance& energy, MomentumBalance& momentum, bool at_start);
 
 }  // namespace brio

@@ -10,7 +10,7 @@ namespace brio {
 
 namespace {
 
-/// Lists are made longer by this share of the smallest smoothing length of the start.
+/// Search margin (Verlet skin) over the smallest initial smoothing length.
 constexpr double search_skin_share = 0.3;
 
 const double* position(const ParticleCloud& cloud, const Nodes& nodes, std::size_t i) {

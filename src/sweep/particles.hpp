@@ -13,9 +13,9 @@ namespace brio {
 /// \throws std::invalid_argument naming a particle without neighbours in three directions
 void find_neighbours(Block& block, std::span<const double> volume, const Nodes& nodes);
 
-/// Particles that have come closer to another than half of their spacing of now. In tension, and in sheets
-/// that spread, particles whose kernel is of now gather in pairs (Swegle, Hicks & Attaway 1995; Dehnen & Aly
-/// 2012): their stress is then too low.
+/// Particles that have come closer to another than half of their present spacing. In tension, and in sheets
+/// that spread, particles with an updated-Lagrangian kernel gather in pairs (Swegle, Hicks & Attaway 1995;
+/// Dehnen & Aly 2012): their stress is then too low.
 struct PairedParticles {
   static constexpr double closer_than = 0.5;       ///< of the spacing
   static constexpr double worth_a_warning = 0.01;  ///< share of a block's particles
@@ -23,7 +23,7 @@ struct PairedParticles {
   double time = 0;                                 ///< of that
 };
 
-/// The search of a block whose kernel is of now, and its buffers.
+/// The search of a block with an updated-Lagrangian kernel, and its buffers.
 struct ParticleSearch {
   std::size_t block;
   PairedParticles paired{};
@@ -38,8 +38,8 @@ struct ParticleSearch {
 /// have grown, by more than the lists allow.
 void follow_neighbours(ParticleSearch& search, Block& block, const Nodes& nodes, ThreadTeam& team);
 
-/// Share of the particles of a block whose kernel is of now that stand closer to another than half of their
-/// spacing.
+/// Fraction of the particles of a block with an updated-Lagrangian kernel that are closer to another than
+/// half of their spacing.
 double share_of_paired(const ParticleCloud& cloud, const Nodes& nodes);
 
 }  // namespace brio

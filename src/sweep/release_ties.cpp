@@ -4,8 +4,8 @@
 
 namespace brio {
 
-bool release_ties(Ties& ties, const Erosion& erosion, Nodes& nodes, EnergyBook& energy,
-                  MomentumBook& momentum) {
+bool release_ties(Ties& ties, const Erosion& erosion, Nodes& nodes, EnergyBalance& energy,
+                  MomentumBalance& momentum) {
   bool any = false;
   for (TiedNode& held : ties.node) {
     const DeletedElement owner{held.face_part, held.element};

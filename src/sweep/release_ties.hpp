@@ -2,15 +2,15 @@
 /// Ties that end because elements are deleted.
 
 #include "contact/ties/ties.hpp"
-#include "src/motion/ledger.hpp"
+#include "src/motion/energy_balance.hpp"
 #include "src/sweep/erosion.hpp"
 
 namespace brio {
 
-/// Let nodes go whose face or whose last element was deleted in the present step. What their motion loses, as
-/// mass goes from the corners back to where they are, goes to the books of the deleted.
+/// Releases tied nodes whose face or whose last element was deleted in the present step. The kinetic energy
+/// and momentum lost, as mass is transferred from the corners of the face to the node, count as deleted.
 /// \returns whether there are any.
-bool release_ties(Ties& ties, const Erosion& erosion, Nodes& nodes, EnergyBook& energy,
-                  MomentumBook& momentum);
+bool release_ties(Ties& ties, const Erosion& erosion, Nodes& nodes, EnergyBalance& energy,
+                  MomentumBalance& momentum);
 
 }  // namespace brio

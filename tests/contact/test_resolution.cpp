@@ -230,7 +230,7 @@ TEST_P(Kinds, KeepMomentumAndAngularMomentumWithFriction) {
 INSTANTIATE_TEST_SUITE_P(All, Kinds,
                          testing::Combine(testing::ValuesIn(all_kinds), testing::ValuesIn(all_kinds)));
 
-TEST(Resolution, BooksWhatMotionLoses) {
+TEST(Resolution, AccountsForTheEnergyLostByMotion) {
   for (const Kind kind : all_kinds) {
     FreePieces pieces(7);
     std::srand(7);

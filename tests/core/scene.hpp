@@ -60,7 +60,7 @@ inline Model build_model(const Deck& deck) {
   return build(deck, meshes);
 }
 
-/// Steps to the end time; `look` is called at every step once velocities and books are complete.
+/// Steps to the end time; `look` is called at every step once velocities and balances are complete.
 inline void run(Model& model, const Deck& deck, ThreadTeam& team,
                 const std::function<void(Model&)>& look = {}) {
   while (true) {

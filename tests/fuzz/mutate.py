@@ -444,7 +444,7 @@ class Campaign:
         folder = self.new_folder(name)
         (folder / f"{stem}.yaml").write_bytes(mutated_deck(rng, text).encode("utf-8", "surrogatepass"))
         if rng.random() < 0.35:
-            arguments = ["check", f"{stem}.yaml", "--pilot=0", "--threads", "1"]
+            arguments = ["check", f"{stem}.yaml", "--coarse-run=0", "--threads", "1"]
         else:
             arguments = ["run", f"{stem}.yaml", "--quiet", "--threads", rng.choice(["1", "1", "1", "2"]), "--set",
                          f"time.end={end * 1e-3 if stem == 'small' else end * 1e-5:.3g}"]

@@ -37,7 +37,7 @@ class MemoryOfScenes : public test::Program {
   }
 };
 
-TEST_F(MemoryOfScenes, AreForetoldWithinAThird) {
+TEST_F(MemoryOfScenes, ArePredictedWithinAThird) {
   const std::string brick = "{mesh: {box: {size: [1, 1, 1], elements: [50, 50, 50]}}, material: m, element: ";
   const std::string plate = "{mesh: {plate: {size: [1, 1], elements: [250, 250]}}, material: m, element: ";
   const std::string contact = "contact: {surfaces: all}\n";
@@ -58,11 +58,11 @@ TEST_F(MemoryOfScenes, AreForetoldWithinAThird) {
       deck_of("{mesh: {box: {size: [1, 1, 1], elements: [1, 1, 1]}}, material: m, element: hex8}", ""));
   for (const auto& [part, more] : scenes) {
     const std::string text = deck_of(part, more);
-    const double foretold = memory_of_scene_mb(parse_deck(text, "a.yaml"));
+    const double predicted = memory_of_scene_mb(parse_deck(text, "a.yaml"));
     const double taken = peak_mb_of_run(text) - empty;
-    std::printf("foretold %.0f MB, taken %.0f MB: %s%s\n", foretold, taken, part.c_str(), more.c_str());
-    EXPECT_GT(foretold, taken / 1.5) << text;
-    EXPECT_LT(foretold, taken * 1.5) << text;
+    std::printf("predicted %.0f MB, taken %.0f MB: %s%s\n", predicted, taken, part.c_str(), more.c_str());
+    EXPECT_GT(predicted, taken / 1.5) << text;
+    EXPECT_LT(predicted, taken * 1.5) << text;
   }
 }
 

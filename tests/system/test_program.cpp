@@ -69,9 +69,8 @@ TEST_F(Program, CheckSaysWhatIsSwitchedOnAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "cube.results"));
 }
 
-// What is small enough is marched to its end: steps are those of the run, and results are as large as
-// foretold.
-TEST_F(Program, CheckForetellsARun) {
+// A small scene is run to its end: the number of steps is exact, and results are as large as predicted.
+TEST_F(Program, CheckForecastsARun) {
   write("cube.yaml", small_deck);
   const Ending ending = brio("check cube.yaml --threads 1 --json");
   EXPECT_EQ(ending.exit_code, 0) << ending.faults;
@@ -93,27 +92,37 @@ TEST_F(Program, CheckForetellsARun) {
   EXPECT_EQ(check["step"]["part"], "cube");
 }
 
-TEST_F(Program, CheckWithAPilotRunsACoarserScene) {
+TEST_F(Program, CheckWithACoarseRunRunsACoarserScene) {
   write("cube.yaml", small_deck);
-  const Ending ending =
-      brio("check cube.yaml --threads 1 --json --pilot 1 --set time.end=1e3 --set output.fields.every=1e3");
+  const Ending ending = brio(
+      "check cube.yaml --threads 1 --json --coarse-run 1 --set time.end=1e3 --set output.fields.every=1e3");
   EXPECT_EQ(ending.exit_code, 0) << ending.faults;
   const nlohmann::json forecast = nlohmann::json::parse(ending.output)["forecast"];
   EXPECT_FALSE(forecast["steps_exact"]);
-  EXPECT_TRUE(!forecast["pilots"].empty() || forecast["pilot_fault"] != "") << forecast;
+  EXPECT_TRUE(!forecast["coarse_runs"].empty() || forecast["coarse_run_fault"] != "") << forecast;
+  EXPECT_EQ(forecast["pilots"], forecast["coarse_runs"]) << "the old name";
 }
 
-TEST_F(Program, BudgetOfPilotsIsSecondsOrAShare) {
+TEST_F(Program, BudgetOfCoarseRunsIsSecondsOrAPercentage) {
   write("cube.yaml", small_deck);
   for (const char* budget : {"0", "0%", "0.1", "40%", "2.5%"}) {
-    const Ending ending = brio("check cube.yaml --threads 1 --pilot=" + std::string(budget));
+    const Ending ending = brio("check cube.yaml --threads 1 --coarse-run=" + std::string(budget));
     EXPECT_EQ(ending.exit_code, 0) << ending.faults;
   }
   for (const char* budget : {"-1", "%", "ten", "4%%", "nan", "inf"}) {
-    const Ending ending = brio("check cube.yaml --threads 1 --pilot=" + std::string(budget));
+    const Ending ending = brio("check cube.yaml --threads 1 --coarse-run=" + std::string(budget));
     EXPECT_EQ(ending.exit_code, 2) << budget;
-    EXPECT_NE(ending.faults.find("accepted: seconds >= 0, or a share"), std::string::npos) << ending.faults;
+    EXPECT_NE(ending.faults.find("accepted: seconds >= 0, or a percentage"), std::string::npos)
+        << ending.faults;
   }
+}
+
+TEST_F(Program, OldNameOfTheCoarseRunIsAcceptedWithANotice) {
+  write("cube.yaml", small_deck);
+  const Ending ending = brio("check cube.yaml --threads 1 --pilot=0");
+  EXPECT_EQ(ending.exit_code, 0) << ending.faults;
+  EXPECT_NE(ending.faults.find("--pilot is called --coarse-run now"), std::string::npos) << ending.faults;
+  EXPECT_EQ(brio("check cube.yaml --threads 1 --coarse-run=0").faults, "");
 }
 
 TEST_F(Program, CheckWarnsAndSaysWhy) {
@@ -304,7 +313,7 @@ TEST_F(ProgramSlow, ScattersBricks) {
   EXPECT_GT(found["energy"]["contact"].get<double>(), 0) << "contact adds no energy";
 }
 
-// Bodies that overlap by rounding and have no load yet: there is nothing but rounding in the books.
+// Bodies that overlap by rounding and have no load yet: the energy balance holds nothing but rounding.
 TEST_F(ProgramSlow, BeginsAtRest) {
   const Ending ending =
       brio("run '" BRIO_SOURCE_DIR "/inputs/resting_stack.yaml' --output rest --set time.end=0.02");

@@ -44,8 +44,8 @@ TEST_F(Streams, OutputThatCannotBeWrittenEndsEveryCommandWithFour) {
   write("cube.study.yaml", study);
   ASSERT_EQ(shell("\"$brio\" run cube.yaml --quiet --output kept"), 0);
   for (const char* arguments :
-       {"run cube.yaml", "run cube.yaml --json --quiet", "check cube.yaml --pilot=0",
-        "check cube.yaml --pilot=0 --json", "info kept", "schema", "schema --markdown", "schema --study",
+       {"run cube.yaml", "run cube.yaml --json --quiet", "check cube.yaml --coarse-run=0",
+        "check cube.yaml --coarse-run=0 --json", "info kept", "schema", "schema --markdown", "schema --study",
         "--help", "--version", "run --help", "study --help", "study cube.study.yaml --quiet"})
     for (const char* output : {"> /dev/full", ">&-"}) {
       EXPECT_EQ(shell(std::string("\"$brio\" ") + arguments + " " + output + " 2> faults.txt"), 4)
@@ -172,7 +172,7 @@ TEST_F(Refused, MemoryThatIsNotThereBeforeItIsTaken) {
 
 TEST_F(Refused, ThreadsThatTheSystemDoesNotGive) {
   write("cube.yaml", cube_deck);
-  for (const char* command : {"run", "check --pilot=0"}) {
+  for (const char* command : {"run", "check --coarse-run=0"}) {
     const Ending ending = brio(std::string(command) + " cube.yaml --threads 1000", "ulimit -v 2000000; ");
     EXPECT_EQ(ending.exit_code, 4);
     EXPECT_NE(ending.faults.find("cannot start 1000 threads"), std::string::npos) << ending.faults;

@@ -294,7 +294,7 @@ def full_streams(trial):
     """Standard output that cannot be written is exit code 4 of every command, an error stream is of no account."""
     trial.run()
     with open("/dev/full", "wb") as full:
-        for arguments in (["run", "bar.yaml", "--threads", "1", "--overwrite"], ["check", "bar.yaml", "--pilot=0"],
+        for arguments in (["run", "bar.yaml", "--threads", "1", "--overwrite"], ["check", "bar.yaml", "--coarse-run=0"],
                           ["info", "bar.results"], ["schema"], ["study", "bars.yaml"], ["--version"], ["--help"]):
             code, faults = trial.brio(*arguments, stdout=full)
             require(code == 4, f"{arguments} with full output: {code}: {faults}")

@@ -20,7 +20,7 @@ ExactCrossing judge_crossing(const std::array<Vector3d, 2>& segment,
   result.start = sgn(above);
   result.end = sgn(below);
   if (result.start * result.end >= 0) return result;
-  // The point times (above - below), which has the sign of the start.
+  // The point times (above - below), which has the sign at the start.
   const Integer scale = above - below;
   for (std::size_t k = 0; k < 3; ++k) {
     const IntegerVector edge = corner[(k + 1) % 3] - corner[k];

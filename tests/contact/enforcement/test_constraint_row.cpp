@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "contact/enforcement/booking.hpp"
+#include "contact/enforcement/impulse_work.hpp"
 #include "tests/contact/enforcement/row_scenes.hpp"
 
 namespace brio {
@@ -174,7 +174,7 @@ TEST_F(Rows, PiecesJoinInTheirOrder) {
 }
 
 // What motion gains is the work of rows and of supports together; walls' reactions are what blocks lack.
-TEST_F(Rows, BooksBalance) {
+TEST_F(Rows, EnergyAndMomentumBalance) {
   RowScene scene;
   scene.blocks = {moving(2, {0.3, 0.1, -1}), moving(0.5, {0, 0.4, 1}), moving(1, {0, 0, 0})};
   scene.blocks[1].inverse_mass.xx = 0;
@@ -192,7 +192,7 @@ TEST_F(Rows, BooksBalance) {
   scene.blocks[2].velocity = {0.1, 0, 0};
   solve(scene, to_the_end());
   PushOnWall reaction[1];
-  const RowWork work = book(scene.rows, before, scene.blocks, places, reaction);
+  const RowWork work = account_work(scene.rows, before, scene.blocks, places, reaction);
   const auto change = [&](std::size_t b, double mass) {
     return 0.5 * mass * (dot(scene.blocks[b].velocity, scene.blocks[b].velocity) - dot(before[b], before[b]));
   };

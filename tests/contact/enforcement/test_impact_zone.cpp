@@ -131,7 +131,7 @@ TEST_P(Zone, KeepsMomentumWhereSupportsContradict) {
 }
 
 // The diagonals of two cells are driven through each other along z and slide freely.
-TEST(ImpactZone, BooksWhatSupportsTake) {
+TEST(ImpactZone, AccountsForWhatSupportsTake) {
   ThreadTeam team(1);
   test::SpringModel model;
   model.stiffness = 0;

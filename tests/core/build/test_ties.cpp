@@ -352,7 +352,7 @@ TEST(TiesSlow, StiffenedPanelSwingsAsOneBeam) {
   EXPECT_GT(swinging(16, 48), 1.03);
 }
 
-// ---- books
+// ---- energy and momentum balance
 
 TEST(Ties, PartsShareNothingButWhatTheyWeigh) {
   Deck deck = two_boxes({2, 2, 2}, {3, 3, 3});

@@ -62,7 +62,7 @@ TEST(TiesAtWalls, HeldNodesReboundWithWhatHoldsThem) {
     }
 }
 
-TEST(TiesAtWalls, SupportsOfTheCornersAreBooked) {
+TEST(TiesAtWalls, SupportsOfTheCornersAreAccountedFor) {
   Deck deck = falling(0.02, 0.3);
   deck.boundary_conditions.insert(deck.boundary_conditions.begin(), fix("coarse.zmin", {0}));
   deck.time.step_scale = 0.45;
@@ -119,7 +119,7 @@ double total_mass(const Model& model) {
   return sum;
 }
 
-TEST(TiesThatEnd, AreReleasedWithTheirBooksInOrder) {
+TEST(TiesThatEnd, AreReleasedWithEnergyAndMomentumBalanced) {
   for (const char* part : {"coarse", "fine"})
     for (const FreeNodes free_nodes : {FreeNodes::keep, FreeNodes::drop})
       for (const bool contact : {false, true}) {

@@ -170,7 +170,7 @@ TEST(TiesInContact, WhatHoldsMayStayOutsideOfContact) {
   EXPECT_LT(model.energy.error_max, 2e-3);
 }
 
-TEST(TiesInContact, SupportsUnderHeldNodesAreBooked) {
+TEST(TiesInContact, SupportsUnderTiedNodesAreAccountedFor) {
   Deck deck = covered_block(0.02);
   deck.boundary_conditions = {fix("coarse.zmax", {0, 1, 2})};
   deck.parts.push_back(box("ball", {0.3, 0.3, 0.3}, {2, 2, 2}, {0, 0, 0.18}, hex8()));

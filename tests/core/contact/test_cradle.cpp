@@ -34,7 +34,7 @@ struct CradleRun {
   double momentum = 0;          ///< error, over that of the first bar
   double angular = 0;           ///< the same, over momentum and length of the row
   double added = 0;             ///< most that contact has added, over the energy
-  double energy = 0;            ///< largest error of the books
+  double energy = 0;            ///< largest relative energy error
 };
 
 CradleRun swing(const Deck& deck) {

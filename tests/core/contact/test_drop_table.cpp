@@ -1,5 +1,5 @@
-// Each kind of body dropped, tilted, on each kind: none passes, momentum is kept, books balance. The rows
-// that are printed are the table of docs/contact.md.
+// Each kind of body dropped, tilted, on each kind: no penetration, momentum is conserved, energy balances.
+// The rows that are printed are the table of docs/contact.md.
 
 #include <gtest/gtest.h>
 

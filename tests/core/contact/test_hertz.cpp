@@ -33,10 +33,10 @@ Hertz hertz(double mass, double curvature_radius, double modulus) {
 
 struct Blow {
   double force = 0, duration = 0;
-  double restitution = 0;  ///< relative velocity after over that before
-  double momentum = 0;     ///< error along the line of impact, over that of the first ball
-  double added = 0;        ///< most that contact has added, over the energy
-  double books = 0;        ///< largest error of the energy
+  double restitution = 0;   ///< relative velocity after over that before
+  double momentum = 0;      ///< error along the line of impact, over that of the first ball
+  double added = 0;         ///< most that contact has added, over the energy
+  double energy_error = 0;  ///< largest relative error of the energy balance
 };
 
 void add_ball(Deck& deck, std::vector<Mesh>& meshes, std::string name, Mesh mesh, double velocity,
@@ -89,7 +89,7 @@ Blow strike(const Deck& deck, const std::vector<Mesh>& meshes) {
                     first;
   }
   blow.added = model.energy.contact_added_max / model.energy.kinetic_start;
-  blow.books = model.energy.error_max;
+  blow.energy_error = model.energy.error_max;
   return blow;
 }
 
@@ -142,7 +142,8 @@ void report(const char* name, int across, const Blow& blow, const Hertz& exact) 
       "%s, %d elements across: force %.1f N (%+.1f %%), duration %.2f us (%+.1f %%), restitution %.4f, added "
       "%.0e, energy %.0e, momentum %.0e\n",
       name, across, blow.force, 100 * (blow.force / exact.force - 1), 1e6 * blow.duration,
-      100 * (blow.duration / exact.duration - 1), blow.restitution, blow.added, blow.books, blow.momentum);
+      100 * (blow.duration / exact.duration - 1), blow.restitution, blow.added, blow.energy_error,
+      blow.momentum);
 }
 
 void expect_hertz(const Blow& blow, const Hertz& exact, double tolerance) {
@@ -151,7 +152,7 @@ void expect_hertz(const Blow& blow, const Hertz& exact, double tolerance) {
   EXPECT_GT(blow.restitution, 0.99);
   EXPECT_LE(blow.restitution, 1.0);
   EXPECT_LE(blow.added, 1e-5);
-  EXPECT_LE(blow.books, 1e-3);
+  EXPECT_LE(blow.energy_error, 1e-3);
   EXPECT_LE(std::abs(blow.momentum), 1e-12);
 }
 

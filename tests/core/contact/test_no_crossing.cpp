@@ -1,4 +1,4 @@
-// Contact by distances: what starts apart never crosses, whatever the speed, and keeps its books.
+// Contact by distances: what starts apart never crosses, whatever the speed, and energy balances.
 
 #include <gtest/gtest.h>
 

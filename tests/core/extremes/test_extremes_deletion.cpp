@@ -111,7 +111,7 @@ TEST(ExtremesDeletion, TwoNeighboursInOneStepLayBareWhatWasBetweenThem) {
 }
 
 // The strain of one step is a thousand times that at which damage is one.
-TEST(ExtremesDeletion, DamageThatJumpsPastOneInAStepDeletesAndBooks) {
+TEST(ExtremesDeletion, DamageThatJumpsPastOneInAStepDeletesAndBalances) {
   const FloatingPointTraps traps;
   for (const Kind kind : {Kind::hex8, Kind::hex8_full, Kind::shell, Kind::beam, Kind::particles}) {
     SCOPED_TRACE(name_of_kind(kind));
@@ -138,7 +138,7 @@ TEST(ExtremesDeletion, DamageThatJumpsPastOneInAStepDeletesAndBooks) {
 // ---- particles
 
 // They have no direction to push each other in, and go on together.
-TEST(ExtremesParticles, TwoOfOnePartInOnePlaceRunAndKeepTheBooks) {
+TEST(ExtremesParticles, TwoOfOnePartInOnePlaceRunAndBalanceEnergy) {
   const FloatingPointTraps traps;
   for (const ParticleFrame kernel : {ParticleFrame::total_lagrangian, ParticleFrame::eulerian}) {
     Part part = body(Kind::particles, "body");

@@ -14,7 +14,7 @@ using namespace test;
 
 // ---- shapes and moduli
 
-/// Viscous forces of a jump in velocity are booked to first order in the step only.
+/// Viscous forces of a jump in velocity are integrated to first order in the time step only.
 void make_inviscid(Part& part) {
   std::visit(
       [](auto& element) {
@@ -241,7 +241,7 @@ TEST(ExtremesBrokenInTheRun, StopsNamingTheElementOrDeletesItAndGoesOn) {
 
 // ---- warped shells
 
-TEST(ExtremesShape, StronglyWarpedShellsRunAndKeepTheirBooks) {
+TEST(ExtremesShape, StronglyWarpedShellsRunAndBalanceEnergy) {
   const FloatingPointTraps traps;
   for (const bool projection : {false, true}) {
     SCOPED_TRACE(projection);
@@ -252,8 +252,8 @@ TEST(ExtremesShape, StronglyWarpedShellsRunAndKeepTheirBooks) {
     make_inviscid(part);
     deck.parts = {part};
     deck.time.end = 0.05;
-    deck.time.step_scale =
-        0.3;  // of a row that is thrown alone the first steps are booked to some hundredths else
+    deck.time.step_scale = 0.3;  // of a row that is thrown alone the energy error of the first steps is some
+                                 // hundredths otherwise
     Mesh mesh = mesh_of(Kind::shell);
     // Every second node is an edge's length above its neighbours: the corners of a cube.
     for (Triple& x : mesh.position) x[2] = (std::lround((x[0] + x[1]) / 0.1) % 2 == 0 ? 0.5 : -0.5) * 0.1;

@@ -120,8 +120,8 @@ TEST_P(ExtremesStep, JustAboveTheCriticalOneMotionGrowsAMillionfold) {
 }
 
 // A beam that is stretched by a hundredth swings slower by that: at 1.01 of its critical step its motion
-// grows so far and no further, and the books stay right. From 1.06 on every kind ends.
-TEST_P(ExtremesStep, AboveTheCriticalOneTheBooksStopTheRun) {
+// grows so far and no further, and energy balances. From 1.06 on every kind ends.
+TEST_P(ExtremesStep, AboveTheCriticalOneTheEnergyBalanceStopsTheRun) {
   const FloatingPointTraps traps;
   const bool grows_without_end = GetParam() == Kind::hex8 || GetParam() == Kind::hex8_full;
   const Unstable result = run_above(GetParam(), grows_without_end ? 1.01 : 1.06);

@@ -25,9 +25,10 @@ void expect_same_bits(const Watched& reference, const Watched& other, const Unit
       }
     }
   const auto energies = [](const Model& model) {
-    const EnergyBook& book = model.energy;
-    return std::array{book.kinetic, book.internal,           book.hourglass,         book.viscous,
-                      book.deleted, book.external.at_step(), book.contact.at_step(), book.friction.at_step()};
+    const EnergyBalance& energy = model.energy;
+    return std::array{energy.kinetic,           energy.internal,          energy.hourglass,
+                      energy.viscous,           energy.deleted,           energy.external.at_step(),
+                      energy.contact.at_step(), energy.friction.at_step()};
   };
   auto expected = energies(reference.model);
   for (double& energy : expected) energy *= u.energy();

@@ -39,7 +39,7 @@ Vector3d angular_momentum_of(const Model& model) {
   return Vector3d(sum.total.angular.data());
 }
 
-// How far the distances between the nodes of a body and its centre are from those of the start, over the
+// How far the distances between the nodes of a body and its centre are from the initial ones, over the
 // size.
 double distortion(const RigidBody& body, const Nodes& nodes) {
   double worst = 0, size = 0;
@@ -102,7 +102,7 @@ TEST(RigidBody, FliesAndTurnsFreely) {
   double worst = 0;
   run(model, deck, team, [&](Model& m) {
     worst = std::max(worst, std::abs(m.energy.relative_error()));
-    // Angular momentum grows by the moment of the weight, which is booked as an impulse.
+    // Angular momentum grows by the moment of the weight, which is counted as an impulse of loads.
     const Vector3d expected = start + Vector3d(m.momentum.loads.angular.data());
     EXPECT_LE((angular_momentum_of(m) - expected).norm(), 1e-12 * start.norm());
   });
@@ -245,7 +245,7 @@ PrescribedMotion prescribe_component(std::string part, MotionKind kind, int axis
   return motion;
 }
 
-TEST(PrescribedRigidBody, FollowsItsCurvesAndBooksWhatSupportsDo) {
+TEST(PrescribedRigidBody, FollowsItsCurvesAndAccountsForSupports) {
   Deck deck = lone_box(1, 1e-3);
   deck.boundary_conditions = {
       fix("box", {0, 1, 3, 4}),

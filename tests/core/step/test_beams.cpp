@@ -126,7 +126,7 @@ TEST(Beams, BitsDoNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(Beams, BooksBalance) {
+TEST(Beams, EnergyAndMomentumBalance) {
   const Deck deck = many_beams();
   Model model = build_model(deck);
   ThreadTeam team(1);
@@ -211,7 +211,7 @@ TEST(Beams, AreHitUnlessTheDeckExcludesThem) {
   for (int n = 0; n <= 8; ++n) EXPECT_EQ(node_of(model, n).velocity[0], 0) << n;
 }
 
-TEST(Beams, BooksBalanceWhereTheyFold) {
+TEST(Beams, EnergyAndMomentumBalanceWhereTheyFold) {
   const ElasticPlastic law{
       .density = 7850, .youngs_modulus = 200e9, .poissons_ratio = 0.3, .yield_stress = 300e6};
   Deck deck = one_line(line("beam", {0, 0, 0}, {1, 0, 0}, 16, square_beam(0.05, 0.06)), 0.02, law);
@@ -242,7 +242,8 @@ TEST(Beams, TornOneIsDeletedAndItsHalvesFlyOn) {
   apart.where.region = BoxRegion{{0.44, -1, -1}, {2, 1, 1}};
   apart.velocity = {100, 0, 0};
   deck.initial_conditions = {apart};
-  deck.time.step_scale = 0.3;  // the jump strains an element by percents a step, which the books feel
+  deck.time.step_scale =
+      0.3;  // the jump strains an element by percents a step, which is seen in the energy error
   Model model = build_model(deck);
   ThreadTeam team(1);
   run(model, deck, team);

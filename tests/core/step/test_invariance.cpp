@@ -163,10 +163,10 @@ TEST(Invariance, TwoHundredTurnsOfAFreeCubeKeepEnergyAndAngularMomentum) {
 // A cube that turns and vibrates in every uniform strain at about 1/s and in every hourglass mode, 170 times
 // a turn; 1 % of the energy vibrates. A step in time with the vibrations would feed them, hourglass forces
 // that lag behind the turning as well.
-void expect_no_gain_of_energy(ObjectiveRate rate, double turns, double step_scale, double book_error) {
+void expect_no_gain_of_energy(ObjectiveRate rate, double turns, double step_scale, double largest_error) {
   TurningCube cube(10, turns, rate);
   cube.deck.time.step_scale = step_scale;
-  cube.deck.numerics.energy_error_limit = 1e9;  // the motion is set after the books were opened
+  cube.deck.numerics.energy_error_limit = 1e9;  // the motion is set after the balance was started
   Model model = build_model(cube.deck);
   const double gradient[3][3] = {{1, 0.3, -0.2}, {0.3, -0.6, 0.4}, {-0.2, 0.4, 0.2}};
   for (NodeRecord& node : model.nodes.record) {
@@ -176,16 +176,16 @@ void expect_no_gain_of_energy(ObjectiveRate rate, double turns, double step_scal
                           0.4 * (x[0] * x[1] - x[1] * x[2] + 2 * x[0] * x[1] * x[2]);
   }
   ThreadTeam team(1);
-  double start = 0, largest = 0, worst_book = 0;
+  double start = 0, largest = 0, worst_error = 0;
   run(model, cube.deck, team, [&](Model& m) {
-    const EnergyBook& energy = m.energy;
+    const EnergyBalance& energy = m.energy;
     if (m.step == 0) start = energy.kinetic;
     largest = std::max(largest, energy.kinetic);
     const double sum = energy.kinetic + energy.internal + energy.hourglass + energy.viscous;
-    worst_book = std::max(worst_book, std::abs(sum - start));
+    worst_error = std::max(worst_error, std::abs(sum - start));
   });
   EXPECT_LE(largest, 1.001 * start);
-  EXPECT_LE(worst_book, book_error * start);
+  EXPECT_LE(worst_error, largest_error * start);
 }
 
 TEST(Invariance, TurningAndVibratingCubeGainsNoEnergy) {

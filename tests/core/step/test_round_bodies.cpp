@@ -71,7 +71,7 @@ TEST(Ring, BreathesAtTheSpeedOfARodOverItsRadius) {
   shell.thickness = 0.001;
   deck.parts = {{"ring", CylinderMesh{radius, 0.008, {64, 1}}, {}, shell, "steel"}};
   const double frequency = std::sqrt(207e9 / 7800) / radius;
-  deck.numerics.energy_error_limit = 1e9;  // the motion is set after the books were opened
+  deck.numerics.energy_error_limit = 1e9;  // the motion is set after the balance was started
   constexpr int half_periods = 20;
   deck.time.end = (half_periods + 0.9) * 3.141592653589793 / frequency;
   Model model = build_model(deck);

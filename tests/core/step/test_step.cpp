@@ -1,4 +1,4 @@
-// The step as a whole: waves, walls, books, and what must not depend on threads or frames.
+// The step as a whole: waves, walls, energy balance, and what must not depend on threads or frames.
 
 #include <gtest/gtest.h>
 
@@ -88,8 +88,8 @@ TEST(Step, BarOnRigidWallCarriesTheWaveStressAndLeavesAfterTwoTransits) {
   }
 }
 
-// A lumped mass that meets a wall stops at once: that energy is lost, booked as contact, and halves with the
-// element.
+// A lumped mass that meets a wall stops at once: that energy is dissipated, counted as contact, and halves
+// with the element.
 TEST(Step, LossOfALumpedImpactHalvesWithTheElementSize) {
   const BarImpact coarse = impact_on_wall(20, 1, inviscid_hex8());
   const BarImpact fine = impact_on_wall(40, 1, inviscid_hex8());
@@ -144,8 +144,8 @@ TEST(Step, FreeCubeIsStableWhereNineTenthsOfEdgeOverSpeedIsNot) {
   EXPECT_NEAR(largest, start / (1 - 0.81), 0.01 * start);
 }
 
-// A distorted, spinning block under gravity on three supports with a pressure on top: everything that is
-// booked.
+// A distorted, spinning block under gravity on three supports with a pressure on top: every term
+// of the energy balance.
 Deck busy_deck() {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
@@ -164,7 +164,7 @@ Deck busy_deck() {
   return deck;
 }
 
-TEST(Step, BooksBalance) {
+TEST(Step, EnergyAndMomentumBalance) {
   const Deck deck = busy_deck();
   Model model = build_model(deck);
   ThreadTeam team(1);

@@ -65,8 +65,8 @@ inline Deck spinning_block(const Material& material, const Particle& element, do
   return deck;
 }
 
-/// Runs to the end. \returns the largest energy error after the first step: at the start itself the books
-/// hold half of what viscous forces, which are there from the start, will do in it.
+/// Runs to the end. \returns the largest energy error after the first step: at the start itself the balance
+/// holds half of the work that viscous forces, which act from the start on, do in the first step.
 inline double largest_energy_error(Model& model, const Deck& deck, ThreadTeam& team) {
   double largest = 0;
   run(model, deck, team, [&](Model& m) {

@@ -1,4 +1,4 @@
-// Deletion of elements: in which order, what the books say, and what flies on.
+// Deletion of elements: their order, energy balance, and free nodes.
 
 #include "src/sweep/erosion.hpp"
 
@@ -171,7 +171,7 @@ TEST(Erosion, MassMomentumAndEnergyOfATornBlockAreKept) {
   }
 }
 
-// What nobody else touches moves in straight lines whether it is booked as debris or as gone.
+// What nobody else touches moves in straight lines whether it is counted as debris or as deleted.
 TEST(Erosion, DroppedNodesDoNotChangeTheRest) {
   const Deck keeps = torn_block(FreeNodes::keep), drops = torn_block(FreeNodes::drop);
   Model kept = build_model(keeps), dropped = build_model(drops);

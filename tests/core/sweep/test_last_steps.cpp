@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(EachKind, LastSteps, testing::ValuesIn(deformable_kinds
 // ---- the size alone
 
 /// Steps to the end under a bound of each time. \return their sizes
-std::vector<double> march(StepControl control, const std::function<double(double)>& bound) {
+std::vector<double> step_sizes(StepControl control, const std::function<double(double)>& bound) {
   std::vector<double> sizes;
   double time = 0;
   while (control.settings.end - time > 1e-12 * control.settings.end && sizes.size() < 100000) {
@@ -102,7 +102,7 @@ TEST(WholeStep, UnderAConstantBoundIsOneAndTheSame) {
   for (const double end : {1.0, 0.999999, 1.0000001, 3.7, 41.3, 500.0}) {
     StepControl control;
     control.settings.end = end;
-    const std::vector<double> sizes = march(control, [](double) { return 0.1; });
+    const std::vector<double> sizes = step_sizes(control, [](double) { return 0.1; });
     EXPECT_EQ(static_cast<double>(sizes.size()), std::ceil(end / 0.1 * (1 - 1e-9))) << end;
     for (const double size : sizes) {
       EXPECT_LE(size, 0.1 * (1 + 1e-8));
@@ -123,7 +123,7 @@ TEST(WholeStep, UnderABoundThatFallsGoesDownGently) {
   StepControl control;
   control.settings.end = 1;
   const auto bound = [](double time) { return 1e-3 * (1 - 0.3 * time); };
-  const std::vector<double> sizes = march(control, bound);
+  const std::vector<double> sizes = step_sizes(control, bound);
   double time = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     EXPECT_LE(sizes[i], 1.011 * bound(time));
@@ -138,7 +138,7 @@ TEST(WholeStep, UnderABoundThatFallsGoesDownGently) {
 TEST(WholeStep, NearTheEndDoesNotFollowSmallChanges) {
   StepControl control;
   control.settings.end = 1;
-  const std::vector<double> sizes = march(control, [](double time) { return 0.1 * (1 - 1e-3 * time); });
+  const std::vector<double> sizes = step_sizes(control, [](double time) { return 0.1 * (1 - 1e-3 * time); });
   EXPECT_EQ(sizes.size(), 10U);
   for (const double size : sizes) EXPECT_NEAR(size, 0.1, 1e-12);
 }
@@ -149,7 +149,7 @@ TEST(WholeStep, NeverExceedsABoundWithoutAMargin) {
   control.settings.end = 1;
   control.settings.step_scale = 1;
   const auto bound = [](double time) { return 0.1 * (1 - 0.05 * time); };
-  const std::vector<double> sizes = march(control, bound);
+  const std::vector<double> sizes = step_sizes(control, bound);
   double time = 0;
   for (const double size : sizes) {
     EXPECT_LE(size, bound(time) * (1 + 1e-8));

@@ -1,4 +1,4 @@
-// Mass that small elements get: the step that it buys, and what it does to the books.
+// Mass that small elements get: the time step gained, and the energy balance.
 
 #include <gtest/gtest.h>
 
@@ -135,7 +135,7 @@ TEST(MassScaling, StepIsStableForEveryElementThatTurns) {
     deck.time.mass_scaling = MassScaling{4 * stable, 1};
     Model model = build_model(deck);
     ThreadTeam team(1);
-    double half_way = 0, late = 0;  // the last two steps are shorter, which shows in the books
+    double half_way = 0, late = 0;  // the last two steps are shorter, which shows in the energy error
     run(model, deck, team, [&](Model& m) {
       if (m.times.time < 0.5 * deck.time.end) half_way = m.energy.relative_error();
       if (m.times.time < 0.95 * deck.time.end) late = m.energy.relative_error();

@@ -88,7 +88,7 @@ TEST(ParticleRingsSlow, ReboundWithoutNumericalFracture) {
 
 // A lump that flows as water does: its halves meet at a tenth of its speed of sound and spread to a sheet,
 // which breaks into threads.
-TEST(ParticleSplashSlow, KeepsItsBooksAndItsStep) {
+TEST(ParticleSplashSlow, BalancesEnergyAndKeepsItsTimeStep) {
   ElasticPlastic water;
   water.density = 1000;
   water.youngs_modulus = 66e6;

@@ -50,7 +50,8 @@ double energy_error_of_throw(const Material& material, const Particle& particle,
   return error;
 }
 
-// The trapezoid rule of the books is of second order in the step. A third of the body is thrown.
+// The trapezoidal rule of the energy balance is of second order in the time step. A third of the body is
+// thrown.
 TEST_P(Particles, EnergyErrorIsSmallAndFallsWithTheSquareOfTheStep) {
   for (const auto& [material, particle, speed] :
        {std::tuple{Material(elastic(0.3)), inviscid(element()), 5.0},
@@ -242,7 +243,7 @@ TEST_P(Particles, StableStepIsStableAndNotMuchBelowTheLimit) {
   EXPECT_GT(largest_kinetic_energy(1.05), 1e6);
 }
 
-TEST_P(Particles, RigidWallSupportAndLoadsBalanceInTheBooks) {
+TEST_P(Particles, RigidWallSupportAndLoadsBalanceEnergyAndMomentum) {
   Deck deck = spinning_block(yielding(), element(), 0);
   deck.initial_conditions = {moving("block", {0, 0, -20})};
   RigidWall wall;
@@ -301,8 +302,8 @@ TEST_P(Particles, MassIsThatOfTheShape) {
   }
 }
 
-// A bar whose halves fly apart tears by deletion; mass, momentum and energy stay in the books.
-TEST_P(Particles, TornBarKeepsItsBooks) {
+// A bar whose halves fly apart is separated by deletion; mass, momentum and energy balance.
+TEST_P(Particles, TornBarBalancesMassMomentumAndEnergy) {
   ElasticPlastic law = yielding();
   law.failure = Failure{};
   law.failure->strain = 0.1;

@@ -157,7 +157,7 @@ TEST(Shell4, ForcesAndMomentsBalanceAndTheirPowerIsTheWork) {
   }
 }
 
-/// Work of the nodal forces by the trapezoidal rule along a smooth path, less what the element has booked.
+/// Work of the nodal forces by the trapezoidal rule along a smooth path, less the energy of the element.
 double energy_gap(int steps, bool warping_projection, double hourglass_stiffness, double bending) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> u(-1, 1);
@@ -182,7 +182,7 @@ double energy_gap(int steps, bool warping_projection, double hourglass_stiffness
     return x;
   };
   double work = 0;
-  double booked = 0;
+  double accounted = 0;
   Points4 before = x0;
   std::array<Vector3d, 4> old_force = SingleShell<>::none();
   std::array<Vector3d, 4> old_moment = SingleShell<>::none();
@@ -197,13 +197,13 @@ double energy_gap(int steps, bool warping_projection, double hourglass_stiffness
       old_force[i] = element.force(n);
       old_moment[i] = element.moment(n);
     }
-    booked += element.increment.internal_energy + element.increment.hourglass_energy;
+    accounted += element.increment.internal_energy + element.increment.hourglass_energy;
     before = x;
   }
-  return std::abs(work - booked) / booked;
+  return std::abs(work - accounted) / accounted;
 }
 
-TEST(Shell4, BookedWorkMeetsTheNodesWorkToSecondOrderInTheStep) {
+TEST(Shell4, ElementEnergyEqualsNodalWorkToSecondOrderInTheStep) {
   for (bool warping : {false, true}) {
     const double coarse = energy_gap(50, warping, 0, 0);
     const double fine = energy_gap(100, warping, 0, 0);
@@ -232,7 +232,7 @@ TEST(Shell4, EveryModeButRigidOnesAndDrillingIsResisted) {
   EXPECT_EQ(rank, 24 - 6 - 3 - 1) << svd.singularValues().transpose();
 }
 
-TEST(Shell4, ResistanceToDrillingYieldsAndBooksItsWork) {
+TEST(Shell4, ResistanceToDrillingYieldsAndAccountsForItsWork) {
   Shell4 shell = plate(0.1);
   shell.linear_bulk_viscosity = 0;
   shell.drilling_viscosity = 0;
@@ -241,7 +241,7 @@ TEST(Shell4, ResistanceToDrillingYieldsAndBooksItsWork) {
   Points4 spin = SingleShell<>::none();
   for (Vector3d& w : spin) w = Vector3d(0, 0, 1);
   const double step = 1e-3;
-  double work = 0, booked = 0, before = 0;
+  double work = 0, accounted = 0, before = 0;
   std::vector<double> moment;
   const auto turn = [&](int steps) {
     for (int k = 0; k < steps; ++k) {
@@ -249,7 +249,7 @@ TEST(Shell4, ResistanceToDrillingYieldsAndBooksItsWork) {
       double sum = 0;
       for (int n = 0; n < 4; ++n) sum += element.moment(n).z();
       work += 0.5 * step * (before + sum) * spin[0].z();
-      booked += element.increment.hourglass_energy;
+      accounted += element.increment.hourglass_energy;
       EXPECT_LT(std::abs(element.force(0).norm() + element.force(2).norm()), 2 * std::abs(sum))
           << "the couple is held by the material's spin";
       moment.push_back(before = sum);
@@ -262,16 +262,16 @@ TEST(Shell4, ResistanceToDrillingYieldsAndBooksItsWork) {
   for (Vector3d& w : spin) w = -w;
   turn(5);
   EXPECT_NEAR(moment[24], 5 * moment[0], 1e-9 * moment[9]) << "back as stiff as before";
-  EXPECT_NEAR(work, booked, 1e-12 * booked);
+  EXPECT_NEAR(work, accounted, 1e-12 * accounted);
 }
 
-TEST(Shell4, DampingOfDrillingYieldsWithTheSpringAndBooksItsWork) {
+TEST(Shell4, DampingOfDrillingYieldsWithTheSpringAndAccountsForItsWork) {
   Shell4 shell = plate(0.1);
   const Points4 x = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1.2, 1, 0), Vector3d(0, 0.9, 0)};
   const double step = 1e-6;
   // Moment about the normal and work of a spin that swings, over steps that turn less than what yields, or
   // more.
-  const auto swing = [&](double viscosity, double spin, double& work, double& booked) {
+  const auto swing = [&](double viscosity, double spin, double& work, double& accounted) {
     shell.drilling_viscosity = viscosity;
     SingleShell<> element(shell, steel(), x);
     double most = 0, before = 0;
@@ -282,19 +282,19 @@ TEST(Shell4, DampingOfDrillingYieldsWithTheSpringAndBooksItsWork) {
       double sum = 0;
       for (int n = 0; n < 4; ++n) sum += element.moment(n).z();
       work += 0.5 * step * (before + sum) * w[0].z();
-      booked += element.increment.hourglass_energy + element.increment.viscous_energy;
-      EXPECT_GE(element.increment.viscous_energy, -1e-3 * std::abs(booked));
+      accounted += element.increment.hourglass_energy + element.increment.viscous_energy;
+      EXPECT_GE(element.increment.viscous_energy, -1e-3 * std::abs(accounted));
       most = std::max(most, std::abs(before = sum));
     }
     return most;
   };
-  double work = 0, booked = 0;
-  const double elastic = swing(0, 0.1, work, booked);
-  const double damped = swing(1, 0.1, work, booked);
+  double work = 0, accounted = 0;
+  const double elastic = swing(0, 0.1, work, accounted);
+  const double damped = swing(1, 0.1, work, accounted);
   EXPECT_GT(damped, 1.5 * elastic);
-  EXPECT_NEAR(swing(1, 0.2, work, booked), 2 * damped, 1e-9 * damped) << "linear";
-  EXPECT_NEAR(swing(1, 1e6, work, booked), swing(0, 1e6, work, booked), 1e-9 * damped) << "both yield";
-  EXPECT_NEAR(work, booked, 1e-12 * booked);
+  EXPECT_NEAR(swing(1, 0.2, work, accounted), 2 * damped, 1e-9 * damped) << "linear";
+  EXPECT_NEAR(swing(1, 1e6, work, accounted), swing(0, 1e6, work, accounted), 1e-9 * damped) << "both yield";
+  EXPECT_NEAR(work, accounted, 1e-12 * accounted);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ Shell4 sheet_element() {
   return shell;
 }
 
-TEST(Shell4Properties, MomentumStaysAndEnergyIsBooked) {
+TEST(Shell4Properties, MomentumIsConservedAndEnergyIsAccountedFor) {
   ShellModel model(warped_sheet(1), sheet_element(), soft_steel());
   set_crumpling_velocity(model, 1, 40);
   const auto momenta = [&] {

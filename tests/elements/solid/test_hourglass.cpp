@@ -118,7 +118,7 @@ TEST(Hourglass, BendingForcesEndAtThoseOfASectionThatYieldsAllOver) {
     work = brick.internal_energy + brick.hourglass_energy;
   }
   EXPECT_NEAR(largest, 0.01 / 8, 1e-3 * 0.01 / 8);
-  // The books: what the forces did, of which little is stored.
+  // Energy balance: work of the forces, of which little is stored.
   EXPECT_LT(brick.hourglass_energy, 0.2 * work);
   EXPECT_GT(brick.internal_energy, 0);
   EXPECT_NEAR(brick.internal_energy, brick.header.internal_energy, 1e-14);

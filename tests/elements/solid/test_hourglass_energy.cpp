@@ -38,12 +38,12 @@ struct Cycle {
 constexpr Cycle cycles[] = {
     {0.25, 0.75, 0, 0.5}, {0, 0.5, 0.25, 0.75}, {0, 0.75, 0.25, 0.5}, {0, 0.5, 0, 0.5}};
 
-/// Least and largest energies booked on the way, and what the forces have done.
-struct Books {
+/// Least and largest energies so far, and the work of the forces.
+struct EnergyAccount {
   double work = 0, hourglass = 0, all = 0;
   double least_hourglass = 0, largest = 0, largest_hourglass = 0;
   double stored = 0;
-  double largest_mismatch = 0;  ///< of the energy that is stored and that which is booked
+  double largest_mismatch = 0;  ///< between stored energy and the sum of increments
 
   void note(double hourglass_increment, double other_increment, double stored_now) {
     stored = stored_now;
@@ -58,7 +58,8 @@ struct Books {
 };
 
 template <ObjectiveRate rate, class Law>
-Books brick_books(const Law& law, const Cycle& cycle, double squeeze, double coefficient, int steps) {
+EnergyAccount brick_balance(const Law& law, const Cycle& cycle, double squeeze, double coefficient,
+                            int steps) {
   using Kernel = Hex8Kernel<rate>;
   Kernel kernel;
   kernel.hourglass_stiffness = coefficient;
@@ -73,9 +74,9 @@ Books brick_books(const Law& law, const Cycle& cycle, double squeeze, double coe
                      Eigen::Vector3d(0.2, 0.4, 0.3) * (s.x() * s.y() * s.z());
   }
   test::SingleElement<Kernel, Law> element(kernel, law, start);
-  Books books;
+  EnergyAccount account;
   Corners x = start, old_force = Corners::Zero();
-  double booked_hourglass = 0, booked_other = 0;
+  double accounted_hourglass = 0, accounted_other = 0;
   for (int i = 1; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
     const Eigen::DiagonalMatrix<double, 3> shape(1 - squeeze * cycle.squeeze(t), 1, 1);
@@ -83,16 +84,16 @@ Books brick_books(const Law& law, const Cycle& cycle, double squeeze, double coe
         Eigen::AngleAxisd(2 * pi * t, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
     const Corners next = turn * (shape * (start + 0.03 * cycle.hourglass(t) * pattern));
     element.move_to(next, 1.0 / steps);
-    books.work += 0.5 * ((element.force + old_force).array() * (next - x).array()).sum();
+    account.work += 0.5 * ((element.force + old_force).array() * (next - x).array()).sum();
     old_force = element.force;
     x = next;
     const double other = element.internal_energy + element.viscous_energy;
-    books.note(element.hourglass_energy - booked_hourglass, other - booked_other,
-               stored_energy(element.header.hourglass));
-    booked_hourglass = element.hourglass_energy;
-    booked_other = other;
+    account.note(element.hourglass_energy - accounted_hourglass, other - accounted_other,
+                 stored_energy(element.header.hourglass));
+    accounted_hourglass = element.hourglass_energy;
+    accounted_other = other;
   }
-  return books;
+  return account;
 }
 
 double stored_in(const Shell4::Header<double, Elastic>& header) {
@@ -104,7 +105,8 @@ double stored_in(const Shell4::Header<double, Elastic>& header) {
 }
 
 /// \param spin of all nodes about the normal, over their turning about the axes in the plane
-Books shell_books(const Cycle& cycle, double squeeze, double coefficient, int steps, double spin = 0.02) {
+EnergyAccount shell_balance(const Cycle& cycle, double squeeze, double coefficient, int steps,
+                            double spin = 0.02) {
   using Eigen::Vector3d;
   Shell4 shell;
   shell.thickness = 0.1;
@@ -121,7 +123,7 @@ Books shell_books(const Cycle& cycle, double squeeze, double coefficient, int st
     }
     return x;
   };
-  Books books;
+  EnergyAccount account;
   Points4 old_force = SingleShell<>::none(), old_moment = old_force, before = start;
   const double step = 1.0 / steps;
   for (int i = 1; i <= steps; ++i) {
@@ -136,34 +138,34 @@ Books shell_books(const Cycle& cycle, double squeeze, double coefficient, int st
     element.move(x, v, w, step);
     for (int n = 0; n < 4; ++n) {
       const auto k = static_cast<std::size_t>(n);
-      books.work += 0.5 * step * (old_force[k] + element.force(n)).dot(v[k]);
-      books.work += 0.5 * step * (old_moment[k] + element.moment(n)).dot(w[k]);
+      account.work += 0.5 * step * (old_force[k] + element.force(n)).dot(v[k]);
+      account.work += 0.5 * step * (old_moment[k] + element.moment(n)).dot(w[k]);
       old_force[k] = element.force(n);
       old_moment[k] = element.moment(n);
     }
-    books.note(element.increment.hourglass_energy,
-               element.increment.internal_energy + element.increment.viscous_energy,
-               stored_in(element.header));
+    account.note(element.increment.hourglass_energy,
+                 element.increment.internal_energy + element.increment.viscous_energy,
+                 stored_in(element.header));
     before = x;
   }
-  return books;
+  return account;
 }
 
 /// Squeezed to a fifth or stretched to four fifths more, and back.
-template <class BooksOf>
-void expect_nothing_supplied(const BooksOf& books_of, double gap) {
+template <class BalanceOf>
+void expect_nothing_supplied(const BalanceOf& balance_of, double gap) {
   for (const Cycle& cycle : cycles)
     for (const double squeeze : {0.8, -0.8}) {
       SCOPED_TRACE(testing::Message() << "squeezed from " << cycle.squeeze_from << " to "
                                       << cycle.squeeze_back << " by " << squeeze);
-      const Books books = books_of(cycle, squeeze, 2000);
-      EXPECT_GT(books.largest_hourglass, 0);
-      EXPECT_GE(books.least_hourglass, -1e-12 * books.largest);
-      EXPECT_LE(books.largest_mismatch, 1e-12 * books.largest);
-      // What the forces have done of themselves is in the books, and vanishes with the step.
-      EXPECT_LT(books.gap(), gap);
+      const EnergyAccount account = balance_of(cycle, squeeze, 2000);
+      EXPECT_GT(account.largest_hourglass, 0);
+      EXPECT_GE(account.least_hourglass, -1e-12 * account.largest);
+      EXPECT_LE(account.largest_mismatch, 1e-12 * account.largest);
+      // The work of the forces over a cycle is in the energy account; the difference vanishes with the step.
+      EXPECT_LT(account.gap(), gap);
       // Of first order at last; terms of third order may have made the longer steps look better.
-      EXPECT_LT(books_of(cycle, squeeze, 8000).gap(), 0.5 * books.gap() + 1e-9);
+      EXPECT_LT(balance_of(cycle, squeeze, 8000).gap(), 0.5 * account.gap() + 1e-9);
     }
 }
 
@@ -171,12 +173,12 @@ TEST(HourglassEnergy, OfElasticBricksIsWhatTheirForcesHaveDone) {
   for (const double coefficient : {0.01, 0.1}) {
     expect_nothing_supplied(
         [&](const Cycle& cycle, double squeeze, int steps) {
-          return brick_books<ObjectiveRate::green_naghdi>(elastic_law, cycle, squeeze, coefficient, steps);
+          return brick_balance<ObjectiveRate::green_naghdi>(elastic_law, cycle, squeeze, coefficient, steps);
         },
         1e-3);
     expect_nothing_supplied(
         [&](const Cycle& cycle, double squeeze, int steps) {
-          return brick_books<ObjectiveRate::jaumann>(elastic_law, cycle, squeeze, coefficient, steps);
+          return brick_balance<ObjectiveRate::jaumann>(elastic_law, cycle, squeeze, coefficient, steps);
         },
         1e-3);
   }
@@ -185,7 +187,7 @@ TEST(HourglassEnergy, OfElasticBricksIsWhatTheirForcesHaveDone) {
 TEST(HourglassEnergy, OfBricksThatFlowIsWhatTheirForcesHaveDone) {
   expect_nothing_supplied(
       [&](const Cycle& cycle, double squeeze, int steps) {
-        return brick_books<ObjectiveRate::green_naghdi>(plastic_law, cycle, squeeze, 0.05, steps);
+        return brick_balance<ObjectiveRate::green_naghdi>(plastic_law, cycle, squeeze, 0.05, steps);
       },
       1e-3);
 }
@@ -193,18 +195,18 @@ TEST(HourglassEnergy, OfBricksThatFlowIsWhatTheirForcesHaveDone) {
 TEST(HourglassEnergy, OfShellsIsWhatTheirForcesHaveDone) {
   for (const double coefficient : {0.01, 0.1})
     expect_nothing_supplied([&](const Cycle& cycle, double squeeze,
-                                int steps) { return shell_books(cycle, squeeze, coefficient, steps); },
+                                int steps) { return shell_balance(cycle, squeeze, coefficient, steps); },
                             1e-3);
 }
 
-// Resistance to drilling yields at 0.01 rad: what is booked then is more than what is stored.
+// Resistance to drilling yields at 0.01 rad: the sum of increments then exceeds the stored energy.
 TEST(HourglassEnergy, OfShellsThatDrillIsDissipatedBeyondTheLimit) {
   for (const Cycle& cycle : cycles)
     for (const double squeeze : {0.8, -0.8}) {
-      const Books books = shell_books(cycle, squeeze, 0.01, 8000, 2);
-      EXPECT_GE(books.least_hourglass, 0);
-      EXPECT_GT(books.hourglass, books.stored + 1e-9 * books.largest);
-      EXPECT_LT(books.gap(), 1e-3);
+      const EnergyAccount account = shell_balance(cycle, squeeze, 0.01, 8000, 2);
+      EXPECT_GE(account.least_hourglass, 0);
+      EXPECT_GT(account.hourglass, account.stored + 1e-9 * account.largest);
+      EXPECT_LT(account.gap(), 1e-3);
     }
 }
 

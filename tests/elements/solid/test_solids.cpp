@@ -166,13 +166,13 @@ TYPED_TEST(Solids, UnitsScaledByPowersOfTwoGiveTheSameBits) {
   EXPECT_EQ(other.increment.stable_step, one.increment.stable_step * time);
 }
 
-/// A smooth large motion in n steps: booked energy less the work of the forces, over the largest energy on
-/// the way.
+/// A smooth large motion in n steps: energy of the element less the work of the forces, over the largest
+/// energy on the way.
 template <class Kernel>
 double energy_gap(const Corners& start, const Corners& amplitude, int steps) {
   SingleElement<Kernel, Elastic> element({}, elastic_steel, start);
   Corners x = start, old_force = Corners::Zero();
-  double work = 0, booked = 0, largest = 0;
+  double work = 0, accounted = 0, largest = 0;
   const double step = 1.0 / steps;
   for (int i = 1; i <= steps; ++i) {
     const double t = std::numbers::pi * i * step;
@@ -183,13 +183,13 @@ double energy_gap(const Corners& start, const Corners& amplitude, int steps) {
     work += 0.5 * ((element.force + old_force).array() * (next - x).array()).sum();
     old_force = element.force;
     x = next;
-    booked = element.internal_energy + element.hourglass_energy + element.viscous_energy;
-    largest = std::max(largest, booked);
+    accounted = element.internal_energy + element.hourglass_energy + element.viscous_energy;
+    largest = std::max(largest, accounted);
   }
-  return std::abs(booked - work) / largest;
+  return std::abs(accounted - work) / largest;
 }
 
-TYPED_TEST(Solids, BookedEnergyIsTheWorkOfTheForcesToSecondOrder) {
+TYPED_TEST(Solids, ElementEnergyIsTheWorkOfTheForcesToSecondOrder) {
   Noise noise(63);
   const Corners start = test::distorted(noise, 0.2);
   const Corners affine = 0.3 * noise.matrix<Eigen::Matrix3d>() * start;
@@ -200,7 +200,7 @@ TYPED_TEST(Solids, BookedEnergyIsTheWorkOfTheForcesToSecondOrder) {
   EXPECT_LT(fine, coarse / 12);
 }
 
-TYPED_TEST(Solids, BookedEnergyIsTheWorkOfTheForcesInNonuniformMotion) {
+TYPED_TEST(Solids, ElementEnergyIsTheWorkOfTheForcesInNonuniformMotion) {
   Noise noise(63);
   const Corners start = test::distorted(noise, 0.2);
   const Corners amplitude = 0.15 * noise.matrix<Corners>();

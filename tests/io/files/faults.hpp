@@ -10,7 +10,7 @@ enum class Fault {
   no_space,  ///< this and every later write finds the disk full
 };
 
-/// The fault strikes at operation number `at`, counted from 0 as of now.
+/// The fault strikes at operation number `at`, counted from 0 from here on.
 void plan_fault(Fault fault, int at);
 
 /// Operations since the last plan.

@@ -1,4 +1,4 @@
-#include "contact/enforcement/booking.hpp"
+#include "contact/enforcement/impulse_work.hpp"
 
 namespace brio {
 
@@ -13,7 +13,8 @@ Vector where_zero(const Vector& chosen, const Vector& value) {
   return {chosen.x == 0 ? value.x : 0, chosen.y == 0 ? value.y : 0, chosen.z == 0 ? value.z : 0};
 }
 
-// Minus what would move the prescribed components; what moves the free ones of a body turns the others too.
+// Minus the impulse on the prescribed components; of a body, that on the free ones acts on the others as
+// well.
 Vector reaction_of(const VelocityBlock& block, const BlockPlace& place, const Vector& given) {
   Vector left = Vector{0, 0, 0} - given;
   if (place.inertia != nullptr) left = left + *place.inertia * (block.inverse_mass * given);
@@ -22,8 +23,9 @@ Vector reaction_of(const VelocityBlock& block, const BlockPlace& place, const Ve
 
 bool is_free(const SymmetricTensor<double>& a) { return a.xx != 0 && a.yy != 0 && a.zz != 0; }
 
-void book_supports(const RowMap& map, const Vector& impulse, std::span<const Vector> before,
-                   std::span<const VelocityBlock> after, std::span<const BlockPlace> places, RowWork& work) {
+void account_supports(const RowMap& map, const Vector& impulse, std::span<const Vector> before,
+                      std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
+                      RowWork& work) {
   map.spread(impulse, [&](int b, const Vector& given) {
     const VelocityBlock& block = after[index(b)];
     if (is_free(block.inverse_mass)) return;
@@ -41,8 +43,9 @@ void book_supports(const RowMap& map, const Vector& impulse, std::span<const Vec
 
 }  // namespace
 
-RowWork book(ConstraintRows& rows, std::span<const Vector> before, std::span<const VelocityBlock> after,
-             std::span<const BlockPlace> places, std::span<PushOnWall> walls) {
+RowWork account_work(ConstraintRows& rows, std::span<const Vector> before,
+                     std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
+                     std::span<PushOnWall> walls) {
   RowWork work;
   for (ConstraintRow& row : rows.row) {
     if (row.impulse == 0) continue;
@@ -57,7 +60,7 @@ RowWork book(ConstraintRows& rows, std::span<const Vector> before, std::span<con
     work.friction_before += dot(row.friction, was);
     work.friction_after += dot(row.friction, is);
     const Vector impulse = impulse_of(row);
-    book_supports(map, impulse, before, after, places, work);
+    account_supports(map, impulse, before, after, places, work);
     if (row.wall < 0) continue;
     PushOnWall& wall = walls[index(row.wall)];
     wall.impulse = wall.impulse - impulse;

@@ -1,10 +1,11 @@
 #pragma once
-/// The books: energies, momenta and impulses.
+/// Energy balance and momentum balance of the whole model.
 ///
-/// Every force acts at step n by an impulse J on a node whose velocity goes from v- to v+ (half steps n-1/2
-/// and n+1/2). Its work J.(v- + v+)/2 sums to the change of kinetic energy exactly; at the time of step n
-/// itself the first half, J.v-/2, is done. Kinetic energy at n then is m v-.v+/2, and what is lent and what
-/// is kept agree with the trapezoid rule that elements use (Belytschko, Liu, Moran 2000, section 6.2).
+/// At step n each force gives a node the impulse J, by which its velocity changes from v- to v+ (at the half
+/// steps n-1/2 and n+1/2). The work J.(v- + v+)/2 of all forces sums exactly to the change of kinetic energy.
+/// At the time of step n the first half, J.v-/2, has been done, so that the kinetic energy is m v-.v+/2. This
+/// is consistent with the trapezoidal rule of the element energies (Belytschko, Liu, Moran 2000,
+/// section 6.2).
 
 #include <algorithm>
 #include <array>
@@ -37,33 +38,32 @@ struct Work {
   }
 };
 
-struct EnergyBook {
+struct EnergyBalance {
   double kinetic_start = 0;
   double kinetic_half = 0;  ///< m v.v/2 at the last half step
   double kinetic = 0;       ///< at the time of the step
   double internal = 0;      ///< elastic and plastic
   double hourglass = 0;
   double viscous = 0;
-  double deleted = 0;  ///< what deleted elements had received, and motion of nodes that were dropped
+  double deleted = 0;  ///< energy of deleted elements, and kinetic energy of removed nodes
   Work external;       ///< loads, supports, moving walls
-  Work contact;        ///< normal impulses of contact and walls; negative: taken out of motion
+  Work contact;        ///< normal impulses of contact and walls; negative: dissipated
   Work friction;
-  double reference = 0;          ///< largest sum of energies so far, or what rounding makes if that is more
-  double contact_added_max = 0;  ///< largest work of contact so far; what a faithful contact keeps near 0
+  double reference = 0;          ///< largest sum of energies so far, at least that of rounding errors
+  double contact_added_max = 0;  ///< largest work of contact so far; near 0 if contact adds no energy
   double error_max = 0;
 
   double sum() const {
     return kinetic + internal + hourglass + viscous + deleted - contact.at_step() - friction.at_step();
   }
-  /// What there is, less what there was and what was put in, over the largest sum so far.
+  /// (Energy now - energy at the start - external work) / reference.
   double relative_error() const {
     return reference > 0 ? (sum() - kinetic_start - external.at_step()) / reference : 0;
   }
 };
 
-/// What a part has received, with its deleted elements, and the largest ratio of its hourglass energy to its
-/// internal energy so far. That is the largest internal energy up to then: of a body that springs back,
-/// little is left.
+/// Energies of a part with its deleted elements, and the largest ratio so far of its hourglass energy to its
+/// largest internal energy up to then (of a body that springs back little internal energy remains).
 struct PartEnergy {
   double internal = 0;
   double hourglass = 0;
@@ -72,7 +72,7 @@ struct PartEnergy {
   double time_of_largest = 0;
   double time_of_warning = -1;  ///< when the ratio passed the limit first; negative: never
 
-  /// At most 1000. \param least energy that matters
+  /// The ratio is at most 1000. \param least hourglass energies below it are ignored
   void note_ratio(double time, double least, double limit) {
     largest_internal = std::max(largest_internal, internal);
     if (!(hourglass > least)) return;
@@ -84,7 +84,7 @@ struct PartEnergy {
   }
 };
 
-/// Which part has had the largest ratio; the first where all are equal.
+/// Index of the part with the largest ratio; the first where all are equal.
 inline std::size_t part_of_largest_ratio(std::span<const PartEnergy> parts) {
   const auto largest = std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
     return a.largest_ratio < b.largest_ratio;
@@ -92,7 +92,7 @@ inline std::size_t part_of_largest_ratio(std::span<const PartEnergy> parts) {
   return static_cast<std::size_t>(largest - parts.begin());
 }
 
-/// Momentum of the system and what it received from outside, with moments about the origin.
+/// Linear impulse or momentum, and angular about the origin.
 struct Impulse {
   Vector linear{};
   Vector angular{};
@@ -107,14 +107,14 @@ struct Impulse {
   }
 };
 
-struct MomentumBook {
+struct MomentumBalance {
   Impulse start, now;  ///< at the last half step, with positions of the step that follows it
   Impulse loads, supports, walls;
-  Impulse dropped;          ///< what left with nodes
-  double linear_scale = 0;  ///< largest sum of |m v| so far: what an imbalance is measured against
+  Impulse dropped;          ///< momentum of removed nodes
+  double linear_scale = 0;  ///< largest sum of |m v| so far: reference of the imbalance
   double angular_scale = 0;
 
-  /// Largest component of now + dropped - start - received, over the scale.
+  /// Largest component of (momentum now + dropped - start - impulses from outside) / scale.
   double linear_imbalance() const { return imbalance(&Impulse::linear, linear_scale); }
   double angular_imbalance() const { return imbalance(&Impulse::angular, angular_scale); }
 

@@ -69,7 +69,7 @@ void add_run_command(CLI::App& program, int& exit_code) {
   add_overrides(command, options.overrides);
   command->add_flag("--overwrite", options.overwrite,
                     "remove the results of an earlier run; default: they are moved to FOLDER.previous");
-  command->add_flag("--quiet", arguments->quiet, "print nothing but faults");
+  command->add_flag("--quiet", arguments->quiet, "print errors only");
   command->add_flag("--json", arguments->json, "print the summary as JSON");
   command->callback([arguments, &exit_code] { exit_code = brio::run(*arguments); });
 }
@@ -99,7 +99,7 @@ void add_check_command(CLI::App& program) {
   options.coarse_run_s = 90;
   options.coarse_run_fraction = 0.4;
   CLI::App* command = program.add_subcommand(
-      "check", "Read a deck, build its scene, say what it is and predict the cost of a run");
+      "check", "Read a deck, build its scene, summarize it and predict the cost of a run");
   command->add_option("deck", options.deck, "YAML deck")->required();
   add_threads(command, options.threads);
   const auto add_budget = [command](const char* name, const std::function<void(const std::string&)>& set,
@@ -136,7 +136,7 @@ void add_study_command(CLI::App& program, int& exit_code) {
   command->add_option("--output", options.output, "folder of the study; default NAME.study here");
   command->add_option("--jobs", options.jobs, "runs side by side; default one a processor")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--again", options.again, "make runs again that are there");
+  command->add_flag("--again", options.again, "repeat runs whose results exist");
   command->add_flag("--quiet", arguments->quiet, "print no progress");
   options.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   command->callback([arguments, &exit_code] { exit_code = brio::study(*arguments); });
@@ -145,9 +145,9 @@ void add_study_command(CLI::App& program, int& exit_code) {
 void add_info_command(CLI::App& program) {
   auto path = std::make_shared<std::filesystem::path>();
   auto verify = std::make_shared<bool>(false);
-  CLI::App* command = program.add_subcommand("info", "Say what is in a result");
+  CLI::App* command = program.add_subcommand("info", "List the contents of a result");
   command->add_option("result", *path, "result folder or .vtkhdf file")->required();
-  command->add_flag("--verify", *verify, "read all of it and compare every dump with its checksums");
+  command->add_flag("--verify", *verify, "read the whole file and verify the checksums of every dump");
   command->callback([path, verify] { brio::print_info(*path, *verify); });
 }
 

@@ -28,23 +28,24 @@ void print_parts(const CheckReport& report) {
 
 void print_joints(const CheckReport& report) {
   for (const MergedParts& merged : report.merged)
-    write_out("merged: {} nodes of '{}' are nodes of '{}', from up to {:.3g} away\n", merged.nodes,
-              merged.second, merged.first, merged.farthest);
+    write_out("merged: {} nodes of '{}' are equivalenced with nodes of '{}', at distances up to {:.3g}\n",
+              merged.nodes, merged.second, merged.first, merged.farthest);
   for (const TiedParts& tied : report.tied)
-    write_out("tied: {} nodes of '{}' to the surface of '{}', from up to {:.3g} away\n", tied.count,
+    write_out("tied: {} nodes of '{}' to the surface of '{}', at distances up to {:.3g}\n", tied.count,
               tied.nodes, tied.surface, tied.largest_gap);
   if (report.step_share_of_ties < 1)
     write_out(
-        "tied: nodes away from their faces take the stable step down to {:.3g} of that of the elements\n",
+        "tied: nodes at a distance from their faces reduce the stable time step to {:.3g} of that of the "
+        "elements\n",
         report.step_share_of_ties);
 }
 
 void print_step(const CheckReport& report) {
   if (std::isfinite(report.stable_step)) {
-    write_out("\nstable step {:.4g}, set by element {} of part '{}'; first step {:.4g}\n", report.stable_step,
-              report.critical_element, report.critical_part, report.first_step);
+    write_out("\nstable time step {:.4g}, set by element {} of part '{}'; first time step {:.4g}\n",
+              report.stable_step, report.critical_element, report.critical_part, report.first_step);
   } else {
-    write_out("\nall parts are rigid; step {:.4g}\n", report.first_step);
+    write_out("\nall parts are rigid; time step {:.4g}\n", report.first_step);
   }
 }
 
@@ -114,7 +115,8 @@ void print_forecast(const Forecast& forecast, int threads) {
             rounded_duration(forecast.build_seconds), rounded_duration(forecast.steps.seconds),
             rounded_duration(forecast.output.seconds()));
   if (run.waiting() > 1.1)
-    write_out("; with the machine as busy as now {}", rounded_duration(forecast.seconds() * run.waiting()));
+    write_out("; at the present load of the machine {}",
+              rounded_duration(forecast.seconds() * run.waiting()));
   write_out("\n  memory     {:.1f} MB at its peak\n", forecast.peak_memory_mb);
   print_results(forecast);
   if (!forecast.steps.exact)
@@ -153,7 +155,7 @@ void print_overlaps(std::span<const InitialOverlap> overlaps) {
   }
   if (first == nullptr) return;
   write_out(
-      "gap of contact: parts touched, '{}' and '{}' among them; nodes were moved by up to {:.3g} to make "
+      "contact gap: parts touched, '{}' and '{}' among them; nodes were moved by up to {:.3g} to make "
       "a gap of {:.3g}\n",
       first->node_part, first->face_part, moved, gap);
 }

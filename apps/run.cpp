@@ -64,7 +64,7 @@ void print_outcome(const RunOutcome& outcome) {
       100 * energy.error_relative);
   const std::int64_t deleted = summary.deleted.hex8 + summary.deleted.shell4 + summary.deleted.beam2;
   if (deleted > 0)
-    write_out("deleted: {} elements, energy {:.4g}; free nodes: mass {:.4g} flying, {:.4g} dropped\n",
+    write_out("deleted: {} elements, energy {:.4g}; free nodes: mass {:.4g} retained, {:.4g} removed\n",
               deleted, energy.deleted, summary.mass.debris, summary.mass.deleted);
   if (summary.mass_scaling)
     write_out("mass added to small elements: {:.4g}, {:.3g} % of the mass\n", summary.mass_scaling->added,

@@ -42,31 +42,31 @@ struct ContactOptions {
     return field_table(
         optional("friction", &ContactOptions::friction, non_negative, "Coulomb coefficient, -"),
         optional("passes", &ContactOptions::passes, Range{.lower = 1, .upper = 1000},
-                 "tens of iterations over the contact constraints of a step at most, -"),
+                 "largest number of iterations over the contact constraints of a time step, in tens, -"),
         optional(
             "tolerance", &ContactOptions::tolerance, Range{.lower = 0, .upper = 1, .lower_open = true},
-            "iterations end once no relative velocity changes by more than this share of the largest, -"),
-        optional("search", &ContactOptions::search, any_number,
-                 "how surfaces that cross at the start are searched; what is found is the same"),
+            "iterations end once no relative velocity changes by more than this fraction of the largest, -"),
+        optional(
+            "search", &ContactOptions::search, any_number,
+            "search strategy for surfaces that intersect at the start; the result does not depend on it"),
         optional("reach_buffer", &ContactOptions::reach_buffer,
                  Range{.lower = 0, .upper = 10, .lower_open = true},
-                 "growth of boxes that lets the search be skipped, in mean edges, -"),
+                 "search margin (Verlet skin) of the bounding boxes, in mean edges, -"),
         optional("velocity_check", &ContactOptions::velocity_check, any_number,
-                 "look along the motion of each step for what would cross, and prevent it"),
-        optional("edges", &ContactOptions::edges, any_number,
-                 "let edges of solids and shells meet each other"),
+                 "continuous collision detection: find and prevent crossings within a time step"),
+        optional("edges", &ContactOptions::edges, any_number, "edge-edge contact of solids and shells"),
         optional("overlap_recovery", &ContactOptions::overlap_recovery, fraction,
-                 "share of an old overlap of a tenth of the smallest edge removed in a step, in proportion "
-                 "less of shallower ones, -"),
+                 "fraction of an overlap of a tenth of the smallest edge that is removed in a time step, in "
+                 "proportion less of smaller ones, -"),
         optional("overlap_recovery_cap", &ContactOptions::overlap_recovery_cap, non_negative,
-                 "most overlap removed in a step, in smallest edges, -"),
+                 "largest overlap removed in a time step, in smallest edges, -"),
         optional("shell_thickness_scale", &ContactOptions::shell_thickness_scale,
                  Range{.lower = 0, .upper = 2, .lower_open = true},
                  "contact thickness over thickness of shells, -"),
         optional("initial_overlap_limit", &ContactOptions::initial_overlap_limit, fraction,
                  "deepest initial overlap removed by moving nodes, in edges or thicknesses, -"),
         optional("audit", &ContactOptions::audit, any_number,
-                 "count crossings of surfaces, and distances below thickness, at every dump"));
+                 "brute-force contact audit: count undetected penetrations at every dump"));
   }
 };
 

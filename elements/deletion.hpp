@@ -38,23 +38,24 @@ struct Deletion {
   static constexpr auto fields() {
     return field_table(
         optional("minimum_step", &Deletion::minimum_step, positive,
-                 "an element whose stable step falls below it is deleted, time"),
+                 "an element whose stable time step falls below it is deleted, time"),
         optional("inverted", &Deletion::inverted, any_number,
                  "whether an element that inverts is deleted; otherwise it stops the run"),
-        optional(
-            "corner_inverted", &Deletion::corner_inverted, any_number,
-            "whether an element whose edges at one of its corners turn inside out is deleted, though its "
-            "volume is not; hexahedra only"),
+        optional("corner_inverted", &Deletion::corner_inverted, any_number,
+                 "whether an element with a negative Jacobian at a corner is deleted, though its volume is "
+                 "positive; hexahedra only"),
         optional("plastic_strain", &Deletion::plastic_strain, positive,
-                 "an element whose equivalent plastic strain, mean of its points, exceeds it is deleted, -"),
+                 "an element whose equivalent plastic strain, mean of its integration points, exceeds it is "
+                 "deleted, -"),
         optional("volume_ratio", &Deletion::volume_ratio,
                  Range{.lower = 0, .upper = 1, .lower_open = true, .upper_open = true},
-                 "an element whose volume falls below this share of the first is deleted; hexahedra only, -"),
+                 "an element whose volume falls below this fraction of the initial volume is deleted; "
+                 "hexahedra only, -"),
         optional("free_nodes", &Deletion::free_nodes, any_number,
-                 "whether nodes that have lost all their elements fly on with their mass or leave the run"),
-        optional("debris_radius", &Deletion::debris_radius, positive,
-                 "distance at which nodes that have lost all their elements touch surfaces; without it they "
-                 "touch nothing, length"));
+                 "whether nodes without remaining elements are kept as free point masses or removed"),
+        optional(
+            "debris_radius", &Deletion::debris_radius, positive,
+            "contact radius of nodes without remaining elements; without it they have no contact, length"));
   }
 
   constexpr bool names_a_criterion() const {

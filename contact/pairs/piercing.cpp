@@ -93,7 +93,8 @@ std::optional<double> first_meeting(const MovingNode& way, const FaceVertices& a
   text << "contact: part '" << surface.part_name[static_cast<std::size_t>(edge.part)]
        << (face.shell ? "' goes through part '" : "' lies in part '")
        << surface.part_name[static_cast<std::size_t>(face.part)] << "', whose surface it crosses at ("
-       << at[0] << ", " << at[1] << ", " << at[2] << "); accepted are bodies that begin beside each other";
+       << at[0] << ", " << at[1] << ", " << at[2]
+       << "); accepted are bodies that do not intersect at the start";
   throw std::invalid_argument(text.str());
 }
 

@@ -113,7 +113,7 @@ class Enclosures {
     std::ostringstream text;
     text << "contact: part '" << surface_.part_name[static_cast<std::size_t>(part)] << "' lies in part '"
          << surface_.part_name[static_cast<std::size_t>(other)] << "', " << depth << " deep at (" << x[0]
-         << ", " << x[1] << ", " << x[2] << "); accepted are bodies that begin beside each other";
+         << ", " << x[1] << ", " << x[2] << "); accepted are bodies that do not intersect at the start";
     throw std::invalid_argument(text.str());
   }
 

@@ -196,7 +196,8 @@ class GapMaker {
   void expect_within_limit() const {
     const SidedPair* deepest = nullptr;
     for (const SidedPair& pair : found_)
-      if (pair.contact.normal.isZero(0)) refuse(pair, "in one place, which leaves no side to move to");
+      if (pair.contact.normal.isZero(0))
+        refuse(pair, "at the same place, so that no direction separates them");
     for (const SidedPair& pair : found_)
       if (overlap(pair) > scene_.options.initial_overlap_limit * pair.scale &&
           (deepest == nullptr || overlap(pair) > overlap(*deepest)))

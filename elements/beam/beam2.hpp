@@ -57,10 +57,10 @@ struct Beam2 {
         optional("shear_factor", &Beam2::shear_factor, Range{.lower = 0, .upper = 1, .lower_open = true},
                  "shear area over area, along both axes; default: that of the section, -"),
         optional("contact_radius", &Beam2::contact_radius, positive,
-                 "radius with which it touches; default: the outer one, of a section that is not round that "
-                 "of a circle of the same area"),
+                 "contact radius; default: the outer radius, for a section that is not round that of a "
+                 "circle of the same area"),
         optional("linear_bulk_viscosity", &Beam2::linear_bulk_viscosity, fraction,
-                 "axial viscosity b1, share of critical damping of the fastest mode, -"));
+                 "linear axial viscosity b1, fraction of critical damping of the highest mode, -"));
   }
   constexpr std::string_view fault() const {
     if (orientation && (*orientation)[0] == 0 && (*orientation)[1] == 0 && (*orientation)[2] == 0)

@@ -42,27 +42,24 @@ struct Particle {
                  "total_lagrangian: neighbours and weights of the initial configuration, for solids; "
                  "eulerian: of the "
                  "present configuration (updated Lagrangian), for fluids and fragmentation"),
-        optional("smoothing_length", &Particle::smoothing_length, Range{.lower = 1, .upper = 2},
-                 "of the kernel, whose radius is twice that, over the spacing of the particles; default: "
-                 "1.1, or 1.5 "
-                 "where the kernel is eulerian"),
+        optional(
+            "smoothing_length", &Particle::smoothing_length, Range{.lower = 1, .upper = 2},
+            "smoothing length over the spacing of the particles, half the radius of the kernel; default: "
+            "1.1, or 1.5 where the kernel is eulerian"),
         optional("smoothing_bounds", &Particle::smoothing_bounds, positive,
                  "eulerian: least and largest smoothing length over the initial one; default: [0.5, 2]"),
-        optional(
-            "hourglass_stiffness", &Particle::hourglass_stiffness, fraction,
-            "total_lagrangian: elastic control of motions that the velocity gradient does not see, share "
-            "of Young's modulus; default: 0.1"),
-        optional(
-            "hourglass_viscosity", &Particle::hourglass_viscosity, fraction,
-            "eulerian: viscous control of the same, share of density times speed of sound times spacing; "
-            "default: 0.3"),
+        optional("hourglass_stiffness", &Particle::hourglass_stiffness, fraction,
+                 "total_lagrangian: stiffness control of zero-energy modes, fraction of Young's modulus; "
+                 "default: 0.1"),
+        optional("hourglass_viscosity", &Particle::hourglass_viscosity, fraction,
+                 "eulerian: viscous control of zero-energy modes, fraction of density times speed of sound "
+                 "times spacing; default: 0.3"),
         optional("artificial_stress", &Particle::artificial_stress, fraction,
-                 "eulerian: share of tension by which particles that come close repel each other; default: "
-                 "0.3"),
+                 "eulerian: artificial stress of close particles, fraction of their tension; default: 0.3"),
         optional("linear_bulk_viscosity", &Particle::linear_bulk_viscosity, non_negative,
                  "bulk viscosity b1, on the spacing of the particles, -"),
         optional("quadratic_bulk_viscosity", &Particle::quadratic_bulk_viscosity, non_negative,
-                 "bulk viscosity b2, for shocks, in compression only, -"));
+                 "quadratic bulk viscosity b2, for shocks, in compression only, -"));
   }
   constexpr std::string_view fault() const {
     if (kernel == ParticleFrame::total_lagrangian &&

@@ -51,10 +51,11 @@ struct Shell4 {
     return field_table(
         required("thickness", &Shell4::thickness, positive, "initial thickness, length"),
         optional("thickness_points", &Shell4::thickness_points,
-                 Range{.lower = 1, .upper = most_thickness_points}, "points through the thickness, 1 to 9"),
-        optional("quadrature", &Shell4::quadrature, any_number, "rule through the thickness"),
+                 Range{.lower = 1, .upper = most_thickness_points},
+                 "integration points through the thickness, 1 to 9"),
+        optional("quadrature", &Shell4::quadrature, any_number, "integration rule through the thickness"),
         optional("thickness_update", &Shell4::thickness_update, any_number,
-                 "whether the thickness follows the strain through it"),
+                 "thickness update: whether the thickness follows the thickness strain"),
         optional("warping_projection", &Shell4::warping_projection, any_number,
                  "couple curvature with membrane strain in warped elements"),
         optional("shear_factor", &Shell4::shear_factor, Range{.lower = 0, .upper = 1, .lower_open = true},
@@ -62,15 +63,15 @@ struct Shell4 {
         optional("hourglass_stiffness", &Shell4::hourglass_stiffness, fraction,
                  "elastic hourglass control of membrane, bending and shear, -"),
         optional("hourglass_viscosity", &Shell4::hourglass_viscosity, fraction,
-                 "viscous hourglass control, share of critical damping, -"),
-        optional("drilling_stiffness", &Shell4::drilling_stiffness, fraction,
-                 "elastic resistance of nodes to spin about the normal, share of the square of the highest "
-                 "frequency, -; yields at 0.01 rad"),
+                 "viscous hourglass control, fraction of critical damping, -"),
+        optional(
+            "drilling_stiffness", &Shell4::drilling_stiffness, fraction,
+            "drilling stiffness, fraction of the square of the highest frequency, -; yields at 0.01 rad"),
         optional("drilling_viscosity", &Shell4::drilling_viscosity, fraction,
-                 "viscous resistance to spin about the normal, share of critical damping of the elastic one, "
-                 "with which it yields, -"),
+                 "drilling damping, fraction of critical damping of the drilling stiffness, with which it "
+                 "yields, -"),
         optional("linear_bulk_viscosity", &Shell4::linear_bulk_viscosity, fraction,
-                 "membrane viscosity b1, share of critical damping of the fastest mode, -"));
+                 "linear membrane viscosity b1, fraction of critical damping of the highest mode, -"));
   }
 
   static constexpr int most_points = most_thickness_points;

@@ -27,17 +27,16 @@ struct Hex8 {
   double quadratic_bulk_viscosity = 1.2;
 
   static constexpr auto fields() {
-    return field_table(
-        optional("objective_rate", &Hex8::objective_rate, any_number, "how stress follows rotation"),
-        optional("hourglass_stiffness", &Hex8::hourglass_stiffness, hourglass_stiffness_range,
-                 "elastic hourglass control, share of the modulus of bending, -; at 1/9 an elastic box bends "
-                 "exactly; in a brick that flows, at most 0.01"),
-        optional("hourglass_viscosity", &Hex8::hourglass_viscosity, fraction,
-                 "viscous hourglass control, share of critical damping, -"),
-        optional("linear_bulk_viscosity", &Hex8::linear_bulk_viscosity, non_negative,
-                 "bulk viscosity b1, share of critical damping of dilatation, -"),
-        optional("quadratic_bulk_viscosity", &Hex8::quadratic_bulk_viscosity, non_negative,
-                 "bulk viscosity b2, for shocks, in compression only, -"));
+    return field_table(optional("objective_rate", &Hex8::objective_rate, any_number, "objective stress rate"),
+                       optional("hourglass_stiffness", &Hex8::hourglass_stiffness, hourglass_stiffness_range,
+                                "stiffness hourglass control, fraction of the bending modulus, -; at 1/9 an "
+                                "elastic box bends exactly; while a brick yields, at most 0.01"),
+                       optional("hourglass_viscosity", &Hex8::hourglass_viscosity, fraction,
+                                "viscous hourglass control, fraction of critical damping, -"),
+                       optional("linear_bulk_viscosity", &Hex8::linear_bulk_viscosity, non_negative,
+                                "linear bulk viscosity b1, fraction of critical damping of dilatation, -"),
+                       optional("quadratic_bulk_viscosity", &Hex8::quadratic_bulk_viscosity, non_negative,
+                                "quadratic bulk viscosity b2, for shocks, in compression only, -"));
   }
 };
 

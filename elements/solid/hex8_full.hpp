@@ -23,11 +23,11 @@ struct Hex8Full {
 
   static constexpr auto fields() {
     return field_table(
-        optional("objective_rate", &Hex8Full::objective_rate, any_number, "how stress follows rotation"),
+        optional("objective_rate", &Hex8Full::objective_rate, any_number, "objective stress rate"),
         optional("linear_bulk_viscosity", &Hex8Full::linear_bulk_viscosity, non_negative,
-                 "bulk viscosity b1, share of critical damping of dilatation, -"),
+                 "linear bulk viscosity b1, fraction of critical damping of dilatation, -"),
         optional("quadratic_bulk_viscosity", &Hex8Full::quadratic_bulk_viscosity, non_negative,
-                 "bulk viscosity b2, for shocks, in compression only, -"));
+                 "quadratic bulk viscosity b2, for shocks, in compression only, -"));
   }
 };
 

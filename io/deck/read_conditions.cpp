@@ -205,7 +205,8 @@ void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) 
   read_fields(node, slot, tie);
   const YamlNode& names = *node.find("tie")->value;
   if (tie.names.size() != 2)
-    throw DeckError(names.place, "'tie' takes a part or a set, and the part whose faces hold its nodes");
+    throw DeckError(names.place,
+                    "'tie' takes a part or a set, and the part whose faces its nodes are tied to");
   const YamlNode& slave = *names.items[0];
   check_set(slave, slot, node_set_names);
   const Part& held = slot.known.part(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));

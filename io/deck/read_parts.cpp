@@ -54,7 +54,7 @@ void check_deletion(const YamlEntry& entry, const Part& part, const Material& ma
                                        std::string(name_of(part.element)) + "'; hexahedra are accepted");
   if (part.deletion->debris_radius && part.deletion->free_nodes == FreeNodes::drop)
     throw DeckError(entry.place,
-                    "debris_radius of nodes that leave the run; it is accepted with free_nodes: keep");
+                    "debris_radius of nodes that are removed; it is accepted with free_nodes: keep");
 }
 
 // Two Lobatto points are the surfaces: bending would be three times as stiff.

@@ -233,7 +233,7 @@ void make_first_step(const Deck& deck, Model& model, ThreadTeam& team) {
   const double steps = deck.time.end / model.times.next;
   if (steps > most_steps)
     throw DeckError((deck.time.place.empty() ? deck.file : deck.time.place) + ": 'end' is " +
-                    written(deck.time.end) + ", which takes " + written(steps) + " steps of " +
+                    written(deck.time.end) + ", which takes " + written(steps) + " time steps of " +
                     written(model.times.next) + "; at most " + written(most_steps) +
                     " are accepted: beyond, a step no longer changes the time");
 }

@@ -102,7 +102,7 @@ std::string in_words(double megabytes) {
 }
 
 std::string memory_fault(double wanted_mb, double there_mb) {
-  return fmt::format("the scene wants about {} of memory, {} are available", in_words(wanted_mb),
+  return fmt::format("the scene needs about {} of memory, {} are available", in_words(wanted_mb),
                      in_words(there_mb));
 }
 

@@ -178,7 +178,7 @@ struct SchemaOf<ContactSection> : WithoutDefault {
     Schema properties;
     properties["surfaces"] = {
         {"oneOf", {{{"const", "all"}}, parts}},
-        {"description", "all, or a list of the parts that may touch each other and themselves"}};
+        {"description", "all, or a list of the parts in contact with each other and themselves"}};
     properties["exclude"] = parts;
     properties["exclude"]["description"] = "parts that are left out";
     Schema pair = object_of<ContactPair>();

@@ -155,8 +155,7 @@ Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record, c
   for (std::size_t i = 0; i < 3; ++i) arm[i] -= along * radial.axis[i];
   const double distance = std::sqrt(dot(arm, arm));
   if (!(distance > 0))
-    throw BuildError("a node on the axis of 'radial' in initial_conditions has no direction to move in",
-                     place);
+    throw BuildError("a node on the axis of 'radial' in initial_conditions has no radial direction", place);
   for (double& component : arm) component *= radial.speed / distance;
   return arm;
 }

@@ -92,7 +92,7 @@ void make_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& mo
   }
   model.rigid.motion.resize(model.rigid.body.size());
   if (!model.rigid.empty() && model.rigid.body.size() == deck.parts.size() && !deck.time.step)
-    throw BuildError("all parts are rigid, so that no element bounds the step; time.step is required",
+    throw BuildError("all parts are rigid, so that no element bounds the time step; time.step is required",
                      deck.time.place);
 }
 

@@ -169,7 +169,7 @@ class Tying {
           model_.ties
               .found[static_cast<std::size_t>(model_.ties.node[static_cast<std::size_t>(index)].connection)];
       throw BuildError("a node of '" + entry.names[0] + "' " + at(model_.nodes, node) + " is tied to '" +
-                           first.surface + "' already; accepted is one tie a node",
+                           first.surface + "' already; one tie is accepted per node",
                        entry.place);
     }
     index = static_cast<int>(model_.ties.node.size());
@@ -189,10 +189,10 @@ class Tying {
     const TiedNode& held = model_.ties.node[static_cast<std::size_t>(i)];
     if (state == open) {
       const TiedParts& parts = model_.ties.found[static_cast<std::size_t>(held.connection)];
-      throw BuildError("a node of '" + parts.nodes + "' " + at(model_.nodes, held.tie.node) +
-                           " would be held by a face that it holds itself; accepted are ties that do not go "
-                           "round in a circle",
-                       parts.place);
+      throw BuildError(
+          "a node of '" + parts.nodes + "' " + at(model_.nodes, held.tie.node) +
+              " would be tied to a face whose nodes are tied to it; accepted are ties without cycles",
+          parts.place);
     }
     state = open;
     for (int corner : held.tie.corner)
@@ -241,7 +241,7 @@ void release_supports(const Ties& ties, Model& model) {
       if (!all_corners_follow(held.tie, given[i], given))
         throw BuildError("the motion of a node of '" + parts.nodes + "' " + at(model.nodes, node) +
                              " is prescribed, but not that of the face of '" + parts.surface +
-                             "' that holds it; accepted: the same for both",
+                             "' that it is tied to; accepted: the same for both",
                          parts.place);
       std::erase(model.prescribed[i].nodes, node);
       model.nodes.prescribed[static_cast<std::size_t>(node)] &= static_cast<std::uint8_t>(~(1 << axis));
@@ -277,7 +277,7 @@ void start_ties(Model& model) {
     const TiedParts& parts = ties.found[static_cast<std::size_t>(ties.node[i].connection)];
     throw BuildError("a node of '" + parts.nodes + "' " + at(nodes, tie.node) +
                          " starts with another velocity than the face of '" + parts.surface +
-                         "' that holds it; accepted: initial conditions that move both alike",
+                         "' that it is tied to; accepted: equal initial velocities",
                      parts.place);
   }
 }

@@ -170,12 +170,12 @@ struct InitialCondition {
   std::optional<Spin> spin;
   std::optional<RadialVelocity> radial{};
   static constexpr auto fields() {
-    return field_table(
-        optional("velocity", &InitialCondition::velocity, any_number,
-                 "velocity at the start, length per time"),
-        optional("spin", &InitialCondition::spin, any_number, "turning at the start, added to the velocity"),
-        optional("radial", &InitialCondition::radial, any_number,
-                 "away from an axis at the start, added to the velocity; not of rigid parts"));
+    return field_table(optional("velocity", &InitialCondition::velocity, any_number,
+                                "velocity at the start, length per time"),
+                       optional("spin", &InitialCondition::spin, any_number,
+                                "initial rotation about an axis, added to the velocity"),
+                       optional("radial", &InitialCondition::radial, any_number,
+                                "away from an axis at the start, added to the velocity; not of rigid parts"));
   }
 };
 
@@ -283,15 +283,15 @@ struct Merge {
 /// `tie: [stiffener, panel]`: nodes of the first that faces of the second hold.
 struct TieToSurface {
   static constexpr std::string_view name = "tie";
-  static constexpr std::string_view meaning = "nodes that a surface holds";
+  static constexpr std::string_view meaning = "nodes tied to a surface (tied contact)";
   std::vector<std::string> names;  ///< "part" or "part.set", and a part
   double tolerance = 0;
   std::string place;  ///< in the deck
   static constexpr auto fields() {
     return field_table(required("tie", &TieToSurface::names, any_number,
-                                "a part or a set whose nodes are held, and the part whose faces hold them"),
+                                "a part or a set whose nodes are tied, and the part with the main surface"),
                        required("tolerance", &TieToSurface::tolerance, positive,
-                                "largest distance of a node that is held from the surface"));
+                                "largest distance of a tied node from the surface"));
   }
 };
 
@@ -333,8 +333,7 @@ struct MassScaling {
   std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(
-        required("step", &MassScaling::step, positive,
-                 "step that elements get mass for, before and during the run, time"),
+        required("step", &MassScaling::step, positive, "target time step, before and during the run, time"),
         optional("largest_share", &MassScaling::largest_share, positive,
                  "mass added over mass of all elements at which the run stops with exit code 3, -"));
   }
@@ -351,12 +350,13 @@ struct TimeSection {
     return field_table(
         required("end", &TimeSection::end, positive, "time at which the run ends"),
         optional("step_scale", &TimeSection::step_scale, Range{.lower = 0, .upper = 1, .lower_open = true},
-                 "share of the stable step that is used, -"),
-        optional("step", &TimeSection::step, positive, "constant step; refused if above the stable step"),
+                 "scale factor on the stable time step, -"),
+        optional("step", &TimeSection::step, positive,
+                 "constant time step; refused if above the stable time step"),
         optional("step_growth", &TimeSection::step_growth, Range{.lower = 1, .lower_open = true},
-                 "largest ratio of a step to the one before, -"),
+                 "largest ratio of a time step to the previous one, -"),
         optional("mass_scaling", &TimeSection::mass_scaling, any_number,
-                 "mass added to small elements so that they do not set the step; absent: none"));
+                 "mass added to small elements so that they do not set the stable time step; absent: none"));
   }
 };
 
@@ -471,14 +471,15 @@ struct Deck {
         optional("units", &Deck::units, any_number, "labels such as {length: mm}; nothing is converted"),
         required("materials", &Deck::materials, any_number, "a map of names to laws"),
         required("parts", &Deck::parts, any_number, "a map of names to parts"),
-        optional("connections", &Deck::connections, any_number, "how parts hold together"),
+        optional("connections", &Deck::connections, any_number,
+                 "connections between parts: shared nodes and ties"),
         optional("initial_conditions", &Deck::initial_conditions, any_number, "velocities at the start"),
         optional("boundary_conditions", &Deck::boundary_conditions, any_number,
                  "motions that are prescribed"),
         optional("loads", &Deck::loads, any_number, "forces from outside"),
-        optional("contact", &Deck::contact, any_number, "what may touch; absent: nothing is searched"),
-        required("time", &Deck::time, any_number, "how long and in which steps"),
-        optional("output", &Deck::output, any_number, "what is written, and when"),
+        optional("contact", &Deck::contact, any_number, "contact between parts; absent: none"),
+        required("time", &Deck::time, any_number, "end time and time step"),
+        optional("output", &Deck::output, any_number, "output of fields and history"),
         optional("numerics", &Deck::numerics, any_number, "how the computer does it"));
   }
 };

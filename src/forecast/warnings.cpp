@@ -126,8 +126,8 @@ void warn_of_thin_bending(const Deck& deck, const Model& model, const Shapes& sh
       if (straight) continue;
     }
     warnings.push_back({"part '" + deck.parts[p].name + "'",
-                        "one element of one point through a thickness of " + number(shape.alone_thickness) +
-                            ": nothing but hourglass control resists bending",
+                        "one element with one integration point through a thickness of " +
+                            number(shape.alone_thickness) + ": nothing but hourglass control resists bending",
                         "three elements through it, hex8_full, or shell4"});
   }
 }
@@ -144,7 +144,7 @@ void warn_of_meshes_in_contact(const Deck& deck, const Model& model, const Shape
     const std::size_t coarse = shapes[a].edge > shapes[b].edge ? a : b;
     warnings.push_back({"part '" + deck.parts[coarse].name + "'",
                         "its elements are " + number(ratio) + " times as long as those of part '" +
-                            deck.parts[a + b - coarse].name + "', which it may meet",
+                            deck.parts[a + b - coarse].name + "', with which it may be in contact",
                         "a mesh up to " + number(largest_ratio) + " times as coarse"});
   }
 }
@@ -172,10 +172,11 @@ void warn_of_tiny_elements(const Deck& deck, const Model& model, const Shapes& s
   if (!(others > worth_it * least)) return;
   const auto tiny =
       std::count_if(steps.begin(), steps.end(), [&](double s) { return s < others / worth_it; });
-  warnings.push_back({"part '" + deck.parts[least_part].name + "'",
-                      std::to_string(tiny) + " of " + std::to_string(steps.size()) +
-                          " elements are so short that they alone set the step",
-                      "without them steps would be about " + number(others / least) + " times as long"});
+  warnings.push_back(
+      {"part '" + deck.parts[least_part].name + "'",
+       std::to_string(tiny) + " of " + std::to_string(steps.size()) +
+           " elements are so short that they alone set the stable time step",
+       "without them the time step would be about " + number(others / least) + " times as long"});
 }
 
 void warn_of_long_elements(const Deck& deck, const Model& model, const Shapes& shapes, Warnings& warnings) {
@@ -183,7 +184,7 @@ void warn_of_long_elements(const Deck& deck, const Model& model, const Shapes& s
     if (shapes[p].long_elements > 0 && model.parts[p].rigid < 0)
       warnings.push_back({"part '" + deck.parts[p].name + "'",
                           std::to_string(shapes[p].long_elements) + " elements have edges up to " +
-                              number(shapes[p].largest_aspect) + " times as long as others of theirs",
+                              number(shapes[p].largest_aspect) + " times as long as their others",
                           "ratios below " + number(aspect_limit)});
 }
 
@@ -191,7 +192,7 @@ void warn_of_unused(const Deck& deck, const Model& model, Warnings& warnings) {
   for (const auto& [name, material] : deck.materials) {
     const auto uses = [&, &word = name](const Part& part) { return part.material == word; };
     if (std::none_of(deck.parts.begin(), deck.parts.end(), uses))
-      warnings.push_back({"material '" + name + "'", "no part is made of it", "leave it out"});
+      warnings.push_back({"material '" + name + "'", "no part uses it", "leave it out"});
   }
   const bool gravity = std::any_of(model.loads.begin(), model.loads.end(), [](const ActiveLoad& load) {
     return std::holds_alternative<GravityLoad>(load.load);
@@ -224,8 +225,8 @@ void warn_of_unused(const Deck& deck, const Model& model, Warnings& warnings) {
       return other.subject.find("'" + part.name + "'") != std::string::npos;
     };
     if (std::any_of(warnings.begin(), warnings.end(), is_said)) continue;
-    warnings.push_back({"part '" + part.name + "'", "nothing moves, loads, holds or touches it",
-                        "leave it out, or let it be in contact"});
+    warnings.push_back({"part '" + part.name + "'", "it has no motion, load, support or contact",
+                        "remove it, or add it to contact.surfaces"});
   }
 }
 
@@ -266,7 +267,7 @@ void warn_of_flowing_solids(const Deck& deck, Warnings& warnings) {
         {"part '" + part.name + "'",
          "an updated-Lagrangian (eulerian) kernel for a material with the stiffness of a solid: slow, "
          "with numerical fracture in tension",
-         "kernel: total_lagrangian, unless it flows"});
+         "kernel: total_lagrangian, unless it is a fluid"});
   }
 }
 
@@ -280,8 +281,8 @@ void warn_of_missing_contact(const Deck& deck, const Model& model, const Shapes&
     if (said || !boxes_meet(shapes[a], shapes[b], -size, 1e-12 * deck.time.end, deck.time.end)) continue;
     if (boxes_meet(shapes[a], shapes[b], -size, 0, 1e-12 * deck.time.end)) continue;  // as drawn
     warnings.push_back({"parts '" + first + "' and '" + second + "'",
-                        "they move towards each other and nothing lets them touch",
-                        deck.contact ? "take them into contact.surfaces" : "contact: {surfaces: all}"});
+                        "they move towards each other and are not in contact",
+                        deck.contact ? "add them to contact.surfaces" : "contact: {surfaces: all}"});
   }
 }
 
@@ -290,16 +291,16 @@ void warn_of_output(const Deck& deck, const Model& model, Warnings& warnings) {
   const double step = model.times.next;
   const auto look = [&](const std::string& key, const std::optional<double>& every) {
     if (every && *every < worth_saying * step)
-      warnings.push_back({key,
-                          "an interval of " + number(*every) + " is shorter than a step, " + number(step),
-                          "every step is written; a longer interval says the same"});
+      warnings.push_back(
+          {key, "an interval of " + number(*every) + " is shorter than a time step, " + number(step),
+           "every time step is written; choose a longer interval"});
   };
   look("output.fields.every", deck.output.fields_.every);
   look("output.history.every", deck.output.history.every);
   if (deck.numerics.energy_error_limit > 0.25)
     warnings.push_back({"numerics.energy_error_limit",
                         "a run goes on with an energy error of " + number(deck.numerics.energy_error_limit),
-                        "results with errors above some hundredths mean little; the default is 0.1"});
+                        "results with errors above a few per cent are unreliable; the default is 0.1"});
 }
 
 }  // namespace

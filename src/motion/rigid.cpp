@@ -79,7 +79,8 @@ Quaterniond turn_by(const Vector3d& v) {
 }
 
 [[noreturn]] void turns_too_far() {
-  throw Breakdown("a rigid part turns too far in one step; time.step_scale or time.step must be smaller");
+  throw Breakdown(
+      "a rigid part rotates too far in one time step; time.step_scale or time.step must be smaller");
 }
 
 constexpr int most_iterations = 50;

@@ -16,8 +16,7 @@ std::string warning_of_pairs(const Model& model, const ParticleSearch& search) {
          written(search.paired.time) +
          " were closer to another than half of their spacing; in tension and in thin sheets particles with "
          "an updated-Lagrangian kernel gather in pairs, and their stress is too low; 'kernel: "
-         "total_lagrangian' holds "
-         "tension";
+         "total_lagrangian' sustains tension";
 }
 
 std::string warning_of_hourglassing(const Model& model, std::size_t part) {
@@ -29,7 +28,7 @@ std::string warning_of_hourglassing(const Model& model, std::size_t part) {
          written(energy.time_of_warning) + " and " +
          (energy.largest_ratio >= 1 ? "exceeded it" : "was " + percent + " % of it") + " at time " +
          written(energy.time_of_largest) +
-         "; what holds it there is the hourglass control more than the material; try smaller elements" +
+         "; hourglass control resists deformation there more than the material does; try smaller elements" +
          (is_one_point_brick ? ", hex8_full in place of hex8," : "") +
          " or loads spread over more nodes (limit: numerics.hourglass_warning)";
 }
@@ -37,11 +36,12 @@ std::string warning_of_hourglassing(const Model& model, std::size_t part) {
 std::string warning_of_crossing(const Model& model, const ContactScene::Unresolved& unresolved) {
   const auto name = [&](int node) { return name_of_node(model, static_cast<std::size_t>(node)); };
   const std::string pair = unresolved.node[0] < 0
-                               ? std::string("what is pushed behind a rigid wall")
+                               ? std::string("a node pushed behind a rigid wall")
                                : name(unresolved.node[0]) + " and " + name(unresolved.node[1]);
   return "contact: in " + std::to_string(unresolved.steps) + (unresolved.steps == 1 ? " step" : " steps") +
          " surfaces were not kept from crossing, first at time " + written(unresolved.time) + ": " + pair +
-         "; look whether prescribed motions drive them into each other; try smaller steps (time.step_scale)";
+         "; check whether prescribed motions drive them into each other; try a smaller time step "
+         "(time.step_scale)";
 }
 
 }  // namespace

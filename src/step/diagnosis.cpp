@@ -97,16 +97,17 @@ std::string likely_cause(const Model& model, const Fastest& fastest) {
     return "contact has added " + written(energy.contact.at_step()) + "; try contact.passes: 100, or " +
            smaller_step(model);
   if (std::abs(energy.hourglass) > large_share * energy.reference)
-    return "hourglass motion has " + written(energy.hourglass) + "; try hex8_full, more elements, or " +
+    return "hourglass energy is " + written(energy.hourglass) + "; try hex8_full, more elements, or " +
            smaller_step(model);
   if (speed > fast)
-    return "elements are crushed faster than the step can follow; try " + smaller_step(model) +
+    return "elements are crushed within few time steps; try " + smaller_step(model) +
            ", deletion: {inverted: true}, or smaller elements";
   for (const Block& block : model.blocks)
     if (block.precision == Precision::single_precision)
-      return "the step is too long, or rounding of single precision; try numerics.precision: double, then " +
+      return "the time step is too large, or rounding in single precision; try numerics.precision: double, "
+             "then " +
              smaller_step(model);
-  return "the step is too long for what happens there; try " + smaller_step(model);
+  return "the time step is too large for the motion there; try " + smaller_step(model);
 }
 
 }  // namespace
@@ -125,11 +126,11 @@ std::string element_name(const Model& model, std::size_t block, std::size_t elem
 std::string cause_of_energy_error(const Model& model) {
   const Fastest fastest = fastest_node(model);
   if (fastest.part == nullptr)
-    return "all parts are rigid: likely they meet faster than the step can follow; try " +
+    return "all parts are rigid: likely the time step does not resolve their impact; try " +
            smaller_step(model);
   const std::string place = element_at(model, *fastest.part, fastest.node);
   if (!fastest.finite) return "in " + place + " " + not_a_number;
-  return "what moves fastest is " + place + ", at " + written(fastest.speed) +
+  return "the largest velocity is at " + place + ", at " + written(fastest.speed) +
          " of the speed of sound; likely cause: " + likely_cause(model, fastest);
 }
 
@@ -139,9 +140,9 @@ std::string cause_of_collapse(const Model& model) {
     return "likely cause: in " + element_at(model, *fastest.part, fastest.node) + " " + not_a_number;
   if (fastest.part != nullptr && starts_too_fast(model, speed_of_sound(model.blocks[fastest.part->block])))
     return "likely cause: parts start faster than sound; check units and velocities of the deck";
-  return "likely cause: it is crushed or torn; try deletion: {inverted: true} or a failure of its "
+  return "likely cause: the element is crushed or torn; try deletion: {inverted: true} or a failure of its "
          "material, " +
-         smaller_step(model) + ", or contact that keeps others out of it";
+         smaller_step(model) + ", or contact that keeps other bodies out of it";
 }
 
 }  // namespace brio

@@ -43,8 +43,8 @@ void expect_driven_bodies_apart(const Model& model, const ContactScene& scene) {
     std::ostringstream text;
     text << "rigid part '" << name_of(first_is_faster ? first : second) << "' is driven into rigid part '"
          << name_of(first_is_faster ? second : first) << "', " << -gap << " deep at time " << model.times.time
-         << ": the motion of both is prescribed and neither gives way; end the motion where they meet, leave "
-            "a component of one of them free, or let the two never touch (contact.pairs, touch: false)";
+         << ": the motion of both is prescribed; end the motion at contact, leave a component of one of them "
+            "free, or exclude the pair from contact (contact.pairs, touch: false)";
     throw Breakdown(text.str());
   }
 }

@@ -43,9 +43,9 @@ void expect_no_leap(const Model& model, const KineticEnergy& kinetic) {
   const Leap leap = largest_change(model.nodes, model.times.mean());
   if (!(leap.speed > most)) return;
   throw Breakdown(
-      "forces throw " + name_of_node(model, leap.node) + " " +
+      "forces move " + name_of_node(model, leap.node) + " " +
       written(leap.speed * model.times.next / model.extent.width) +
-      " widths of the scene away in one step, at time " + written(model.times.time) +
+      " widths of the scene in one time step, at time " + written(model.times.time) +
       "; likely cause: loads that are too large for the masses they act on; check units, densities "
       "and loads of the deck");
 }
@@ -69,8 +69,8 @@ void refuse_crowd(const Model& model) {
     }
   }
   throw Breakdown(
-      "everything comes near everything in one step, at time " + written(model.times.time) + ": " +
-      name_of_node(model, fastest) + " moves " +
+      "too many contact candidates (all is near all) in one time step, at time " + written(model.times.time) +
+      ": " + name_of_node(model, fastest) + " moves " +
       written(std::sqrt(largest) * model.times.next / model.extent.width) +
       " widths of the scene relative to the mean of all; likely cause: velocities or loads that are "
       "too large; check units, densities, velocities and loads of the deck");

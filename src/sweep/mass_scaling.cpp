@@ -47,8 +47,10 @@ AddedMass make_mass_scaling(const TimeSection& time, const Deck& deck, std::span
   AddedMass mass{.settings = *time.mass_scaling, .added = std::vector<double>(parts.size())};
   for (const Connection& connection : deck.connections)
     if (std::holds_alternative<TieToSurface>(connection))
-      throw BuildError("time.mass_scaling does not go with 'tie' in connections: held nodes lend their mass",
-                       mass.settings.place);
+      throw BuildError(
+          "time.mass_scaling does not go with 'tie' in connections: the mass of tied nodes is on the nodes "
+          "of the main surface",
+          mass.settings.place);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Block& block = blocks[parts[p].block];
     if (!can_be_scaled(block.element)) continue;

@@ -231,7 +231,7 @@ TEST_F(Program, CheckOfARunThatCannotStartEndsWithThree) {
   write("cube.yaml", small_deck);
   const Ending ending = brio("check cube.yaml --set time.step=1e-3");
   EXPECT_EQ(ending.exit_code, 3);
-  EXPECT_NE(ending.faults.find("exceeds the stable step"), std::string::npos) << ending.faults;
+  EXPECT_NE(ending.faults.find("exceeds the stable time step"), std::string::npos) << ending.faults;
 }
 
 TEST_F(Program, UnwritableFolderEndsWithFour) {

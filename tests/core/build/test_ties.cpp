@@ -407,7 +407,7 @@ TEST(Ties, OfOneNodeToTwoFacesAreRefused) {
 TEST(Ties, InACircleAreRefused) {
   Deck deck = two_boxes({2, 2, 2}, {2, 2, 2});
   deck.connections.push_back(tied("coarse.zmax", "fine"));
-  EXPECT_NE(fault_of(deck).find("would be held by a face that it holds itself"), std::string::npos);
+  EXPECT_NE(fault_of(deck).find("would be tied to a face whose nodes are tied to it"), std::string::npos);
 }
 
 TEST(Ties, OfSupportedNodesToFreeFacesAreRefused) {

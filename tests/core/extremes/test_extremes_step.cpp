@@ -82,7 +82,7 @@ TEST_P(ExtremesStep, AboveTheBoundIsRefusedByName) {
     FAIL() << "ran";
   } catch (const Breakdown& breakdown) {
     const std::string text = breakdown.what();
-    EXPECT_NE(text.find("exceeds the stable step"), std::string::npos) << text;
+    EXPECT_NE(text.find("exceeds the stable time step"), std::string::npos) << text;
     EXPECT_NE(text.find(" of part 'body'"), std::string::npos) << text;
   }
 }

@@ -89,7 +89,7 @@ TEST(Warnings, OfAPartThatNothingConcerns) {
   Deck deck = blocks();
   deck.parts.push_back(box("idle", {1, 1, 1}, {3, 3, 3}, {5, 0, 0}, hex8()));
   deck.contact->exclude = {"idle"};
-  expect_one(deck, "part 'idle'", "nothing moves");
+  expect_one(deck, "part 'idle'", "no motion, load");
   for (const BoundaryCondition& condition : {BoundaryCondition{fix("idle.bottom", {0, 1, 2})}}) {
     deck.boundary_conditions = {condition};
     expect_none(deck);
@@ -104,7 +104,7 @@ TEST(Warnings, OfAPartThatNothingConcerns) {
 TEST(Warnings, OfOneElementThroughAPlate) {
   Deck deck = blocks();
   deck.parts[0] = box("lower", {4, 4, 0.3}, {12, 12, 1}, {0, 0, 0}, hex8());
-  expect_one(deck, "part 'lower'", "one element of one point");
+  expect_one(deck, "part 'lower'", "one element with one integration point");
   deck.parts[0] = box("lower", {4, 4, 0.6}, {12, 12, 2}, {0, 0, 0}, hex8());
   expect_none(deck);
   deck.parts[0] = box("lower", {4, 4, 0.3}, {12, 12, 1}, {0, 0, 0}, Hex8Full{});
@@ -122,7 +122,7 @@ TEST(Warnings, OfOneElementAcrossABarUnlessItIsOnlyHitAlong) {
   deck.initial_conditions = {moving("right", {-10, 0, 1})};
   const std::vector<SceneWarning> warnings = warnings_of(deck);
   ASSERT_EQ(warnings.size(), 2u);
-  EXPECT_NE(warnings[0].what.find("one element of one point"), std::string::npos);
+  EXPECT_NE(warnings[0].what.find("one element with one integration point"), std::string::npos);
 }
 
 TEST(Warnings, OfElementsWithoutHourglassControl) {
@@ -202,7 +202,7 @@ TEST(Warnings, OfParticlesOfNowThatAreSolid) {
 TEST(Warnings, OfOutputAtEveryStepAndLooseLimits) {
   Deck deck = blocks();
   deck.output.history.every = 1e-9;
-  expect_one(deck, "output.history.every", "shorter than a step");
+  expect_one(deck, "output.history.every", "shorter than a time step");
   deck.output.history.every = 1e-3;
   expect_none(deck);
   deck.numerics.energy_error_limit = 0.5;

@@ -269,7 +269,7 @@ constexpr Edit edits[] = {
     {"time: {end", "connections: [{tie: [^left.zmni, right], tolerance: 1}]\ntime: {end",
      "part 'left' has no set 'zmni'; did you mean 'zmin'?"},
     {"time: {end", "connections: [{tie: ^[left], tolerance: 1}]\ntime: {end",
-     "'tie' takes a part or a set, and the part whose faces hold its nodes"},
+     "'tie' takes a part or a set, and the part whose faces its nodes are tied to"},
     {"time: {end", "connections: [{tie: ^[left.zmin, left], tolerance: 1}]\ntime: {end",
      "'tie' takes two different parts"},
     {"time: {end", "connections: [^{tie: [left, right]}]\ntime: {end", "has no 'tolerance'; it is required"},

@@ -68,7 +68,7 @@ constexpr Edit edits[] = {
     {fixed, "{set: ^body.top, fix: [x]}", "", "moves as a whole"},
     {thrown, "{set: ^body.top, velocity: [1, 0, 0]}", "", "moves as a whole"},
     {thrown, "{part: ^cube, radial: {point: [0, 0, 0], axis: [0, 0, 1], speed: 1}}", "",
-     "no direction to move in"},
+     "no radial direction"},
     {thrown, "{part: ^body, radial: {point: [0, 0, 0], axis: [0, 0, 1], speed: 1}}", "", "rigid part"},
     // two motions of one component
     {fixed, "{part: cube, fix: [x]}, {set: cube.top, velocity: {x: ^1}}", "",

@@ -1,6 +1,6 @@
 #pragma once
-/// Contact surfaces of which elements are deleted. Only scenes that were made erodible carry this; the work
-/// of a deletion is proportional to what is deleted.
+/// Erosion of contact surfaces: their elements are deleted. Only scenes that were made erodible carry this;
+/// the work of a deletion is proportional to what is deleted.
 
 #include <cstdint>
 #include <optional>
@@ -25,8 +25,8 @@ struct ContactErosion {
 /// Prepare a scene, made from these parts, for deletions.
 void make_erodible(ContactScene& scene, std::span<const SurfacePart> parts, const Nodes& nodes);
 
-/// Delete elements, in any order, between two steps: their faces end their contacts, sides laid bare and
-/// their nodes may be touched from the next call of `resolve` on, and all other contacts go on.
+/// Delete elements, in any order, between two steps: contacts of their faces end, newly exposed sides and
+/// their nodes are in contact from the next call of `resolve` on, and all other contacts continue.
 void erode(ContactScene& scene, std::span<const SurfaceElement> deleted);
 
 }  // namespace brio

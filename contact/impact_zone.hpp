@@ -1,7 +1,7 @@
 #pragma once
-/// The last resort against crossings: what a set of hits joins moves on as one rigid piece for the step
-/// (rigid impact zones: Provot 1997; Harmon, Vouga, Tamstorf, Grinspun 2008). Linear and angular momentum are
-/// kept; energy is lost as in a plastic impact.
+/// Impact zone, the last resort against crossings: nodes joined by hits move as one rigid body for the time
+/// step (rigid impact zones: Provot 1997; Harmon, Vouga, Tamstorf, Grinspun 2008). Linear and angular
+/// momentum are conserved; energy is dissipated as in a plastic impact.
 
 #include <bitset>
 #include <span>
@@ -21,18 +21,18 @@ struct ZoneMember {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the position
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
   std::bitset<6> prescribed = 0;  ///< components of the velocity, then of the angular velocity
-  /// What the others of the zone give it, supports not included: their sum is zero, and so is that of their
-  /// moments. A prescribed component keeps its velocity: its support takes what it is given.
+  /// Impulse and moment by the other members, without supports: they sum to zero. A prescribed component
+  /// keeps its velocity: its support balances the impulse.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
 };
 
-/// Impulses after which the members move as one rigid body: of all motions of one that have what is
-/// prescribed, that of the least kinetic energy of the change. Where no rigid motion has what is prescribed,
-/// the one that comes nearest to it (least squares).
+/// Impulses after which the members move as one rigid body: of all rigid motions with the prescribed
+/// components, the one with the least kinetic energy of the change. Where none has them, the closest one
+/// (least squares).
 void find_zone_impulses(std::span<ZoneMember> members);
 
 /// Join the nodes of the present hits to zones, those of earlier calls in the step included, and move each
-/// zone as one; a node that is held by a tie moves with its corners. Velocities are those of `nodes` and
+/// zone as one; a tied node moves with its corners. Velocities are those of `nodes` and
 /// `bodies`, impulses are added to ContactScene::zone_impulse and to the bodies.
 void move_zones_as_one(ContactScene& scene, Nodes& nodes, const Ties& ties, std::span<RigidMotion> bodies);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a deck may say about contact beside the list of surfaces. Every default states its reason.
+/// Settings of contact besides the list of surfaces. Every default states its reason.
 
 #include "contact/search/search.hpp"
 #include "src/base/fields.hpp"
@@ -9,33 +9,32 @@ namespace brio {
 struct ContactOptions {
   /// Coulomb coefficient; none unless asked for.
   double friction = 0;
-  /// Tens of iterations over the constraints of a step at most; what has converged takes fewer.
+  /// Largest number of iterations over the constraints of a time step, in tens.
   int passes = 20;
-  /// Converged: no relative velocity changes by more than this share of the largest that an impulse stands
-  /// for.
+  /// Converged: no relative velocity changes by more than this fraction of the largest that corresponds to an
+  /// impulse.
   double tolerance = 1e-3;
   SearchStrategy search = SearchStrategy::automatic;
-  /// Length by which boxes are grown so that the search can be skipped, over the mean edge of the surface.
+  /// Search margin (Verlet skin) of boxes, over the mean edge of the surface.
   double reach_buffer = 0.2;
-  /// Look along the motion of each step for what would cross, and prevent it; without it what is fast passes
-  /// through what is thin.
+  /// Continuous collision detection in each time step; without it fast bodies pass through thin ones.
   bool velocity_check = true;
-  /// Let edges of faces meet each other; without it crossed edges sink in as far as their nodes are apart.
+  /// Edge-edge contact of faces; without it crossed edges penetrate up to the distance of their nodes.
   bool edges = true;
-  /// Share of an old overlap of a tenth of the smallest edge that a step may remove, of shallower ones the
-  /// less the shallower they are, ...
+  /// Fraction of an overlap of a tenth of the smallest edge removed in a time step, of smaller ones
+  /// proportionally less, ...
   double overlap_recovery = 0.1;
-  /// ... and the most it may remove, over the smallest edge: about 0.001 of the speed of sound, so that no
-  /// overlap, whatever its depth, turns into a kick.
+  /// ... and the largest length removed, over the smallest edge: about 0.001 of the speed of sound, so that
+  /// no overlap of any depth causes an impact.
   double overlap_recovery_cap = 1e-3;
-  /// Scale of the thickness at which shells touch; 1 is the true thickness at the start. It is kept: in the
-  /// hinge of a fold a shell thickens by as much as its edges shorten, and neighbours would meet that are no
-  /// fold (in the crushed can contact then adds 0.7 % of the energy and misses two contacts, measured).
+  /// Scale of the contact thickness of shells; 1 is the initial thickness. It stays constant: in the hinge of
+  /// a fold a shell thickens by as much as its edges shorten, and neighbours that are no fold would be in
+  /// contact (in the crushed can contact then adds 0.7 % of the energy and misses two contacts, measured).
   double shell_thickness_scale = 1;
   /// Initial overlaps up to this share of the edge (or of the thickness of a shell) are removed by moving
   /// nodes before the first step; deeper ones are an error of the input.
   double initial_overlap_limit = 0.2;
-  /// Count at every dump of fields what contact should have kept apart and did not (contact/audit/audit.hpp).
+  /// Contact audit: count undetected penetrations at every dump of fields (contact/audit/audit.hpp).
   bool audit = false;
 
   static constexpr auto fields() {

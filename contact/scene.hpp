@@ -1,11 +1,11 @@
 #pragma once
-/// One contact scene: surfaces that may touch each other and themselves, and what is remembered between
-/// steps.
+/// A contact scene: surfaces in contact with each other and themselves, and the contact history.
 ///
 ///     ContactScene scene = make_contact_scene(options, parts, nodes);
 ///     each step, positions at n, velocities predicted for n+1/2:  resolve(scene, nodes, dt, team);
 ///
-/// Only velocities are changed. Allocates nothing once as many pairs and contacts have been seen.
+/// Only velocities are changed. Arrays are reused: nothing is allocated for fewer pairs and contacts than
+/// before.
 
 #include <array>
 #include <cstdint>
@@ -32,22 +32,22 @@
 
 namespace brio {
 
-/// What contact did in the last step. Work is that of all impulses J on all nodes, J.v with the velocities of
-/// the half step before and of the half step after; the mean of both is what motion gained by contact
-/// (negative: lost).
+/// Contact in the last step. Work is that of all impulses J on all nodes, J.v with the velocities of the half
+/// step before and of the half step after; the mean of both is the kinetic energy added by contact (negative:
+/// dissipated).
 struct ContactStep {
   double normal_work_before = 0;
   double normal_work_after = 0;
   double friction_work_before = 0;
   double friction_work_after = 0;
-  int contacts = 0;            ///< constraints, touching or about to
+  int contacts = 0;            ///< constraints, closed or about to close
   int active = 0;              ///< of these, with an impulse
   double deepest_overlap = 0;  ///< at the beginning of the step
   int passes = 0;
-  double residual = 0;  ///< relative velocity changed in the last pass
+  double residual = 0;  ///< change of a relative velocity in the last iteration
   bool searched = false;
   double search_seconds = 0;  ///< wall time
-  /// Reactions of the supports: what they do to keep prescribed components of motion as they are.
+  /// Reactions of the supports of prescribed components of motion.
   double support_work_before = 0;
   double support_work_after = 0;
   Eigen::Vector3d support_impulse = Eigen::Vector3d::Zero();
@@ -63,8 +63,8 @@ struct ContactStep {
 struct ContactTotals {
   double normal_work = 0;          ///< net
   double normal_work_added = 0;    ///< sum of the positive steps
-  double largest_normal_work = 0;  ///< largest net sum so far: how much contact has ever added
-  double friction_work = 0;        ///< not positive but for rounding and the supports' share
+  double largest_normal_work = 0;  ///< largest net sum so far: energy added by contact
+  double friction_work = 0;        ///< not positive, except for rounding and supports
   double deepest_overlap = 0;
   std::uint64_t steps = 0;
   std::uint64_t contacts = 0;  ///< sum over the steps, as are passes
@@ -107,7 +107,7 @@ struct ContactScene {
   std::vector<Eigen::Vector3d> zone_impulse;  ///< of each slave node, in this step; empty: no zone
   std::vector<int> zone_of;                   ///< of each slave node and body
   std::uint64_t steps_with_hits = 0, rounds = 0, zones = 0;
-  /// Steps that ended with something about to cross, and the first such pair.
+  /// Steps that ended with an unresolved crossing, and the first such pair.
   struct Unresolved {
     std::uint64_t steps = 0;
     std::array<int, 2> node{-1, -1};  ///< global, of either side
@@ -115,7 +115,7 @@ struct ContactScene {
   } unresolved;
 
   LoadedNodes loaded;
-  SlaveSet in_contact;                          ///< nodes that rows have moved in this step
+  SlaveSet in_contact;                          ///< nodes moved by rows in this step
   std::vector<Eigen::Vector3d> velocity;        ///< of each slave node; up to date for those in contact
   SlaveSet pushed;                              ///< nodes with an impulse in the last step
   std::vector<Eigen::Vector3d> normal_impulse;  ///< of each slave node, in the last step
@@ -129,22 +129,20 @@ struct ContactScene {
 ContactScene make_contact_scene(const ContactOptions& options, std::span<const SurfacePart> parts,
                                 const Nodes& nodes);
 
-/// Correct the predicted velocities of all surface nodes so that nothing passes through anything in this
-/// step.
+/// Correct the predicted velocities of all surface nodes so that no surfaces cross in this time step.
 /// \param bodies rigid bodies, by the numbers that the parts of the surface name. Their nodes carry the
 /// velocities of their bodies on entry; on return the bodies are corrected, and their nodes are left to the
 /// caller
-/// \param ties nodes that surfaces hold, with `hold` said to the scene before; they move with their faces on
-/// entry and on return
+/// \param ties tied nodes, passed to `hold` before; they move with their faces on entry and on return
 /// \param walls as they are at the start of the step, always the same ones
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
              std::span<RigidMotion> bodies = {}, const Ties& ties = {},
              std::span<const ContactWall> walls = {});
 
-/// Let held nodes and what holds them never meet. \param part_of_surface of each part of the ties: its number
-/// in the surface, or -1
+/// Exclude contact between tied nodes and their main surface. \param part_of_surface of each part of the
+/// ties: its number in the surface, or -1
 void hold(ContactScene& scene, const Ties& ties, const std::vector<int>& part_of_surface);
-/// What was released may meet from the next call of `resolve` on.
+/// Allow contact of released nodes from the next call of `resolve` on.
 void let_go(ContactScene& scene, const Ties& ties);
 
 }  // namespace brio

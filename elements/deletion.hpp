@@ -1,6 +1,5 @@
 #pragma once
-/// When elements of a part are taken out of the run, besides by failure of their material: what a deck says
-/// of it.
+/// Criteria of element deletion besides failure of the material, and treatment of free nodes.
 
 #include <array>
 #include <cstdint>
@@ -17,9 +16,9 @@ inline constexpr std::array<std::string_view, 3> deletion_causes{"damage", "plas
 /// By DeletionCause.
 using CountByCause = std::array<std::int64_t, deletion_causes.size()>;
 
-/// What becomes of a node when its last element is deleted.
+/// Treatment of a node whose last element is deleted.
 enum class FreeNodes {
-  keep,  ///< it remains as a free point mass
+  keep,  ///< it is retained as a free point mass
   drop   ///< it is removed; its mass, momentum and kinetic energy count as deleted
 };
 constexpr std::array<NamedValue<FreeNodes>, 2> named_values(FreeNodes) {

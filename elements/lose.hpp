@@ -94,7 +94,7 @@ BRIO_INLINE LostLanes<Real> lost_lanes(const Kind& kind, const Law& law, const D
   return lanes;
 }
 
-/// Lists the elements of the first `count` lanes that are lost, and counts them by cause.
+/// Lists the elements of the first `count` lanes that are to be deleted, and counts them by cause.
 /// \param first_of_chunk place of the chunk's first element \param first_of_pack of the pack's
 template <Floating Real>
 void list_lost(const LostLanes<Real>& lost, int count, std::size_t first_of_chunk, std::size_t first_of_pack,
@@ -109,8 +109,8 @@ void list_lost(const LostLanes<Real>& lost, int count, std::size_t first_of_chun
   }
 }
 
-/// Takes back the forces of lost lanes and their half of the step's work. Of an element that has inverted
-/// nothing of this step can be told: its increments are left out.
+/// Subtracts the forces of deleted lanes and their half of the work of the step. Of an inverted element the
+/// increments of this step are unknown and left out.
 template <class Kind, Floating Real>
 BRIO_INLINE void take_back(LaneMask<Real> lost, const MotionOf<Kind, Lanes<Real>>& motion, double step,
                            ForcesOf<Kind, Lanes<Real>>& forces, Increment<Lanes<Real>>& increment) {
@@ -136,8 +136,8 @@ BRIO_INLINE void take_back(LaneMask<Real> lost, const MotionOf<Kind, Lanes<Real>
   increment.stable_step = where(lost, T(HUGE_VAL), increment.stable_step);
 }
 
-/// Adds to the energies that the elements of a pack have received: `held` has internal energies of all
-/// lanes, then hourglass energies.
+/// Adds to the energies of the elements of a pack: `held` has internal energies of all lanes, then hourglass
+/// energies.
 template <Floating Real>
 BRIO_INLINE void hold(const Increment<Lanes<Real>>& increment, double* held) {
   constexpr int groups = lane_count<Real> / 8;

@@ -1,6 +1,5 @@
 #pragma once
-/// A part that does not deform: what a deck says of it. It has no block and no stress; how it moves is in
-/// src/motion/rigid.hpp.
+/// Settings of a rigid part. It has no block and no stress; its motion is in src/motion/rigid.hpp.
 
 #include <array>
 #include <optional>
@@ -15,7 +14,7 @@ struct Rigid {
   static constexpr int nodes = 0;  ///< as many as the mesh gives its elements
   static constexpr bool rotations = false;
   template <class Law>
-  static constexpr bool accepts = true;  // of a law it takes the density
+  static constexpr bool accepts = true;  // of a material model only the density is used
 
   std::optional<double> thickness;
   std::optional<double> mass;

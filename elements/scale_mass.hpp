@@ -1,14 +1,14 @@
 #pragma once
-/// Mass for elements whose stable step is too short.
+/// Mass scaling of elements whose stable time step is too small.
 
 #include "elements/base/motion.hpp"
 #include "elements/block.hpp"
 
 namespace brio {
 
-/// Gives lanes whose stable step is below that of the block the mass with which it is as long: frequencies go
-/// with the root of the mass. What they got is told by `block.scaled` and `block.mass_gain`; their nodes get
-/// it after the sweep. \param count lanes that are elements
+/// Raises the mass of lanes whose stable time step is below that of the block until it equals it: frequencies
+/// are proportional to 1/sqrt(mass). The added mass is listed in `block.scaled` and `block.mass_gain`, and
+/// added to the nodes after the sweep. \param count lanes that are elements
 template <Floating Real, class Header>
 void scale_mass(Block& block, Chunk chunk, std::size_t pack, int count, Header& header,
                 Lanes<Real>& stable_step, SweepResult& result) {

@@ -1,8 +1,8 @@
 #pragma once
 /// What elements and materials exchange.
 ///
-/// A material is a plain struct: parameters with their `fields()`, `template <class T> struct History`, and
-/// pointwise updates on a number-like `T` (lanes.hpp). It provides
+/// A material model is a plain struct: parameters with their `fields()`, `template <class T> struct History`,
+/// and pointwise updates on a number-like `T` (lanes.hpp). It provides
 ///
 ///     template <class T> void update(const SymmetricTensor<T>& strain_increment, SymmetricTensor<T>& stress,
 ///                                    History<T>& history) const;                       // solids

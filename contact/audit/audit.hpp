@@ -1,7 +1,7 @@
 #pragma once
-/// The contact audit: what contact should have kept apart and did not, at the present positions. It knows no
-/// sides, no history and no normals of vertices, and shares with detection the surface and the pairs that
-/// never meet, nothing else: its search, its predicates and its distances are its own.
+/// Contact audit: brute-force count of undetected penetrations at the present positions. It uses no sides, no
+/// history and no vertex normals, and shares with detection only the surface and the excluded pairs: its
+/// search, predicates and distances are its own.
 ///
 /// - *Crossings*: every edge and both diagonals of every face, and every beam, against the triangles of every
 ///   face (a quadrilateral is cut along the diagonal from its corner 0; shells are their middle surfaces).

@@ -1,11 +1,13 @@
 #pragma once
-/// Which pairs are awake: those that may come within their radii and the band in this step, by their paths.
+/// Active pairs: those that may come within their radii and the band in this step, by the bounds of their
+/// motion.
 ///
-/// Pairs sleep in blocks. What a block's least sleepy pair has left, put on top of the longest paths of the
-/// pairs of a relation, is a sum that their longest look ahead must reach before any pair of that relation in
-/// the block can wake: until then the block costs one comparison for each of its few relations. It is exact:
-/// no pair's path grows by more than the longest of its relation. Pairs of the block that are awake are
-/// looked at by themselves until they sleep as the others do.
+/// An inactive pair has a motion bound: the path that its features may travel before it has to be
+/// reactivated. Pairs are grouped in blocks. The least remaining path in a block, added to the longest paths
+/// of the pairs of a relation, is a bound that their longest predicted path must reach before any pair of
+/// that relation in the block can become active: until then the block costs one comparison for each of its
+/// few relations. The bound is exact: no pair's path grows by more than the longest of its relation. Active
+/// pairs of the block are examined one by one until they are inactive.
 
 #include <array>
 #include <cstdint>
@@ -16,25 +18,25 @@
 
 namespace brio {
 
-/// What is known of a block of pairs.
+/// State of a block of pairs.
 struct alignas(64) PairBlock {
   std::uint64_t version = 0;  ///< of the list, for which the relations were found
-  std::uint32_t awake = 0;    ///< bit i: pair i of the block was awake in the last step
+  std::uint32_t awake = 0;    ///< bit i: pair i of the block was active in the last step
   std::int8_t relations = 0;  ///< -1: too many
-  bool sleeps = false;        ///< all others
+  bool sleeps = false;        ///< whether all others are inactive
   std::array<int, 12> relation{};
-  std::array<double, 12> wake{};  ///< longest look ahead of the relation at which it is looked into
+  std::array<double, 12> wake{};  ///< longest predicted path of the relation at which the block is examined
 };
 
 /// Of all blocks of one list of pairs, and working space.
 struct PairBlocks {
   std::vector<PairBlock> block;
-  std::uint64_t restarts = 0;      ///< of the motion that this was found for
+  std::uint64_t restarts = 0;      ///< of the motion for which this was found
   std::vector<int> found;          ///< by ranges
   std::vector<std::size_t> count;  ///< of each range
 };
 
-/// The pairs, ascending, but for those whose looks ahead and a surplus do not reach their wakes.
+/// The active pairs, ascending: those whose predicted paths and a surplus reach their motion bounds (`wake`).
 void select_awake_pairs(PairBlocks& blocks, const PairList& pairs, const PathAndAhead& first,
                         const PathAndAhead& second, const FeatureMotion& motion, double surplus,
                         ThreadTeam& team, std::vector<int>& awake);

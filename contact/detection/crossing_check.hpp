@@ -1,6 +1,6 @@
 #pragma once
-/// Pairs that no direction separates over a step, by the velocity checks, which miss nothing
-/// (velocity_check.hpp, edge_check.hpp): whether they touch, and the constraints that keep them apart.
+/// Pairs without a separating plane over a time step: whether they come into contact, by the velocity checks,
+/// which have no false negatives (velocity_check.hpp, edge_check.hpp), and the constraints that prevent it.
 
 #include <optional>
 
@@ -8,7 +8,7 @@
 
 namespace brio {
 
-/// Edges that are points keep this share of their radii from each other ...
+/// Edges that are points keep this fraction of the sum of their radii ...
 inline constexpr double floor_of_points = 0.5;
 /// ... or of the distance at the start, where that is less.
 inline constexpr double floor_at_start = 0.9;

@@ -1,6 +1,6 @@
 #pragma once
-/// From closest points that are near to constraints: what is a local minimum of distance on the union of the
-/// surfaces, and approaches enough to matter in this step (proximity.hpp).
+/// Selects, among near closest points, the constraints: local minima of distance on the union of the surfaces
+/// that approach enough in this step (proximity.hpp).
 
 #include <span>
 

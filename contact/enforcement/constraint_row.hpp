@@ -1,12 +1,12 @@
 #pragma once
-/// One row of constraint for all that holds or pushes: contact, wall, support. A row knows the velocity of
-/// its first side relative to its second as a linear map of velocity blocks,
+/// Constraint row of a contact, a wall or a support: the velocity of its first side relative to its second as
+/// a linear map of velocity blocks,
 ///     u = sum (weight v + n_tilt (normal . v)) + sum (omega x arm) + sum (matrix v) - wall velocity,
-/// and the transpose of the map gives the impulses on the blocks. Whether a side is nodes, a face with its
-/// thickness, a shell with rotations, a rigid body or a wall shows only in its entries.
+/// whose transpose gives the impulses on the blocks. Nodes, faces with thickness, shells with rotations,
+/// rigid bodies and walls differ only in their entries.
 ///
-/// A point that stands off its face by a height (across thickness or gap) moves with the spin of the face, so
-/// that friction has its moment: then the impulses of a row have no moment about any point, to rounding.
+/// A contact point at a height above its face (across thickness or gap) moves with the spin of the face, so
+/// that friction has a moment: the impulses of a row then have no moment about any point, to rounding.
 
 #include <cstdint>
 #include <span>
@@ -37,7 +37,7 @@ struct RotationEntry {
   int block;
   Vector3<double> arm;
 };
-/// What is neither: matrix v.
+/// Any other: matrix v.
 struct MatrixEntry {
   int block;
   Tensor<double> matrix;
@@ -51,16 +51,16 @@ struct EntryRange {
 };
 
 struct ConstraintRow {
-  Vector3<double> normal;           ///< unit vector from the second side to the first: the way that is pushed
-  Vector3<double> tangent[2];       ///< complete the normal
-  double gap = 0;                   ///< at the beginning of the step; negative: overlap
-  double friction_coefficient = 0;  ///< Coulomb's
-  double target_velocity = 0;       ///< least normal relative velocity
-  double impulse = 0;               ///< along the normal, on the first side; never negative
-  double normal_work = 0;           ///< of the normal impulse on motion, in the step
+  Vector3<double> normal;                  ///< unit vector from the second side to the first
+  Vector3<double> tangent[2];              ///< complete the normal
+  double gap = 0;                          ///< at the beginning of the step; negative: overlap
+  double friction_coefficient = 0;         ///< Coulomb's
+  double target_velocity = 0;              ///< least normal relative velocity
+  double impulse = 0;                      ///< along the normal, on the first side; never negative
+  double normal_work = 0;                  ///< work of the normal impulse in the step
   Vector3<double> friction{0, 0, 0};       ///< tangential impulse on the first side
   Vector3<double> wall_velocity{0, 0, 0};  ///< of an immovable second side
-  Vector3<double> point{0, 0, 0};          ///< where a wall is touched, for its moment
+  Vector3<double> point{0, 0, 0};          ///< contact point at a wall, for its moment
   int wall = -1;                           ///< number of the wall; -1: none
   EntryRange translation, rotation, matrix;
 };
@@ -71,9 +71,9 @@ enum class Side { first = 1, second = -1 };
 struct FaceFoot {
   int corners = 4;
   int block[4];                     ///< translation of each corner
-  int rotation[4]{-1, -1, -1, -1};  ///< of corners that turn (shells, beams)
+  int rotation[4]{-1, -1, -1, -1};  ///< of corners with rotations (shells, beams)
   double weight[4];                 ///< shape functions
-  Vector3<double> gradient[4];      ///< of the shape functions along the face (solids that stand off)
+  Vector3<double> gradient[4];      ///< of the shape functions along the face (solids with a height)
   Vector3<double> normal;           ///< unit normal of the face (likewise)
 };
 /// Gradients and normal by the dual basis of a face at the foot: sum over a of g^a N_k,a.
@@ -82,7 +82,7 @@ struct FaceFoot {
 void set_gradients(FaceFoot& foot, std::span<const Vector3<double>> corner, std::span<const double> along,
                    std::span<const double> across);
 
-/// Rows and their entries. Allocates nothing once as many rows have been seen.
+/// Rows and their entries. Arrays are reused: nothing is allocated for fewer rows than before.
 struct ConstraintRows {
   std::vector<ConstraintRow> row;
   std::vector<TranslationEntry> translation;
@@ -92,13 +92,13 @@ struct ConstraintRows {
   std::size_t size() const { return row.size(); }
   void clear();
 
-  /// A new row; what is added next belongs to it. The reference is valid until the next row.
+  /// A new row; the entries added next belong to it. The reference is valid until the next row.
   ConstraintRow& add_row(const Vector3<double>& normal, double gap, double friction_coefficient);
 
-  /// All that follow add to the last row. A block that it names already is joined to that entry.
+  /// These add entries to the last row. An entry of a block that it has already is summed to it.
   void add_point(int block, Side side, double weight = 1);
   void add_nodes(std::span<const int> blocks, std::span<const double> weights, Side side);
-  /// A point that stands `height` along the row's normal off a node that can turn.
+  /// A point at `height` along the row's normal above a node with rotations.
   void add_turning_point(int block, int rotation, double height, Side side, double weight = 1);
   /// The point foot + height normal of a face: of a shell where it has rotations, else of a solid. A height
   /// of 0 needs neither gradients nor normal.
@@ -135,11 +135,11 @@ class RowMap {
     return {rows_.matrix.data() + row_.matrix.begin, row_.matrix.size()};
   }
 
-  /// Velocity of the first side relative to the second, a wall taken to stand still.
+  /// Velocity of the first side relative to the second, for a wall at rest.
   /// \param velocity_of velocity of a block by its number.
   template <class VelocityOf>
   Vector3<double> velocity(VelocityOf&& velocity_of) const;
-  /// Relative velocity of the blocks, the wall's motion included.
+  /// Relative velocity including the motion of the wall.
   Vector3<double> relative_velocity(std::span<const VelocityBlock> blocks) const {
     return velocity([&](int b) { return blocks[static_cast<std::size_t>(b)].velocity; }) - row_.wall_velocity;
   }

@@ -1,18 +1,19 @@
 #pragma once
-/// Rows of contacts, and the unknowns that they name: translations and rotations of nodes and of rigid
-/// bodies. Held nodes (ties.hpp) are no unknowns: what pushes them is expanded to the corners that hold them,
-/// over chains of ties and with their arms.
+/// Constraint rows of contacts, and their unknowns: translations and rotations of nodes and of rigid bodies.
+/// Tied nodes (ties.hpp) are no unknowns: they are expanded into the corners of their main face, over chains
+/// of ties and with their arms.
 ///
 /// Without friction both impulses of a row act along the line through the closest points. Friction acts at
-/// one point of that line on both sides, so that linear and angular momentum are kept to rounding. Where it
-/// lies says what can take the couple of a side that it stands off from:
+/// one point of that line on both sides, so that linear and angular momentum are conserved to rounding. The
+/// position of that point depends on what resists the couple of a side:
 ///   rigid body                    the body, at any distance
 ///   shell, beam                   the rotations of its nodes
-///   solid                         the tilt of the faces at the closest point, more of those that look along
-///                                 the normal; none of them is preferred, so mirror images are treated alike
+///   solid                         the tilt of the faces at the closest point, weighted by the alignment of
+///   their
+///                                 normals; none is preferred, so mirror images are treated alike
 ///   particle                      nothing: the point lies on it
-/// Between sides of the same kind the point divides the distance as their radii do; a node of a solid
-/// touches where it is. Two particles, and what has neither rotations nor faces, do not rub.
+/// Between sides of the same kind the point divides the distance in the ratio of their radii; for a node of a
+/// solid it is the node. Two particles, and sides without rotations and faces, have no friction.
 
 #include <cstdint>
 #include <span>
@@ -30,7 +31,7 @@
 
 namespace brio {
 
-/// What the velocity of a block is of.
+/// Owner of the velocity of a block.
 struct BlockOwner {
   enum class Kind : std::uint8_t { node, rotation_of_node, body, rotation_of_body };
   Kind kind = Kind::node;
@@ -39,7 +40,7 @@ struct BlockOwner {
 
 /// Allocates nothing once as many rows have been seen.
 struct ContactRows {
-  ConstraintRows rows;  ///< one a contact
+  ConstraintRows rows;  ///< one per contact
   std::vector<VelocityBlock> block;
   std::vector<BlockOwner> owner;        ///< of each block
   std::vector<Vector3<double>> before;  ///< velocities at the half step before
@@ -60,11 +61,11 @@ struct ContactRows {
   std::vector<double> share;        ///< working space
   std::vector<std::uint8_t> taken;  ///< working space
 
-  /// Forget rows and blocks.
+  /// Clear rows and blocks.
   void clear();
 };
 
-/// What rows are made from. Positions are those at the beginning of the step, velocities those predicted.
+/// Input of rows: positions at the beginning of the step, predicted velocities.
 struct RowSources {
   const Surface& surface;
   const SurfaceFeatures& features;
@@ -73,10 +74,10 @@ struct RowSources {
   std::span<const RigidMotion> bodies;
 };
 
-/// Append one row a contact, with the impulses that the contact carries.
+/// Append one row per contact, with the impulses of the contact.
 void add_rows(ContactRows& rows, const RowSources& sources, std::span<const Contact> contacts);
 
-/// Append one row a touch of a wall.
+/// Append one row per contact with a wall.
 void add_rows(ContactRows& rows, const RowSources& sources, std::span<const ContactWall> walls,
               std::span<const NodeAtWall> touches);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Entries by block, in the order of rows: what a block gathers.
+/// Entries by block, in the order of rows: those that a block gathers.
 
 #include <cstdint>
 #include <vector>

@@ -1,35 +1,36 @@
 #pragma once
-/// Impulses of all constraint rows at once, by accelerated projected gradients.
+/// Impulses of all constraint rows at once, by the accelerated projected gradient method.
 ///
 /// Each row requires of the velocities at the end of the step that
 ///     u_n >= target,   impulse >= 0,   one of both an equality,
-/// and Coulomb's law of friction: the tangential impulse lies within the disk of radius friction coefficient
-/// times impulse and opposes sliding on its rim. The disk is that of the impulse just found, so what slides
-/// does not lift (no cone of associated flow).
+/// and Coulomb friction: the tangential impulse lies within the disk of radius friction coefficient times
+/// impulse and opposes sliding on its rim. The disk is that of the impulse just found, so that sliding causes
+/// no separation (no associated cone).
 ///
 /// An iteration takes the velocities v = v_free + M^-1 G^T y of extrapolated impulses y, and
 ///     impulse <- max(0, y_n - (u_n - target) / D),   friction <- disk(y_t - u_t / D),
 /// then extrapolates anew (Nesterov 1983; for contact Mazhar, Heyn, Negrut and Tasora 2015), without momentum
-/// where the step turned against the gradient (restart of O'Donoghue and Candes 2015). There is no order of
-/// rows, so mirror-symmetric scenes stay symmetric; impulses reach a block by a gather in the order of rows,
-/// so bits do not depend on threads.
+/// where the step turned against the gradient (restart of O'Donoghue and Candes 2015). The result does not
+/// depend on the order of rows (unlike Gauss-Seidel), so mirror-symmetric scenes stay symmetric; impulses
+/// reach a block by a gather in the order of rows, so bits do not depend on threads.
 ///
 /// D is a majorant: for any impulses J, J . A J <= sum D_i |J_i|^2 with A = G M^-1 G^T. Let B_e be the entry
 /// e of row i(e), a map of a block's velocity, W the inverse mass of the block, s_i c_e >= |W^(1/2) B_e^T|
 /// with any scale s_i of the row. By Cauchy and Schwarz, over the entries of one block,
 ///     |sum W^(1/2) B_e^T J_i(e)|^2 <= (sum c_e s_i(e) |J_i(e)|)^2 <= S sum c_e s_i(e)^2 |J_i(e)|^2,
 /// where S = sum c_e, and the sum over blocks gives D_i = s_i^2 sum over the entries of row i of c_e S: row
-/// sums of the matrix scaled by s. As scale serves the root of the row's own inverse mass, which makes all
-/// c_e shares of one, so that a row whose block bears others of far more weight is not slowed down by them.
-/// A step is stable whatever the number of rows at a block, and changes impulses by a symmetric matrix times
-/// what is missing: a lag only takes energy. Momentum may overshoot: where the impulses of an island would do
-/// work beyond what is asked for, they are scaled down to where they do none.
+/// sums of the matrix scaled by s. With the root of the row's own inverse mass as
+/// scale all c_e are at most one, and a row is not slowed down by others of far larger mass at the same
+/// block. A step is stable whatever the number of rows at a block, and changes impulses by a symmetric matrix
+/// times the residual: an unfinished iteration only dissipates energy. The extrapolation may overshoot: where
+/// the impulses of an island would add energy beyond the target velocities, they are scaled down until they
+/// add none.
 ///
 /// Rows that share no block that can move, nor are joined by others, are islands: each has its own momentum,
-/// restarts and convergence, so what one does is not seen by another, and what rests costs one check. Small
-/// ones are solved side by side, each by one thread. Where few rows of an island still change, they are
-/// solved alone, the others held, as islands of their own with majorants of their own; then all rows are
-/// iterated again: an island has converged once an iteration of all its rows changes none.
+/// restarts and convergence, so that they do not affect each other, and an island at rest costs one
+/// check. Small ones are solved in parallel, each by one thread. Where few rows of an island still change,
+/// they are solved alone, the others fixed, as islands of their own with majorants of their own; then all
+/// rows are iterated again: an island has converged once an iteration of all its rows changes none.
 
 #include <cstddef>
 #include <span>
@@ -45,8 +46,8 @@ namespace brio {
 
 struct SolveOptions {
   int max_iterations = 50;
-  /// Converged once no relative velocity changes by more than this share of the largest that an impulse
-  /// stands for.
+  /// Converged once no relative velocity changes by more than this fraction of the largest that corresponds
+  /// to an impulse.
   double tolerance = 1e-4;
 };
 
@@ -55,7 +56,7 @@ struct SolveReport {
   int iterations = 0;  ///< most of an island
   int restarts = 0;
   double residual = 0;          ///< largest change of a relative velocity in the last iteration
-  double largest_velocity = 0;  ///< that an impulse stands for
+  double largest_velocity = 0;  ///< corresponding to an impulse
   bool converged = true;
   int islands = 0;
   std::size_t row_iterations = 0;  ///< iterations times rows, summed over islands
@@ -63,8 +64,8 @@ struct SolveReport {
 
 class ImpulseSolver {
  public:
-  /// Start from the impulses of the rows, find those that the rows require and add what they do to the
-  /// velocities of the blocks.
+  /// Solve for the impulses, starting from those of the rows, and add their effect to the velocities of the
+  /// blocks.
   SolveReport solve(const SolveOptions& options, ConstraintRows& rows, std::span<VelocityBlock> blocks,
                     ThreadTeam& team);
 

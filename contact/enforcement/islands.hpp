@@ -1,5 +1,5 @@
 #pragma once
-/// Which rows move which blocks together: sets of blocks joined by rows, found in parallel. The sets do not
+/// Islands: sets of blocks joined by rows, found in parallel. The sets do not
 /// depend on the order in which they are joined.
 
 #include <atomic>

@@ -1,6 +1,6 @@
 #pragma once
-/// Nodes of the surface at rigid walls. Each is a row, so that what a wall pushes and what bodies push on
-/// each other is found together.
+/// Nodes of the surface at rigid walls. Each is a constraint row, so that the impulses of walls and contacts
+/// are found together.
 
 #include <Eigen/Dense>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct ContactWall {
   double friction = 0;  ///< Coulomb's coefficient
 };
 
-/// A node on a wall, with what the wall gave it.
+/// A node in contact with a wall, and its impulses.
 struct NodeAtWall {
   int wall = 0;
   int slave = 0;
@@ -30,7 +30,7 @@ struct NodeAtWall {
 };
 
 struct NodesAtWalls {
-  std::vector<NodeAtWall> touch;      ///< of this step, first those that were expected, by wall and slave
+  std::vector<NodeAtWall> touch;      ///< of this step, first the predicted ones, by wall and slave
   std::vector<NodeAtWall> last;       ///< of the step before, by wall and slave
   std::vector<PushOnWall> push;       ///< on each wall, in this step
   std::vector<std::uint8_t> touches;  ///< of each wall and slave: whether it is listed

@@ -1,5 +1,5 @@
 #pragma once
-/// What relative velocity a row asks for: how what is missing of a gap is recovered.
+/// Overlap recovery: the target relative velocity of a constraint row.
 
 #include <span>
 #include <vector>
@@ -10,37 +10,36 @@
 
 namespace brio {
 
-/// How overlap is recovered in a step.
+/// Parameters of overlap recovery in a time step.
 struct Recovery {
-  double share = 0.1;  ///< of a deep overlap that a step may remove, ...
-  double deep = 0;     ///< ... and from which depth on; of shallower ones the less the shallower they are
-  double cap = 0;      ///< most that a step removes
-  double sunk = 0;     ///< depth that what is under load may keep
+  double share = 0.1;  ///< fraction of a deep overlap removed in a step, ...
+  double deep = 0;     ///< ... from this depth on; of smaller ones proportionally less
+  double cap = 0;      ///< largest overlap removed in a step
+  double sunk = 0;     ///< depth allowed under load
 };
 /// As the options say. \param gap that surfaces without thickness keep. \param deep_share of the smallest
 /// edge: from there on an overlap is deep.
 Recovery recovery_of(const ContactOptions& options, double smallest_edge, double gap,
                      double deep_share = 0.1);
 
-/// Least normal relative velocity over a step: a gap may close, no more; an overlap is opened a little.
-/// Shallow overlaps are opened the slower the shallower they are: where impulses lag behind what iterations
-/// have yet to find, opening in proportion to depth integrates the overlap, which feeds slow vibrations of
-/// what rests. A contact under load is opened the slower the more it carries beyond what a node gains by its
-/// recovery: it would otherwise be opened with any force, and so give energy to what is pressed together; one
-/// that has carried nothing is not opened, since what it will carry is not known.
-/// \param impulse carried over from the step before. \param mass effective mass along the normal; 0
-/// where nothing can move. \param returned velocity at which its load may open it (`LoadedNodes`).
+/// Least normal relative velocity over a step: a gap may close, no more; an overlap is opened slowly. Small
+/// overlaps are opened more slowly: while iterations are unfinished, opening in proportion to depth
+/// integrates the overlap, which excites slow vibrations of bodies at rest. A contact under load is opened
+/// more slowly, the more its impulse exceeds that of the recovery: otherwise it would be opened with any
+/// force and add energy to compressed bodies. A contact without an impulse so far is not opened, since its
+/// load is unknown. \param impulse carried over from the step before. \param mass effective mass along the
+/// normal; 0 where nothing can move. \param returned velocity at which its load may open it (`LoadedNodes`).
 double target_velocity(const Recovery& recovery, double gap, double impulse, double mass, double returned,
                        double dt);
 
-/// Work that contacts under load have taken of the motion of nodes, and that opening them may return.
+/// Energy dissipated by contacts under load, which opening them may return.
 ///
-/// What iterations leave undone lets loaded contacts close by a little in every step, until nothing is left
-/// of their gap. They are opened again, by no more work than they have taken: impulse and work of a contact
-/// belong by half to each of its sides, and there to the nodes by their weights, since a solution may give
-/// the load to any of several constraints between the same nodes; and all contacts together return no more
-/// than all have taken. Nothing is known of nodes that carried nothing in the last step, and an impact, which
-/// takes what a plastic one does, returns nothing.
+/// Unfinished iterations let loaded contacts close a little in every step, until their gap is gone. They are
+/// opened again, with no more work than they have dissipated: impulse and work of a contact are assigned by
+/// half to each of its sides, and there to the nodes by their weights, since a solution may assign the load
+/// to any of several constraints between the same nodes; all contacts together return no more than all have
+/// dissipated. For nodes without load in the last step nothing is stored, and the energy of an impact, which
+/// is plastic, is not returned.
 class LoadedNodes {
  public:
   /// Room for so many slave nodes; what is known of the first stays.

@@ -1,6 +1,6 @@
 #pragma once
-/// Rows of translations and rotations, eight side by side. What an iteration does to a row stands here once,
-/// on a number-like `T`.
+/// Rows of translations and rotations, eight in lanes. The iteration of a row is written once, on a
+/// number-like `T`.
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
-/// Which faces are flat: their diagonals are no features of their own.
+/// Flat faces: their diagonals are no separate features.
 ///
-/// What passes through a flat polygon meets its corners, its sides, or with its own corner the face. A face
-/// counts as flat where it is convex and its hull is thinner than a tenth of the skin, or for what keeps its
-/// radius, than 0.03 of that.
+/// An edge that crosses a flat polygon crosses its sides or corners, or has a node that crosses the face. A
+/// face counts as flat where it is convex and its hull is thinner than a tenth of the skin, or for what keeps
+/// its radius, than 0.03 of that.
 
 #include <Eigen/Dense>
 #include <algorithm>

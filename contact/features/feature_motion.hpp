@@ -1,8 +1,8 @@
 #pragma once
-/// Where the nodes of the surface are at the start and at the end of a step, and how much nearer to each
-/// other features may have come since they were last looked at.
+/// Positions of the nodes of the surface at the start and at the end of a time step, and the motion bound of
+/// features: by how much their distance may have decreased since they were last examined.
 ///
-/// The distance of two features shrinks by no more than the sum of their paths and that of their groups'
+/// The distance of two features decreases by no more than the sum of their paths and that of their groups'
 /// relation (motion_groups.hpp): a path is the sum over the steps of the longest displacement of a corner in
 /// the frame of the group, since a point of a feature is a fixed mean of its corners. Positions move linearly
 /// over a step (bodies that turn: along the chord), so a height above a direction that is positive at both
@@ -33,22 +33,22 @@ class FeatureMotion {
   PathAndAhead of_node, of_face, of_edge;
   MotionGroups groups;
 
-  /// Positions at the start of a step; the displacements to them enter the paths with those at its end.
+  /// Positions at the start of a step; the displacements to them are added to the paths with those at its
+  /// end.
   void begin(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, ThreadTeam& team);
   /// Positions at the end of the step by the velocities of the nodes. The first time in a step paths and
-  /// looks ahead of all features are formed; later as in `end_by_solution`.
+  /// predicted paths of all features are formed; later as in `end_by_solution`.
   void end_by_velocity(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, double dt,
                        std::span<const RigidMotion> bodies, ThreadTeam& team);
 
-  /// Positions at the end of the step of what contact has moved: nodes by their corrected velocities, those
-  /// of rigid bodies by their bodies'. Looks ahead are as predicted, but for nodes that exceed their limits
-  /// and the features at them, which look farther ahead from then on. \param in_contact is kept until the
-  /// next prediction
+  /// Positions at the end of the step of nodes moved by contact: nodes by their corrected velocities, those
+  /// of rigid bodies by their bodies'. Predicted paths stay, except for nodes that exceed their limits and
+  /// the features at them, whose predicted paths are extended. \param in_contact is kept until the next
+  /// prediction
   void end_by_solution(const SurfaceFeatures& features, const Surface& surface, const SlaveSet& in_contact,
                        std::span<const Eigen::Vector3d> corrected, double dt,
                        std::span<const RigidMotion> bodies, ThreadTeam& team);
-  /// By how much nodes may move in this step: a factor times the displacement that is known of them, and a
-  /// surplus.
+  /// Limit of the motion of nodes in this step: a factor times their predicted displacement, and a surplus.
   void set_limits(double factor, double surplus);
   /// Whether the last positions at the end of the step were beyond the limits of any node.
   bool exceeds_limits() const { return exceeds_; }
@@ -71,12 +71,12 @@ class FeatureMotion {
   /// no longer than that.
   bool is_within(int slave, double length) const;
 
-  /// Nothing is known of the last step.
+  /// Forget the last step.
   void forget() { known_ = false; }
-  /// The surface has changed: features may have joined. \param edges new and changed ones
+  /// The surface has changed: features may have been added. \param edges new and changed ones
   void join(const SurfaceFeatures& features, const Surface& surface, const SurfaceChange& change,
             std::span<const int> edges);
-  /// Paths start at zero, in groups formed anew: pairs are found anew.
+  /// Paths start at zero, in new groups: all pairs are searched again.
   void restart(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team);
   std::uint64_t restarts() const { return restarts_; }
 

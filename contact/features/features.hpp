@@ -7,7 +7,7 @@
 /// alike.
 ///
 /// Every feature has a radius: half the thickness of a shell, the radius of a beam or a particle, and for
-/// solids a skin, a stated thickness in which they touch without touching the mesh (`skin_share`).
+/// solids a skin, a small thickness outside of the mesh (`skin_share`).
 
 #include <Eigen/Dense>
 #include <array>
@@ -37,7 +37,7 @@ struct EdgeFeature {
   int round = -1;  ///< of a beam or particle, in Surface::round
   EdgeKind kind = EdgeKind::side;
   bool shell = false;
-  std::uint8_t faces = 0;  ///< that meet here, at most 255
+  std::uint8_t faces = 0;  ///< number of adjacent faces, at most 255
   double radius = 0;
 
   bool is_point() const { return node[0] == node[1]; }
@@ -49,7 +49,7 @@ struct EdgeFeature {
 struct SurfaceFeatures {
   double smallest_edge = 0;  ///< of the surface as built: the scale of skins and bands
   double mean_edge = 0;      ///< as built
-  double skin = 0;           ///< radius of what has no thickness
+  double skin = 0;           ///< contact radius of solids
   std::vector<EdgeFeature> edge;
   bool all_of_faces = true;                                ///< no edge is a beam or a point
   std::vector<std::array<int, 4>> edge_of_face;            ///< sides by corner; -1: none
@@ -66,18 +66,18 @@ struct SurfaceFeatures {
   std::vector<int> retired, free;  ///< numbers of edges that are no more: of the last update, and of before
 };
 
-/// Skin of a solid, over the smallest edge of the surface: two solids touch at twice that distance.
+/// Skin of a solid, over the smallest edge of the surface: two solids are in contact at twice that distance.
 inline constexpr double skin_share = 0.002;
 
 /// Scales of the surface as built.
 void measure(SurfaceFeatures& features, const Surface& surface, const Nodes& nodes);
 
-/// Collect edges, radii and rings anew, in an order that depends on the surface alone.
+/// Collect edges, radii and rings again, in an order that depends on the surface alone.
 void collect(SurfaceFeatures& features, const Surface& surface, const ContactOptions& options);
 
-/// Follow a deletion; edges keep their numbers. \param changed_edges replaced by the numbers of those that
-/// are new, that have changed, or that are no more; those of no more are given away by the next update at the
-/// earliest
+/// Update after a deletion; edges keep their numbers. \param changed_edges replaced by the numbers of those
+/// that are new, that have changed, or that are no more; those of no more are given away by the next update
+/// at the earliest
 void update(SurfaceFeatures& features, const Surface& surface, const ContactOptions& options,
             const SurfaceChange& change, std::vector<int>& changed_edges);
 

@@ -1,8 +1,8 @@
 #pragma once
-/// Groups of nodes, in whose frames paths are measured.
+/// Groups of nodes, in whose moving frames paths are measured.
 ///
 /// Nodes of one body that lie near each other are a group, and its frame moves with their mean displacement:
-/// what flies, or is carried along by a fold, moves little in its own frame. A feature belongs to the group
+/// free bodies, or parts moved by a fold, move little in their own frame. A feature belongs to the group
 /// of its first node. The distance of two features shrinks by no more than both their paths and the path of
 /// one frame relative to the other, which their relation holds.
 
@@ -77,8 +77,8 @@ class MotionGroups {
   SpatialOrder order_;
 };
 
-/// Constraints are formed ahead of touching, over this multiple of the approach of the step: other impulses
-/// of the step may speed it up.
+/// Constraints are formed before contact, over this multiple of the approach of the step: other impulses of
+/// the step may increase it.
 inline constexpr double approach_factor = 2;
 /// Paths are rounded up by more than their sums are rounded down.
 inline constexpr double paths_rounded_up = 1 + 1e-9;

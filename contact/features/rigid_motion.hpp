@@ -1,5 +1,5 @@
 #pragma once
-/// A rigid body within one step, as contact and walls see it.
+/// Motion of a rigid body within one time step, for contact and walls.
 
 #include <Eigen/Dense>
 
@@ -17,7 +17,7 @@ struct RigidMotion {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();          ///< about the centre, at the present attitude
   Eigen::Vector3d inverse_mass = Eigen::Vector3d::Zero();     ///< per axis; 0 where prescribed
   Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();  ///< of the rotations that are free; else 0
-  /// What contact and walls have given the body in this step, with the moment about the centre.
+  /// Impulse of contact and walls on the body in this step, and its moment about the centre.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 
@@ -42,7 +42,7 @@ struct RigidMotion {
   }
 };
 
-/// What the supports of prescribed components do while a body is given an impulse and a moment.
+/// Reaction of the supports of prescribed components to an impulse and a moment on a body.
 struct RigidSupport {
   Eigen::Vector3d impulse;
   Eigen::Vector3d moment;  ///< about the centre

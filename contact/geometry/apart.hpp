@@ -1,6 +1,6 @@
 #pragma once
-/// A cheap test over many pairs at once: which nodes surely stay away from their faces for the whole step?
-/// What it does not dismiss goes to `velocity_check`.
+/// Fast rejection of many pairs at once: nodes that are certainly disjoint from their faces over the whole
+/// time step. The others are examined by `velocity_check`.
 
 #include <array>
 #include <limits>

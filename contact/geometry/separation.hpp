@@ -1,5 +1,5 @@
 #pragma once
-/// Certificates that two features never meet in a step: along a direction d every point of one stays above
+/// Separating plane of two features over a time step: along a direction d every point of one stays above
 /// every point of the other. Points move linearly, so heights are linear in time, and what is positive at
 /// both ends of the step is positive all the while; so are the heights of every point of the hulls.
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Boxes of features of one kind, and which of them meet given boxes. A tree holds them as they were when it
-/// was built; those that have got another box since are few and are looked at beside it.
+/// Boxes of features of one kind, and which of them overlap given boxes. A tree holds them as they were when
+/// it was built; those that have got another box since are few and are looked at beside it.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace brio {
 
-/// Boxes that meet are so many that their pairs cannot be looked at: everything is near everything.
+/// So many boxes overlap that their pairs cannot be examined.
 struct TooManyNear : std::runtime_error {
   TooManyNear() : std::runtime_error("contact search: everything is near everything") {}
 };

@@ -1,16 +1,16 @@
 #pragma once
 /// Pairs of features that may come near each other before the next search: nodes and faces, edges and edges.
 ///
-/// Every node has a box that holds its motion of some steps ahead, in the frame of the mean motion; features
-/// whose boxes meet are paired. A search is due when the end of a node's step leaves its box, for the
-/// features at such nodes alone: until then no pair is missing, and a fast splinter makes nobody else search.
-/// Left out are pairs that share a node, that are parts of one rigid body, of one face (but for its opposite
-/// sides), or that the deck keeps from touching. Pairs of one piece (the fold of a shell, the sides of one
-/// element) are listed too: not their radii, which overlap as drawn, but two skins are kept between them.
-/// What a deletion pairs anew begins as near as it was: such a pair waits with two skins until it has been
-/// apart by its radii.
+/// Every node has a box that contains its motion of some steps ahead (search margin, Verlet skin), in the
+/// frame of the mean motion; features whose boxes overlap are paired. A search is due when a node leaves its
+/// box at the end of a step, for the features at such nodes only: until then no pair is missing, and one fast
+/// fragment does not cause a search for all. Excluded are pairs that share a node, that belong to one rigid
+/// body, to one face (except its opposite sides), or that the deck excludes. Pairs of one piece (the fold of
+/// a shell, the sides of one element) are listed too: they keep two skins instead of their radii, which
+/// overlap in the mesh. Pairs that are new after a deletion may be nearer than their radii: such a pair keeps
+/// two skins until its distance has once reached its radii.
 ///
-/// Diagonals of a flat face are not paired (face_flatness.hpp).
+/// Diagonals of flat faces are not paired (face_flatness.hpp).
 
 #include <cstdint>
 #include <span>
@@ -40,15 +40,14 @@ class FeaturePairs {
   /// The same after the solution of a step at whose start no search was due, or was made.
   bool is_due_after_solution(const SurfaceFeatures& features, const Surface& surface,
                              const FeatureMotion& motion, ThreadTeam& team);
-  /// Renew the pairs of what has left its boxes, or where that is much, all; then the paths of the motion
-  /// restart. \throws TooManyNear where there is no depth. \param depth to which features of different bodies
-  /// are paired; not empty: a face is flat
-  /// for all pairs or none
+  /// Renew the pairs of features that have left their boxes, or, if these are many, all; then the paths of
+  /// the motion restart. \throws TooManyNear where there is no depth. \param depth to which features of
+  /// different bodies are paired; not empty: a face is flat for all pairs or none
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
             const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
             const SearchedDepth& depth = {});
-  /// The surface has changed: features have joined, and what is listed has changed or is no more. Nodes stand
-  /// for all features at them. \param grown nodes whose radii have grown
+  /// The surface has changed: features were added, and the listed ones have changed or were deleted. Nodes
+  /// stand for all features at them. \param grown nodes whose radii have grown
   void change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
               std::span<const int> grown);
   /// Faces of the last search that may be in boxes laid where the last step has taken the nodes; dead ones
@@ -59,7 +58,7 @@ class FeaturePairs {
   std::span<const int> faces_since_search() const { return changes_.face; }
   /// As many boxes meet at rest as in the last search of `other`, which had a depth.
   void take_rest_of(const FeaturePairs& other) { met_at_rest_ = other.met_at_rest_; }
-  /// The next search is for all.
+  /// The next search is for all features.
   void expire() { reach_.clear(); }
   std::uint64_t searches() const { return searches_; }
   const FaceFlatness& flatness() const { return flat_; }
@@ -71,7 +70,7 @@ class FeaturePairs {
     const Lists& excluded;
     double margin;  ///< of boxes of nodes, over the scale of the node
     double band;    ///< half of it for either feature
-    bool edges;     ///< whether edges of faces meet
+    bool edges;     ///< whether there is edge-edge contact
     SearchedDepth depth;
   };
 
@@ -101,7 +100,7 @@ class FeaturePairs {
   std::vector<CaptureBox> reach_;  ///< of each slave node: where it may be until the next search
   FaceFlatness flat_;
   FeatureBoxes node_box_, face_box_, edge_box_;
-  std::vector<int> node_, face_, edge_;  ///< what has left its boxes, ascending
+  std::vector<int> node_, face_, edge_;  ///< features that have left their boxes, ascending
   std::vector<std::uint8_t> node_leaves_, face_leaves_, edge_leaves_;
   std::vector<CaptureBox> query_;
 

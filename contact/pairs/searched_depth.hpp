@@ -1,5 +1,5 @@
 #pragma once
-/// To which depth overlaps are looked for at the start: of a feature the least at its nodes, of a pair of
+/// Depth to which overlaps are searched at the start: of a feature the least at its nodes, of a pair of
 /// different bodies the mean of both.
 
 #include <algorithm>

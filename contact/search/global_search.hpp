@@ -1,5 +1,5 @@
 #pragma once
-/// The contact search with its strategy chosen.
+/// Global search of contact, with a choice of strategy.
 
 #include <span>
 

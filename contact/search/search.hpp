@@ -1,5 +1,5 @@
 #pragma once
-/// Global contact search: which points lie inside which capture boxes. It knows nothing of meshes.
+/// Global contact search: which points lie inside which capture boxes. Independent of meshes.
 ///
 /// After Heinstein, Attaway, Swegle, Mello (1993), "A general contact detection algorithm for finite element
 /// analysis": a capture box bounds a master surface over a time step, the points are the slave nodes. Two
@@ -56,7 +56,7 @@ struct CaptureBox {
 /// Holds nothing.
 inline constexpr CaptureBox empty_box{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 
-/// What is looked for in the boxes: points, or nodes each of which may be anywhere in a closed box of its
+/// Query of the search: points, or nodes each of which may be anywhere in a closed box of its
 /// own; such a node is paired with the boxes that share a point with its own. A view: the array must outlive
 /// the search.
 class SearchNodes {

@@ -1,12 +1,12 @@
 #pragma once
-/// What lies in a body whole at the start: no surfaces cross there.
+/// Bodies completely inside of others at the start: no surfaces cross there.
 
 #include "contact/scene.hpp"
 
 namespace brio {
 
-/// Looks for each two bodies at a point of one: enough where no surfaces cross.
-/// \param overlap_limit in edges: what overlaps by no more is left to those who remove it
+/// Examines for each two bodies a point of one: sufficient where no surfaces cross.
+/// \param overlap_limit in edges: smaller overlaps are removed elsewhere
 /// \throws std::invalid_argument naming parts, depth and place.
 void expect_bodies_apart(const ContactScene& scene, const Nodes& nodes, double overlap_limit);
 

@@ -1,13 +1,12 @@
 #pragma once
-/// The start of contact by distances: surfaces that coincide or overlap a little are moved apart once, to
-/// their radii, so that nothing crosses and every pair has a side. Solids keep their skins, two solids a gap
-/// of two skins; shells, beams and particles their thickness.
+/// Removal of initial overlap: surfaces that coincide or overlap a little are moved apart once, to their
+/// radii, so that nothing crosses. Solids keep their skins, two solids a gap of two skins; shells, beams and
+/// particles their thickness.
 ///
-/// First what is drawn touching is set back (retraction.hpp). Where more overlaps, moved are nodes of the
-/// surface, each of equal weight, as little as does it: the constraints of find_sided_pairs are solved for
-/// displacements instead of velocities, along present normals, until none is missing. Held are components of
-/// motion that are prescribed, nodes of rigid bodies, and nodes that a tie holds, which follow what holds
-/// them.
+/// First coincident faces are set back (retraction.hpp). For larger overlaps, nodes of the surface are moved
+/// as little as possible, with equal weights: the constraints of find_sided_pairs are solved for
+/// displacements instead of velocities, along present normals, until all are satisfied. Fixed are prescribed
+/// components of motion, nodes of rigid bodies, and tied nodes, which follow their main surface.
 
 #include <string>
 #include <vector>
@@ -16,7 +15,7 @@
 
 namespace brio {
 
-/// What was found between two parts.
+/// Overlap of two parts.
 struct InitialOverlap {
   std::string node_part;  ///< the part whose nodes lie too deep ...
   std::string face_part;  ///< ... in, or too close to, this one

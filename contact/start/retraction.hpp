@@ -1,7 +1,7 @@
 #pragma once
-/// Solids that are drawn touching: their faces are set back by the skin, each along its own normal, so that
-/// two of them are apart by two skins. No side has to be known, and no force: a seam between two floors opens
-/// below a block that stands on its edge as it does elsewhere, whatever is prescribed of its nodes.
+/// Solids with coincident faces: the faces are set back by the skin, each along its own normal, so that their
+/// distance is two skins. No side has to be known, and no force: a seam between two floors opens below a
+/// block that stands on its edge as it does elsewhere, whatever is prescribed of its nodes.
 
 #include <array>
 #include <vector>

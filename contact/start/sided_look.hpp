@@ -1,5 +1,5 @@
 #pragma once
-/// What nodes and edges of a mesh at rest see of each other: sides, local minima of distance, parts.
+/// Geometric queries of nodes and edges of a mesh at rest: sides, local minima of distance, parts.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a body has split, and into which pieces.
+/// Connected pieces of a body after deletions.
 
 #include <span>
 

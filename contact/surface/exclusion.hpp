@@ -1,5 +1,5 @@
 #pragma once
-/// Pairs that are never tested: they touch because they are one piece, not because they met.
+/// Pairs that are excluded from contact because they are one piece.
 
 #include <Eigen/Dense>
 #include <vector>
@@ -10,13 +10,13 @@
 
 namespace brio {
 
-/// The faces that each slave node is never tested against, ascending:
+/// The excluded faces of each slave node, ascending:
 /// - faces it belongs to, and the other sides of their elements;
 /// - for shells also the faces around it that can be reached along the shell within pi/2 of the contact
 /// thickness
 ///   in the reference configuration. A shell of thickness t cannot be folded to a middle radius below t/2; on
 ///   that tightest fold points an arc s < pi/2 t apart have a chord t sin(s/t) < t without touching. The rule
-///   follows from the thickness alone, so the same scene behaves alike on any mesh.
+///   follows from the thickness alone, so that the result does not depend on the mesh.
 Lists excluded_faces(const Surface& surface, const Nodes& reference);
 
 /// Whether the face is among the excluded ones of the slave.
@@ -43,8 +43,8 @@ class ShellWalk {
   std::vector<int> front_;
 };
 
-/// Keeps the exclusions of an eroding surface. What is left of a shell torn along excluded faces begins as
-/// close to the other side of the tear as it was: such pairs wait until they have been apart
+/// Updates the exclusions of an eroding surface. After a shell is torn along excluded faces, both sides of
+/// the tear may be nearer than their thickness: such pairs wait until their distance has once reached it
 /// (feature_pairs.hpp).
 class ErodingExclusion {
  public:

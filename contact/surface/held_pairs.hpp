@@ -1,5 +1,5 @@
 #pragma once
-/// What does not meet in contact because ties hold it together. Nothing is kept where nothing is tied.
+/// Pairs that are excluded from contact because they are tied. Empty where nothing is tied.
 
 #include <algorithm>
 #include <utility>
@@ -8,18 +8,18 @@
 namespace brio {
 
 struct HeldPairs {
-  std::vector<int> holder;  ///< of each global node: the part of the surface whose face holds it, or -1
-  /// Global nodes and parts that they never meet, ascending: held nodes and the part that holds them; corners
-  /// of the faces that hold, and the parts that they hold.
+  std::vector<int> holder;  ///< of each global node: the part of its main surface, or -1
+  /// Excluded pairs of global nodes and parts, ascending: tied nodes and the part of their main surface;
+  /// corners of main faces and the parts tied to them.
   std::vector<std::pair<int, int>> pairs;
-  std::vector<int> piece;            ///< of each body as built: the least of those that ties join to it
-  std::vector<int> part_of_surface;  ///< of each part that holds: its number in the surface, or -1
+  std::vector<int> piece;            ///< of each body as built: the least body tied to it
+  std::vector<int> part_of_surface;  ///< of each part with a main surface: its number in the surface, or -1
 
   bool empty() const { return holder.empty(); }
   bool apart(int global_node, int part) const {
     return std::binary_search(pairs.begin(), pairs.end(), std::pair(global_node, part));
   }
-  /// Whether two bodies are the same, or were joined by ties when they were built.
+  /// Whether two bodies are the same, or were tied when they were built.
   bool one_piece(int a, int b) const {
     if (a == b) return true;
     const int count = static_cast<int>(piece.size());

@@ -1,6 +1,5 @@
 #pragma once
-/// What a scene says about pairs of parts: another coefficient of friction, or that they never touch. Nothing
-/// is kept where nothing is said.
+/// Rules for pairs of parts: another coefficient of friction, or exclusion from contact. Empty without rules.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,11 +25,11 @@ class PairTable {
   /// the first.
   PairTable(std::span<const PairRule> rules, std::span<const SurfacePart> parts, std::size_t node_count);
 
-  /// Whether a node must not touch faces of a part.
+  /// Whether contact of a node with faces of a part is excluded.
   bool apart(int global_node, int face_part) const {
     return !apart_.empty() && apart_[place(global_node, face_part)] != 0;
   }
-  /// Coefficient for a node and faces of a part. \param all  where nothing else is said
+  /// Coefficient for a node and faces of a part. \param all without a rule
   double friction(int global_node, int face_part, double all) const {
     return friction_.empty() ? all : friction_[place(global_node, face_part)].value_or(all);
   }

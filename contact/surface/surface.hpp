@@ -15,7 +15,7 @@
 
 namespace brio {
 
-/// What the surface is made of: the elements of one part.
+/// Input of the surface: the elements of one part.
 struct SurfacePart {
   std::string name;
   /// 8: hexahedra in VTK's order; 4: shells; repeated nodes degenerate them. 2: beams. 1: particles
@@ -23,13 +23,13 @@ struct SurfacePart {
   std::span<const int> connectivity;  ///< global node numbers, nodes_per_element of each element
   std::vector<double> thickness;      ///< of each shell, diameter of each beam or particle; else empty
   int rigid = -1;                     ///< the rigid body that all of its nodes belong to
-  double debris_radius = 0;  ///< of its nodes once they are left without elements; 0: they touch nothing
+  double debris_radius = 0;           ///< contact radius of its free nodes; 0: no contact
 
   bool shell() const { return nodes_per_element == 4; }
   bool round() const { return nodes_per_element <= 2; }
 };
 
-/// What touches of a beam or a particle: a segment, or a point, with a radius.
+/// A beam as a capsule (segment with a radius), or a particle as a sphere.
 struct RoundElement {
   std::array<int, 2> node{};  ///< global; the same twice: a particle
   int part = 0;               ///< -1: it is no more
@@ -78,16 +78,15 @@ struct Surface {
   Lists faces_of;  ///< of each slave node: the faces it belongs to, ascending
   int body_count = 0;
   std::vector<int> rigid_of_node;  ///< of each global node: its rigid body, or -1; empty where there is none
-  PairTable pairs;                 ///< what is said of pairs of parts
-  HeldPairs held;                  ///< what does not meet because one holds the other
+  PairTable pairs;                 ///< rules for pairs of parts
+  HeldPairs held;                  ///< pairs excluded because they are tied
 
   /// -1: none.
   int rigid_body(int global_node) const {
     return rigid_of_node.empty() || global_node < 0 ? -1
                                                     : rigid_of_node[static_cast<std::size_t>(global_node)];
   }
-  /// Nothing that is rigid can meet itself, parts may be kept from touching, and a surface does not meet what
-  /// it holds.
+  /// Excluded are contact of a rigid body with itself, pairs of parts by rules, and tied pairs.
   bool never_touch(int slave, const Face& other) const {
     const int global_node = node[static_cast<std::size_t>(slave)];
     const int own = rigid_body(global_node);
@@ -119,7 +118,7 @@ Surface make_surface(std::span<const SurfacePart> parts, std::size_t node_count)
 /// Find the neighbours of a face, from `faces_of`.
 void connect(Surface& surface, int face);
 
-/// Find what is known of a slave node from its faces and their neighbours.
+/// Update the data of a slave node from its faces and their neighbours.
 void update_slave(Surface& surface, int slave);
 
 /// The sides of hexahedra around a node that follow a face over the edges that end there: those of one wedge

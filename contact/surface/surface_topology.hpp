@@ -1,7 +1,7 @@
 #pragma once
-/// What a surface needs to know of its elements so that it can be mended where some are deleted: which
-/// elements share a side. Built only where elements may be deleted. The work of a deletion is proportional to
-/// the number of elements deleted, whatever the size of the mesh.
+/// Topology of the elements below a surface, for its local update after deletions: which elements share a
+/// side. Built only where elements may be deleted. The work of a deletion is proportional to the number of
+/// elements deleted, whatever the size of the mesh.
 ///
 /// Faces and slave nodes keep their numbers. A dead one leaves its number unused until the candidates have
 /// been searched anew, so that whatever was found in between can tell it by `Face::alive` and
@@ -49,7 +49,7 @@ struct FreeNumbers {
   }
 };
 
-/// What a deletion changed. Each list without repetition, in an order that does not depend on threads.
+/// Changes by a deletion. Each list without repetition, in an order that does not depend on threads.
 struct SurfaceChange {
   std::vector<int> dead_face;
   std::vector<int> new_face;
@@ -66,7 +66,7 @@ struct SurfaceChange {
   }
 };
 
-/// What a node is once it is left without elements.
+/// State of a node without elements.
 struct DebrisNode {
   double radius = 0;  ///< that it may have, beginning with the one it had; 0: it leaves contact
   int elements = 0;   ///< that live

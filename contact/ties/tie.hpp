@@ -1,14 +1,14 @@
 #pragma once
-/// A node held at a point of a face: geometry of one tie.
+/// Geometry of one tie: a node constrained to a point of a face.
 ///
-/// The point has fixed coordinates in the face, bilinear in a quadrilateral, linear in a triangle. What the
-/// node is away from it stays as it is seen from the face:
+/// The point has fixed coordinates in the face, bilinear in a quadrilateral, linear in a triangle. The
+/// distance of the node from it is constant relative to the face:
 ///
-///   on a face of nodes that do not turn    x = sum w_k x_k + gap n(x_1 .. x_4), n the unit normal there;
-///   on a face of nodes that turn (shells)  x = sum w_k x_k + arm, the arm turning with sum w_k omega_k.
+///   on a face without rotations            x = sum w_k x_k + gap n(x_1 .. x_4), n the unit normal there;
+///   on a face with rotations (shells)    x = sum w_k x_k + arm, the arm rotating with sum w_k omega_k.
 ///
 /// A force on the node goes to the corners by the transpose of the derivative of this map, so that virtual
-/// power is the same; and since turning and moving all corners turns and moves the node, force and moment are
+/// power is the same; and since a rigid motion of all corners moves the node rigidly, force and moment are
 /// the same too.
 
 #include <Eigen/Dense>
@@ -24,15 +24,15 @@ struct Tie {
   std::array<int, 4> corner{};              ///< global; a triangle repeats its third, with no weight
   std::array<double, 4> weight{};           ///< their sum is 1
   std::array<double, 4> along{}, across{};  ///< derivatives of the weights by the coordinates in the face
-  double gap = 0;                           ///< along the normal; 0 where the face turns the arm
+  double gap = 0;                           ///< along the normal; 0 where there is an arm
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();  ///< from the point to the node; 0 where there is a gap
-  bool turning = false;                           ///< held by the rotations of the corners as well
+  bool turning = false;                           ///< constrained to the rotations of the corners as well
 
   bool has_arm() const { return turning && !arm.isZero(0); }
 };
 
-/// How far beyond an edge of a face a node may lie and still be held by it, in coordinates of the face that
-/// go from 0 to 1: what is found on a rim or over a ridge is not lost by rounding and facets.
+/// Tolerance beyond an edge of a face, in coordinates of the face from 0 to 1, so that nodes at a rim or over
+/// a ridge are found in spite of rounding and facets.
 inline constexpr double beyond_edge = 0.05;
 
 /// Weights, derivatives and gap of the point of a face whose normal passes through a node.
@@ -42,20 +42,20 @@ std::optional<Tie> project(const Eigen::Vector3d& node, const FaceVertices& face
 /// Unit normal of the face at the point.
 Eigen::Vector3d normal_at(const Tie& tie, const FaceVertices& face);
 
-/// How fast it turns with velocities of the corners.
+/// Rate of the normal by the velocities of the corners.
 Eigen::Vector3d normal_rate(const Tie& tie, const FaceVertices& face, const FaceVertices& velocity);
 
 /// The point of the face.
 Eigen::Vector3d point_on(const Tie& tie, const FaceVertices& face);
 
-/// Where the node is held.
+/// Position of the tied node.
 Eigen::Vector3d held_position(const Tie& tie, const FaceVertices& face);
 
-/// Forces on the corners that have the power of a force on the node.
-/// \pre not turning: what an arm adds is a moment on the corners, arm x force times each weight
+/// Forces on the corners with the power of a force on the node.
+/// \pre not turning: an arm adds a moment on the corners, arm x force times each weight
 std::array<Eigen::Vector3d, 4> spread(const Tie& tie, const FaceVertices& face, const Eigen::Vector3d& force);
 
-/// Bounds of how fast the node moves at most for a unit velocity of each corner.
+/// Bounds of the speed of the node for a unit velocity of each corner.
 std::array<double, 4> largest_share(const Tie& tie, const FaceVertices& face);
 
 /// A vector turned by a rotation vector.

@@ -1,13 +1,13 @@
 #pragma once
-/// Which pairs of a surface ties hold together.
+/// Pairs of a surface that are excluded from contact because they are tied.
 
 #include "contact/surface/surface.hpp"
 #include "contact/ties/ties.hpp"
 
 namespace brio {
 
-/// Pairs of a surface that ties hold together. \param part_of_surface of each part that holds: its number in
-/// the surface, or -1
+/// Tied pairs of a surface. \param part_of_surface of each part with a main surface: its number in the
+/// surface, or -1
 HeldPairs held_pairs(const Surface& surface, const Ties& ties, const std::vector<int>& part_of_surface);
 
 /// The same after ties have ended.

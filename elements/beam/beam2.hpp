@@ -1,5 +1,5 @@
 #pragma once
-/// Two-node beam: what a deck says of it. Its mathematics is in beam2_kernel.hpp.
+/// Settings of the two-node beam. Equations: beam2_kernel.hpp.
 
 #include <array>
 #include <memory>

@@ -1,12 +1,12 @@
 #pragma once
-/// Two-node beam: co-rotational with nodal triads (beam_geometry.hpp), its section summed over fibres
-/// (beam_section.hpp), or a bar with axial force alone (truss, cable).
+/// Co-rotational beam with two nodes and nodal triads (beam_geometry.hpp), its section integrated over fibres
+/// (beam_section.hpp), or a bar with axial force only (truss, cable).
 ///
 /// * Curvature is linear along the element, taken at two Gauss points; shear and twist are constant. Of the
 ///   tilt of the chord, bending takes the share 1 / (1 + Phi), Phi = 12 E I / (k G A L^2), and shear the
 ///   rest, as in the exact solution of a straight elastic beam under end loads: its stiffness is
-///   Timoshenko's. Where fibres flow, the shear force and the slope of the moment would part: what they
-///   differ by moves tilt from one to the other in the next step, so that a hinge does not load the shear.
+///   Timoshenko's. Where fibres yield, the shear force and the slope of the moment would differ: the
+///   difference moves tilt from one to the other in the next step, so that a hinge does not load the shear.
 /// * Axial strain is logarithmic and the section keeps the volume: the axial force is stress times A L0 / L.
 /// * A node has one moment of inertia about all axes: half of the element's polar moment. Twisting is exact;
 ///   turning across a beam, which has less, matters only where waves are as short as the beam is thick. The

@@ -1,5 +1,5 @@
 #pragma once
-/// How a two-node beam is strained, and the nodal forces of what works on that: co-rotational after
+/// Strains of a two-node beam, and the nodal forces of their conjugates: co-rotational after
 /// Belytschko, Schwer & Klein (1977), with nodal triads, so that nothing is integrated over rotations.
 ///
 /// Nodal triads R_a, R_b follow the nodes; their mean R_m lies halfway on the turn from one to the other.

@@ -1,5 +1,5 @@
 #pragma once
-/// Cross sections of beams: what a deck says of them, and the fibres over which a beam sums its stress.
+/// Cross sections of beams, and the fibres over which stress is integrated.
 ///
 /// Axes: x runs along the beam, z is the direction that `orientation` points to, y = z cross x. Fibres give
 /// area and second moments exactly; those of rectangles and I sections stand in halves, which gives the fully

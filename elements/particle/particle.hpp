@@ -1,6 +1,5 @@
 #pragma once
-/// Smoothed particle: what a deck says of it. Its mathematics is in particle_kernel.hpp and
-/// particle_cloud.hpp.
+/// Settings of smoothed particle hydrodynamics. Equations: particle_kernel.hpp, particle_cloud.hpp.
 
 #include <array>
 #include <optional>
@@ -11,10 +10,10 @@
 
 namespace brio {
 
-/// Where the kernel, and with it who is whose neighbour, is taken.
+/// Configuration of the kernel and of the neighbours.
 enum class ParticleFrame {
-  total_lagrangian,  ///< at the start
-  eulerian           ///< now
+  total_lagrangian,  ///< total-Lagrangian kernel: the initial configuration
+  eulerian           ///< updated-Lagrangian kernel: the present configuration
 };
 constexpr std::array<NamedValue<ParticleFrame>, 2> named_values(ParticleFrame) {
   return {{{"total_lagrangian", ParticleFrame::total_lagrangian}, {"eulerian", ParticleFrame::eulerian}}};

@@ -1,5 +1,5 @@
 #pragma once
-/// A particle as a material point: from the sums over its neighbours to its stress and what it tells them.
+/// A particle as an integration point: from the sums over its neighbours to its stress and pair forces.
 /// As in the hexahedron, the velocity gradient is taken on the configuration at the end of the step; that of
 /// the middle follows exactly for affine motion.
 

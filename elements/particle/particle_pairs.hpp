@@ -1,5 +1,5 @@
 #pragma once
-/// Pairs of particles: who is whose neighbour, sums over neighbours, and the forces of pairs.
+/// Pairs of particles: lists of neighbours, sums over neighbours, and pair forces.
 
 #include <span>
 

@@ -1,13 +1,14 @@
 #pragma once
-/// Four-node shell of Belytschko, Lin & Tsay (1984): co-rotational axes at the centre, one point in the
-/// plane, velocity strains at 1 to 9 points through the thickness. A repeated fourth node makes it a
-/// triangle.
+/// Belytschko-Tsay shell (Belytschko, Lin & Tsay 1984): four nodes, co-rotational axes at the centre, one
+/// integration point in the plane, velocity strains at 1 to 9 points through the thickness. A repeated fourth
+/// node makes it a triangle.
 ///
-/// * Axes, strains and what was added to the original: shell_geometry.hpp, shell_strain.hpp.
-/// * Stable step and scaled rotational inertia: shell_step.hpp.
-/// * Drilling: a node has one moment of inertia about all axes, and strain takes only what lies in the
-///   element's plane: it does not resist spin about the normal. Elements that are tilted against each other
-///   drive that spin and turn it into what bends, so a weak spring and a damper hold it (drilling_stiffness,
+/// * Axes, strains and additions to the original: shell_geometry.hpp, shell_strain.hpp.
+/// * Stable time step and scaled rotational inertia: shell_step.hpp.
+/// * Drilling: a node has one moment of inertia about all axes, and strains depend on spins in the element's
+/// plane
+///   only: there is no stiffness against spin about the normal. Adjacent elements at an angle excite that
+///   spin and convert it into bending, so a weak spring and a damper resist it (drilling_stiffness,
 ///   drilling_viscosity).
 
 #include <cmath>

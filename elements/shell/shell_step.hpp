@@ -1,8 +1,8 @@
 #pragma once
-/// Stable step and rotational inertia of a four-node shell.
+/// Stable time step and rotational inertia of a four-node shell.
 ///
-/// With m/4 and r^2 m/4 at each of its nodes, the highest frequency of the element comes from blocks that do
-/// not meet in a flat parallelogram:
+/// With m/4 and r^2 m/4 at each of its nodes, the highest frequency of the element comes from blocks that are
+/// uncoupled in a flat parallelogram:
 ///
 ///     membrane   omega^2 = 4/rho E' g,  E' = E / (1 - nu^2),  g = (s + sqrt(s^2 - 4 (1 - nu^2) / A^2)) / 2
 ///     (exact),
@@ -11,9 +11,9 @@
 ///     shear      omega^2 <= 4/rho kappa G (g + 1 / (4 r^2))
 ///     hourglass  4/m times stiffness times |gamma|^2
 ///
-/// What couples them elsewhere (skewness, warp) is bounded by block norms: the largest eigenvalue of a 2x2
+/// Coupling by skewness and warp is bounded by block norms: the largest eigenvalue of a 2x2
 /// block matrix of operators is not above that of their norms. The bound holds for any shape; it takes
-/// elastic moduli, which plastic flow only lowers, and leaves out what stress itself adds (sigma/E).
+/// elastic moduli, which yielding only lowers, and neglects the geometric stiffness of stress (sigma/E).
 
 #include "elements/shell/shell_geometry.hpp"
 

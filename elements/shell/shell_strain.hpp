@@ -8,7 +8,7 @@
 ///     membrane   E_ab = sym h_a . L_b            curvature  K_ab = sym m_a . W_b      (W: gradient of
 ///     angular velocity) shear      g_a  = n . L_a + w . m_a        (w: mean angular velocity)
 ///
-/// all vanish to round-off for a rigid motion of any size, since a finite rotation moves points by
+/// all vanish to rounding for a rigid motion of any size, since a finite rotation moves points by
 /// dt Omega x (middle position) for one vector Omega. At dt = 0 they are the velocity strains of Belytschko,
 /// Lin & Tsay (1984). The generalized hourglass rates are measured in the same way.
 ///
@@ -16,7 +16,7 @@
 /// both vanish with the gradient of rotation:
 ///  * the shear along a diagonal takes the rotation in the middle of that diagonal, not the mean of the
 ///  nodes;
-///  * the deflection's hourglass part excludes what constant curvature itself gives to it (a quadratic
+///  * the hourglass part of the deflection excludes that of constant curvature (a quadratic
 ///  deflection has
 ///    one), so that hourglass control does not resist twist.
 
@@ -24,8 +24,8 @@
 
 namespace brio {
 
-/// Rates on the axes; with forces in their place, what does work on them per area (membrane, curvature,
-/// shear) or in total (hourglass, drilling).
+/// Strain rates on the axes; also used for the conjugate forces, per area (membrane, curvature, shear) or in
+/// total (hourglass, drilling).
 template <class T>
 struct ShellRates {
   T membrane[3];   ///< 11, 22, 12 (tensor component)

@@ -1,6 +1,5 @@
 #pragma once
-/// Eight-node hexahedron with one integration point: what a deck says of it. Its mathematics is in
-/// hex8_kernel.hpp.
+/// Settings of the eight-node hexahedron with one integration point. Equations: hex8_kernel.hpp.
 
 #include <string_view>
 
@@ -10,7 +9,7 @@
 
 namespace brio {
 
-/// Above this, hourglass modes would compete with the uniform strains for the stable step.
+/// Above this, hourglass modes would set the stable time step.
 inline constexpr Range hourglass_stiffness_range{.lower = 0, .upper = 0.15};
 
 struct Hex8 {

@@ -1,6 +1,5 @@
 #pragma once
-/// Eight-node hexahedron with 2x2x2 points: what a deck says of it. Its mathematics is in
-/// hex8_full_kernel.hpp.
+/// Settings of the eight-node hexahedron with 2x2x2 integration points. Equations: hex8_full_kernel.hpp.
 
 #include <string_view>
 

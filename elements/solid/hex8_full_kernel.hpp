@@ -1,6 +1,7 @@
 #pragma once
-/// Eight-node hexahedron with 2x2x2 points and the dilatation of the whole element at each of them (selective
-/// reduced integration in the form of Hughes 1980): no hourglass modes and no volumetric locking.
+/// Eight-node hexahedron with 2x2x2 integration points and the dilatation of the whole element at each of
+/// them (B-bar: selective reduced integration in the form of Hughes 1980): no hourglass modes, no volumetric
+/// locking.
 ///
 /// As in hex8_kernel.hpp, gradients are taken once, on the configuration at the end of the step, and the
 /// middle follows exactly for affine motion. Point gradients need no nodal shape functions: with the pattern

@@ -1,9 +1,10 @@
 #pragma once
-/// Eight-node hexahedron with one integration point (Flanagan & Belytschko 1981), for one objective rate.
+/// Uniform-gradient hexahedron: eight nodes, one integration point (Flanagan & Belytschko 1981), for one
+/// objective rate.
 ///
 /// The gradient is taken once, on the configuration at the end of the step: L_end. The velocity gradient of
-/// the middle follows exactly for affine motion, so that a rigid rotation of any size strains nothing, and so
-/// does the volume of the middle, V_mid = V det(I - dt/2 L_end). Forces are V sigma B at the end; the work
+/// the middle follows exactly for affine motion, so that a rigid rotation of any size gives no strain, and so
+/// does the volume at the middle, V_mid = V det(I - dt/2 L_end). Forces are V sigma B at the end; the work
 /// accounted for is V_mid (sigma_old + sigma_new)/2 : D dt, which differs from the work of the forces by
 /// third order in the step.
 
@@ -119,11 +120,11 @@ struct Hex8Kernel : Hex8 {
     return increment;
   }
 
-  /// Hourglass stress meets flow as the stress of the point does: it shrinks by the share by which flow
-  /// returns stress to the yield surface, and stays below that of a section that yields all over. On top of
-  /// that flow it grows less, of a displacement of which the rest is plastic; going back is elastic. Work
-  /// that is not stored is plastic work. Where nothing flows in a pack, flow costs nothing.
-  /// \param carried of the strain of the last step (SpringChange)
+  /// Hourglass stress yields with the stress of the integration point: it is reduced by the ratio by which
+  /// the radial return reduces the deviatoric stress, and limited to that of a fully plastic section. While
+  /// the point yields, only a part of the hourglass strain increment is elastic; unloading is elastic. Work
+  /// that is not stored is plastic work. Where no lane of a pack yields, plasticity costs nothing. \param
+  /// carried of the strain of the last step (SpringChange)
   template <class T, class Law>
   BRIO_INLINE HourglassWork<T> resist_hourglass_motion(const Law& law, const Point<T, Law>& point,
                                                        const PointStep<T>& step, const MaterialAxes<T>& axes,

@@ -1,6 +1,6 @@
 #pragma once
 /// Hourglass control of the one-point hexahedron (Flanagan & Belytschko 1981): forces along
-/// gamma_aI = Gamma_aI - x_a . B_I, which see neither rigid nor linear motion. gamma is never formed: with
+/// gamma_aI = Gamma_aI - x_a . B_I, which are zero in rigid and linear motion. gamma is never formed: with
 /// sums against the base vectors (mean_gradient.hpp), gamma_a . v = v_a - L x_a, and the force of a
 /// generalized force Q_a is Q_a on pattern a together with the stress - sum_a Q_a (x) x_a / V on the mean
 /// gradient.
@@ -62,9 +62,9 @@ BRIO_INLINE T largest_gamma(T distortion) {
   return 2.0 * (8.0 + distortion);
 }
 
-/// Share of the distortion by which hourglass stiffness may raise the frequencies of uniform strains. For p
+/// Factor on the distortion by which hourglass stiffness may raise the frequencies of uniform strains. For p
 /// >= 8 a factor of 4 is enough because (sqrt(8) + sqrt(p))^2 <= 4 p; below, the two stiffnesses overlap in
-/// proportion to p, and the factor is held against assembled stiffness matrices in the tests.
+/// proportion to p, and the tests compare the factor with assembled stiffness matrices.
 inline constexpr double hourglass_overlap = 6;
 
 /// Moduli times a volume: S_b for bending, the modulus of plane-strain bending 4 mu (lambda + mu) /
@@ -89,9 +89,9 @@ BRIO_INLINE HourglassModuli<T> hourglass_stiffness(double coefficient, const Ela
 
 /// Rates of hourglass strain in twelve components, one for each base vector a and edge direction k, of the
 /// displacement q_a: n_k . q_a with n_k = beta_k / (64 V), which of a box is one over four edges along edge
-/// k. They see no rotation.
+/// k. They are zero in rotation.
 ///
-/// Each component meets the stiffness of its own direction, as in an assumed-strain element (Belytschko &
+/// Each component has the stiffness of its own direction, as in an assumed-strain element (Belytschko &
 /// Bindeman 1993): the bending of a flat brick is resisted over its length, not over its thickness. For k = a
 /// pattern a strains no fibre but shears: eta zeta along the normal of the faces xi = +-1, and so on. Three
 /// such motions a_k, u_k = a_k x_l x_m, shear a box of edges L_k by gamma_kl = (a_k + a_l) x_m and store mu V
@@ -156,7 +156,7 @@ BRIO_INLINE HourglassScale<T> hourglass_scale(const HourglassModuli<T>& moduli) 
           sqrt(max(moduli.twist, T(0.0)) / where(resists, moduli.bending, T(1.0)))};
 }
 
-/// What resists hourglass motion, as part of the state of an element.
+/// Hourglass strains and stiffness, part of the state of an element.
 template <class T>
 struct HourglassState {
   HourglassStrain<T> strain;

@@ -8,8 +8,8 @@
 ///
 /// In these sums the volume of the trilinear hexahedron has four triple products and the last pattern drops
 /// out, so its gradient costs twelve cross products. The last four patterns are the hourglass base vectors:
-/// projections on them come for nothing. With V = volume, b_iI = dV/dx_iI = V B_iI and f_m the sum of pattern
-/// m over a nodal field f,
+/// projections on them cost nothing more. With V = volume, b_iI = dV/dx_iI = V B_iI and f_m the sum of
+/// pattern m over a nodal field f,
 ///
 ///     b_I = sum_m pattern_m(I) beta_m / 64,     V = x_m . beta_m / (64 * 3),     V sum_I f_I B_I = sum_m f_m
 ///     beta_m / 64

@@ -1,12 +1,11 @@
 #pragma once
-/// How stress follows the rotation of the material. Both rates take the velocity gradient of the middle of
-/// the step and are exact for a step that is a rigid rotation of any size; both are of second order
-/// otherwise.
+/// Objective rate of stress: the Green-Naghdi rate or the Jaumann rate. Both use the velocity gradient at the
+/// middle of the time step and are exact for a rigid rotation of any size, of second order otherwise.
 ///
-/// * green_naghdi: stress is kept on axes turned by R of F = R U (the unrotated formulation of Flanagan &
+/// * green_naghdi: stress is kept on axes rotated by R of F = R U (the unrotated formulation of Flanagan &
 /// Taylor 1987).
 ///   Where they integrate a rate for the left stretch, here one step of F is decomposed: see `advance`.
-/// * jaumann: stress is turned by the mean spin (Hughes & Winget 1980).
+/// * jaumann: stress is rotated by the mean spin (Hughes & Winget 1980).
 ///
 /// Notation: N = dt/2 L at mid-step; d = dt/2 D on material axes, so that the strain increment is 2 d.
 
@@ -25,7 +24,7 @@ constexpr std::array<NamedValue<ObjectiveRate>, 2> named_values(ObjectiveRate) {
 
 /// a (I - a)^-1 without cancellation for small a, and det(I - a). With a = dt/2 times the velocity gradient
 /// on the end configuration this is N of the same affine motion. \pre the determinant is positive; where it
-/// is not, `determinant` says so and the result has no meaning.
+/// is not, `determinant` shows it and the result is meaningless.
 template <class T>
 BRIO_INLINE Tensor<T> centered(const Tensor<T>& a, T& determinant) {
   // a (I - a)^-1 = (a + adj(a) + (det a - second invariant) I) / det(I - a)
@@ -124,7 +123,7 @@ struct StretchAndRotation {
   Quaternion<T> rotation;
 };
 
-/// What one step of either rate hands to the element.
+/// Result of one time step of either rate.
 template <class T>
 struct MaterialAxes {
   SymmetricTensor<T> half_strain;  ///< d

@@ -1,6 +1,6 @@
 #pragma once
-/// What the solid elements share: which laws they take, how a law is called, bulk viscosity and the stable
-/// step.
+/// What the solid elements share: accepted material models, the update at an integration point, bulk
+/// viscosity and the stable time step.
 
 #include "elements/base/motion.hpp"
 #include "elements/solid/objective_rate.hpp"
@@ -8,20 +8,20 @@
 
 namespace brio {
 
-/// A law in rate form, on strain increments.
+/// A material model in rate form, on strain increments.
 template <class Law>
 concept RateLaw = requires(const Law& law, const SymmetricTensor<double>& strain_increment,
                            SymmetricTensor<double>& stress, typename Law::template History<double>& history) {
   law.update(strain_increment, stress, history);
 };
-/// A law on total stretch: Cauchy stress on material axes from the right stretch.
+/// A material model on total stretch: Cauchy stress on material axes from the right stretch.
 template <class Law>
 concept StretchLaw = requires(const Law& law, const SymmetricTensor<double>& stretch,
                               SymmetricTensor<double>& stress,
                               typename Law::template History<double>& history) {
   law.update_from_stretch(stretch, stress, history);
 };
-/// A law with a yield stress (plastic_flow.hpp).
+/// A material model with a yield stress (plastic_flow.hpp).
 template <class Law>
 inline constexpr bool flows = requires(const Law& law) {
   law.hardening();
@@ -29,7 +29,7 @@ inline constexpr bool flows = requires(const Law& law) {
 template <class Law>
 inline constexpr bool is_solid_law = RateLaw<Law> || StretchLaw<Law>;
 
-/// Rotation state of a material point: none for Jaumann.
+/// Rotation state of an integration point: none for the Jaumann rate.
 template <class T, ObjectiveRate rate>
 struct RotationState {
   StretchAndRotation<T> axes;
@@ -37,7 +37,7 @@ struct RotationState {
 template <class T>
 struct RotationState<T, ObjectiveRate::jaumann> {};
 
-/// State of one material point. Stress and history are on material axes (green_naghdi) or fixed ones
+/// State of one integration point. Stress and history are on material axes (green_naghdi) or fixed ones
 /// (jaumann).
 template <class T, class Law, ObjectiveRate rate>
 struct SolidPoint {
@@ -54,17 +54,17 @@ BRIO_INLINE void start(SolidPoint<T, Law, rate>& point) {
   }
 }
 
-/// What a step does to a material point.
+/// Result of the update of an integration point.
 template <class T>
 struct PointStep {
   T work;  ///< per volume of the middle of the step
   SymmetricTensor<T> old_stress;
-  T old_plastic_strain;  ///< 0 for laws without flow
+  T old_plastic_strain;  ///< 0 for elastic models
 };
 
-/// Deviatoric stress that flow leaves of the elastic trial, 1 in elastic steps: what varies over an element
-/// beside the stress of its point is returned with it. \param shear elastic shear modulus. \param has_flowed
-/// lanes with plastic strain in this step.
+/// Ratio of the returned deviatoric stress to the elastic trial stress, 1 in elastic steps: hourglass stress
+/// is returned by the same ratio. \param shear elastic shear modulus. \param has_flowed lanes with plastic
+/// strain in this step.
 template <class T>
 BRIO_INLINE T share_left_by_flow(const SymmetricTensor<T>& old_stress, const SymmetricTensor<T>& stress,
                                  const SymmetricTensor<T>& strain, T shear, MaskOf<T> has_flowed) {
@@ -73,7 +73,7 @@ BRIO_INLINE T share_left_by_flow(const SymmetricTensor<T>& old_stress, const Sym
   return where(has_flowed, min(max(left, T(0.0)), T(1.0)), T(1.0));
 }
 
-/// Turns the axes of the point and updates its stress. \param n dt/2 times the velocity gradient of the
+/// Rotates the material axes and updates the stress. \param n dt/2 times the velocity gradient of the
 /// middle of the step. \param axes out.
 template <class T, class Law, ObjectiveRate rate>
 BRIO_INLINE PointStep<T> update(const Law& law, const Tensor<T>& n, SolidPoint<T, Law, rate>& point,
@@ -126,7 +126,7 @@ double equivalent_plastic_strain_of(const SolidPoint<double, Law, rate>& point) 
 }
 
 /// The volume of a step: exact at its end, from the affine part of the motion at its middle. Where either is
-/// not positive the element has broken down; the numbers are then replaced by harmless ones.
+/// not positive the element has inverted; the numbers are then replaced by harmless ones.
 template <class T>
 struct StepVolume {
   T end, middle;
@@ -139,8 +139,8 @@ BRIO_INLINE StepVolume<T> step_volume(T volume, T determinant) {
   return {end, end * where(is_valid, determinant, T(1.0)), is_valid};
 }
 
-/// Speeds and lengths of an element that bound its step. With G_ij = sum_I B_iI B_jI and equal nodal masses
-/// m/8 the stiffness of the uniform strains has its frequency squared bounded by
+/// Bounds of the squared frequencies of an element, which give its stable time step. With G_ij = sum_I B_iI
+/// B_jI and equal nodal masses m/8 the stiffness of the uniform strains has its frequency squared bounded by
 ///
 ///     8 V / m (lambda tr G + 2 mu g),     g the largest eigenvalue of G,
 ///
@@ -168,8 +168,8 @@ BRIO_INLINE SolidSpectrum<T> solid_spectrum(const ElasticModuli<T>& moduli, cons
           factor * (moduli.first_lame + 2.0 * moduli.shear) * trace_g};
 }
 
-/// tr D of the middle of the step, where a rigid rotation has none; at the start of a run, where there is no
-/// step yet, that of the velocities. \param n dt/2 times the velocity gradient of the middle.
+/// tr D at the middle of the step, where it is zero in rigid rotation; before the first time step that of the
+/// velocities. \param n dt/2 times the velocity gradient of the middle.
 template <class T>
 BRIO_INLINE T middle_dilatation_rate(const Tensor<T>& n, T half_step, T rate_at_start) {
   const MaskOf<T> moved = half_step > T(0.0);
@@ -197,8 +197,9 @@ BRIO_INLINE BulkViscosity<T> bulk_viscosity(double linear, double quadratic, T t
   return {pressure, 2.0 * linear * reference_frequency + (4.0 * squared) * compression};
 }
 
-/// Largest step for which dt^2 omega^2 + 2 dt damping <= 4: central differences with the damping force one
-/// half step behind, for any modes with these bounds. For one mode of damping ratio e this is (sqrt(1 + e^2)
+/// Stable time step: the largest dt for which dt^2 omega^2 + 2 dt damping <= 4: central differences with the
+/// damping force one half step behind, for any modes with these bounds. For one mode of damping ratio e this
+/// is (sqrt(1 + e^2)
 /// - e) 2/omega.
 template <class T>
 BRIO_INLINE T damped_stable_step(T frequency_squared, T damping) {

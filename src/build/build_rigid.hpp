@@ -13,14 +13,15 @@ namespace brio {
 /// \throws BuildError
 void make_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& model);
 
-/// Take over positions of nodes that were moved to make the gap of contact; mass and inertia stay as drawn.
+/// Take over positions of nodes that were moved to make the contact gap; mass and inertia stay those of the
+/// mesh.
 void measure_arms(Model& model);
 
 /// Bodies whose nodes are all among `nodes` (ascending), which lose them.
 /// \throws BuildError where some nodes of a body are named and others not: it moves as a whole.
 std::vector<std::size_t> take_rigid(std::vector<int>& nodes, const NodeSelection& where, const Model& model);
 
-/// Set the bodies going, with what initial conditions say of them.
+/// Give the bodies their initial velocities.
 void start_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& model);
 
 }  // namespace brio

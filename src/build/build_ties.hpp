@@ -10,15 +10,14 @@
 
 namespace brio {
 
-/// Find what holds the nodes that the deck ties, and take supports away from them that their corners have as
-/// well. The nodes of the parts and prescribed motions are known.
-/// \param connectivity of each part, by place in its block
-/// \throws BuildError with the place of the connection where nothing is near, a node would be held twice or
-/// by itself, or a support holds a node otherwise than its face.
+/// Find the faces to which the deck ties nodes, and remove supports of tied nodes that their corners have as
+/// well. The nodes of the parts and prescribed motions are known. \param connectivity of each part, by place
+/// in its block \throws BuildError with the place of the connection where no node is near, a node would be
+/// tied twice or to itself, or the supports of a node and of its face differ.
 void make_ties(const Deck& deck, std::span<const Mesh> meshes, std::span<const std::vector<int>> connectivity,
                Model& model);
 
-/// Let held nodes start with their faces.
+/// Give tied nodes the initial velocity of their faces.
 /// \throws BuildError where initial conditions give them another motion.
 void start_ties(Model& model);
 

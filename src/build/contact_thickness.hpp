@@ -1,5 +1,5 @@
 #pragma once
-/// How thick the elements of a part are for contact.
+/// Contact thickness of the elements of a part.
 
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace brio {
 
-/// Thickness of shells, diameter of beams and particles, of each element; of solids nothing. A particle
-/// touches as far as half its share of the lattice. \throws BuildError where shells or beams are so thick for
-/// their mesh that each would be a candidate of hundreds of others
+/// Thickness of shells, diameter of beams and particles, of each element; of solids nothing. The
+/// contact radius of a particle is half its spacing in the lattice. \throws BuildError where shells or beams
+/// are so thick for their mesh that each would be a candidate of hundreds of others
 std::vector<double> contact_thickness(const Part& part, const Mesh& mesh);
 
 }  // namespace brio

@@ -1,5 +1,5 @@
 #pragma once
-/// Nodes that parts share, because a deck merges the parts.
+/// Node equivalencing: nodes that parts share, because a deck merges the parts.
 
 #include <cstddef>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace brio {
 
-/// For each node of all meshes, numbered part by part, the one whose place it takes: mostly itself. Empty
+/// For each node of all meshes, numbered part by part, the one that replaces it: mostly itself. Empty
 /// where a deck merges nothing.
 struct SharedNodes {
   std::vector<std::size_t> same_as;

@@ -1,5 +1,5 @@
 #pragma once
-/// What a deck says. These structs are also the parameters that run: there is no parallel set.
+/// Contents of a deck. These structs are also the parameters of the run: there is no parallel set.
 ///
 /// A rule that binds several entries of a struct is its `fault()`: what is wrong and what is accepted, or
 /// nothing.
@@ -280,7 +280,7 @@ struct Merge {
   }
 };
 
-/// `tie: [stiffener, panel]`: nodes of the first that faces of the second hold.
+/// `tie: [stiffener, panel]`: nodes of the first are tied to faces of the second.
 struct TieToSurface {
   static constexpr std::string_view name = "tie";
   static constexpr std::string_view meaning = "nodes tied to a surface (tied contact)";
@@ -300,7 +300,7 @@ using Connection = std::variant<Merge, TieToSurface>;
 // ---- the rest
 // --------------------------------------------------------------------------------------------------
 
-/// What is said of two parts, or of a part and itself.
+/// Rule for contact of two parts, or of a part with itself.
 struct ContactPair {
   std::vector<std::string> parts;  ///< two
   std::optional<double> friction{};
@@ -326,7 +326,7 @@ struct ContactSection {
   std::string place{};  ///< in the deck
 };
 
-/// Elements whose stable step is too short get as much mass as makes it long enough, whenever it falls.
+/// Elements whose stable time step is below a target get the mass that raises it to the target.
 struct MassScaling {
   double step = 0;
   double largest_share = 0.05;
@@ -373,7 +373,7 @@ struct FieldOutput {
     return every && !times.empty() ? "both 'every' and 'times' are given; one of them is accepted" : "";
   }
 };
-/// A node that is watched at every row of the history.
+/// A node whose motion is written to every row of the history.
 struct Probe {
   std::string name;
   Triple point{};
@@ -416,7 +416,7 @@ struct OutputSection {
   }
 };
 
-/// Values for what a deck leaves open.
+/// Defaults of settings that a deck leaves open.
 enum class Preset { fast, balanced, accurate };
 constexpr std::array<NamedValue<Preset>, 3> named_values(Preset) {
   return {{{"fast", Preset::fast}, {"balanced", Preset::balanced}, {"accurate", Preset::accurate}}};

@@ -1,5 +1,5 @@
 #pragma once
-/// What of the program a scene has built, what in the deck asked for it, and what it holds in memory.
+/// Features that a scene uses, the keys of the deck that ask for them, and their memory.
 
 #include <cstddef>
 #include <string>
@@ -19,7 +19,7 @@ struct BuiltFeature {
 /// In the order of the model. Copies what it measures, and ends the scenes of contact, which are large.
 std::vector<BuiltFeature> built_features(const Deck& deck, Model&& model);
 
-/// Names of what is not.
+/// Names of features that are not built.
 std::vector<std::string> features_not_built(const Model& model);
 
 }  // namespace brio

@@ -1,5 +1,5 @@
 #pragma once
-/// Cost against error: which settings are worth their price.
+/// Pareto front of cost against error.
 
 #include <span>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-/// What a study says: one deck, settings to compare, what is looked at in each result.
+/// Contents of a study: one deck, settings to compare, quantities of each result.
 
 #include <array>
 #include <optional>
@@ -151,7 +151,7 @@ struct StudyRun {
   std::string knob;   ///< empty: the deck as it is, or a combination
   std::string label;  ///< of the setting
   std::vector<std::string> overrides;
-  bool is_another_problem = false;  ///< a knob of its physics is turned
+  bool is_another_problem = false;  ///< a parameter of its physics is changed
 };
 
 inline constexpr std::string_view default_run = "default";

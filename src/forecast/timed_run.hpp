@@ -1,5 +1,5 @@
 #pragma once
-/// Time steps without output, to measure their sizes and their wall time.
+/// A timed run: time steps without output, to measure their sizes and their wall time.
 
 #include <cstdint>
 #include <string>

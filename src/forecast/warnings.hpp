@@ -1,6 +1,5 @@
 #pragma once
-/// What a scene is likely to get wrong, found before it runs. Only what is worth a look: a scene that is well
-/// made has none.
+/// Warnings of likely mistakes in a scene, before it runs. A well-made scene has none.
 
 #include <span>
 #include <string>

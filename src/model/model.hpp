@@ -1,6 +1,7 @@
 #pragma once
-/// What runs. Only build, advance and output see it whole; every other function takes its parts. What a deck
-/// does not name is an empty vector here: no loop body runs and nothing is allocated.
+/// The state of a run. Only build, advance and output use it as a whole; every other function takes its
+/// parts. A feature that a deck does not name is an empty vector here: no loop body runs and nothing is
+/// allocated.
 
 #include <cstdint>
 #include <optional>

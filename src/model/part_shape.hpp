@@ -1,5 +1,5 @@
 #pragma once
-/// Sizes of a part and of its elements as they stand, for what is said of a scene before it runs.
+/// Sizes of a part and of its elements, for the warnings before a run.
 
 #include <array>
 #include <vector>
@@ -14,7 +14,7 @@ struct PartShape {
   double edge = 0;                ///< median of all edges; of particles their spacing
   double largest_aspect = 1;      ///< longest edge of an element over its shortest
   std::size_t long_elements = 0;  ///< whose aspect is above aspect_limit
-  /// Of each element: a length that bounds its step.
+  /// Of each element: a length that bounds its stable time step.
   std::vector<double> length;
   /// Along how many directions at least four fifths of the elements stand alone: between two free sides.
   int alone_directions = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Nodes that the history watches.
+/// Nodes whose motion is written to the history.
 
 #include <span>
 #include <string>

@@ -5,7 +5,7 @@
 
 namespace brio {
 
-/// What a step's change of velocities is measured against: the scene as it starts.
+/// Reference of the velocity change in a time step: the initial scene.
 struct SceneExtent {
   double width = 0;  ///< longest side of the box around all nodes; 0: nothing can be said
   double mass = 0;   ///< of all nodes

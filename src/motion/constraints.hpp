@@ -20,7 +20,7 @@ struct PrescribedNodes {
   std::string place{};  ///< in the deck
 };
 
-/// Times of the step being made: forces are of `time`, velocities go from -previous/2 to +next/2 about it.
+/// Times of the present time step: forces are of `time`, velocities go from -previous/2 to +next/2 about it.
 struct StepTimes {
   double time = 0;
   double previous = 0;  ///< step before `time`; 0 at the start
@@ -28,14 +28,14 @@ struct StepTimes {
   double mean() const { return 0.5 * (previous + next); }
 };
 
-/// What outside bodies did to the nodes in one step: impulse, J.v- and J.v+.
+/// Reaction of supports or walls in one time step: impulse, J.v- and J.v+.
 struct Reaction {
   Impulse impulse;
   double before = 0;
   double after = 0;
 };
 
-/// Velocity that a given motion has over the step.
+/// Velocity of a prescribed motion over the time step.
 double given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times, double velocity_before);
 
 /// Marks nodes.prescribed.
@@ -44,7 +44,7 @@ void mark(const PrescribedNodes& given, Nodes& nodes);
 /// Sets the velocity after nodes were accelerated by their force. \return the impulse of the support.
 Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& nodes);
 
-/// A wall as it runs: nodes that would be behind it at the end of the step are stopped on it.
+/// A rigid wall: nodes that would be behind it at the end of the time step are stopped on it.
 struct WallInRun {
   RigidWall wall;  ///< normal of unit length
 };
@@ -53,13 +53,13 @@ struct WallReaction {
   Reaction normal, friction;
 };
 
-/// Stops nodes; work and impulse of the normal and of the tangential part come apart.
+/// Stops nodes; \return normal and frictional reaction.
 WallReaction stop_at(const WallInRun& wall, const StepTimes& times, Nodes& nodes);
 
-/// Stops held nodes, by impulses on what holds them; before the others. Held nodes then move with their
-/// faces. \param support what supports of the corners did meanwhile is added
+/// Stops tied nodes, by impulses on the corners of their faces; before the others. Tied nodes then move with
+/// their faces. \param support the reactions of supports of the corners are added
 void stop_held_at(const WallInRun& wall, const StepTimes& times, Ties& ties, Nodes& nodes, Reaction& support);
-/// What the wall did to held nodes, once all nodes have been stopped.
+/// Reaction of the wall on tied nodes, once all nodes have been stopped.
 WallReaction reaction_of_held(const Ties& ties, const StepTimes& times, Nodes& nodes);
 
 }  // namespace brio

@@ -1,5 +1,5 @@
 #pragma once
-/// Forces from outside: gravity, nodal forces, pressure that follows its surface.
+/// External loads: gravity, nodal forces, follower pressure.
 
 #include <array>
 #include <variant>
@@ -26,7 +26,8 @@ struct NodalLoad {
   Vector force{};
   Curve factor;
 };
-/// Pressure against the outward normal of quadrilateral sides; each corner takes its own bilinear share.
+/// Pressure against the outward normal of quadrilateral sides; distributed to the corners by the bilinear
+/// shape functions.
 struct PressureLoad {
   std::vector<std::array<int, 4>> sides;
   Curve pressure;
@@ -39,10 +40,10 @@ struct ActiveLoad {
   std::vector<NodeForce> applied;  ///< of the present step
 };
 
-/// Forces of this time, added to nodes.force.
+/// Adds the forces at this time to nodes.force.
 void apply(ActiveLoad& load, double time, Nodes& nodes);
 
-/// Sum of force . velocity with the velocities that nodes have now.
+/// Sum of force . velocity with the present velocities.
 double power(const ActiveLoad& load, const Nodes& nodes);
 
 /// Force and moment about the origin.

@@ -22,17 +22,17 @@ struct KineticEnergy {
   double now = 0;   ///< m v-.v+/2, at the step
 };
 
-/// v += f/m times the mean of the steps before and after; keeps v- where there is room for it.
+/// v += f/m times the mean of the steps before and after; stores v- where there is an array for it.
 /// \param sums scratch, one a range
 KineticEnergy accelerate(Nodes& nodes, double mean_step, std::span<KineticEnergy> sums, ThreadTeam& team);
 
-/// Kinetic energy after supports, walls and contact have changed velocities; needs those kept before.
+/// Kinetic energy after supports, walls and contact have changed velocities; needs the stored v-.
 KineticEnergy kinetic_energy(const Nodes& nodes, std::span<KineticEnergy> sums, ThreadTeam& team);
 
 /// x += v times the step; forces are cleared for the next one.
 void move(Nodes& nodes, double step, ThreadTeam& team);
 
-/// Linear and angular momentum about the origin, and the sums of the sizes of what is added.
+/// Linear and angular momentum about the origin, and the sums of the magnitudes of the terms.
 struct Momentum {
   Impulse total;
   double linear_size = 0;

@@ -1,12 +1,12 @@
 #pragma once
-/// Rigid bodies: six degrees of freedom, free or prescribed. Their nodes stand among the others without mass;
-/// positions and velocities of nodes follow from the body, impulses on nodes go to the body.
+/// Each rigid body has six degrees of freedom, free or prescribed. Its nodes are massless nodes of the model;
+/// their positions and velocities follow from the body, and impulses on them act on the body.
 ///
-/// A step kicks and then turns. At the present attitude the linear momentum M V and the angular momentum L
-/// about the centre take the impulses of loads, supports, contact and walls. Over the step the centre then
-/// moves by V dt, and the attitude turns as that of a free body with this L: the midpoint rule for Euler's
-/// equations, with the attitude turned by the Cayley transform of the mean rate, keeps L and the energy
-/// L.I^-1.L/2 to rounding at any step (Lewis and Simo 1994; Simo and Wong 1991).
+/// In each time step the linear momentum M V and the angular momentum L about the centre first receive the
+/// impulses of loads, supports, contact and walls at the present attitude. Then the centre moves by V dt, and
+/// the attitude rotates as that of a free body with this L: the midpoint rule for Euler's equations, with the
+/// Cayley transform of the mean rate, conserves L and the energy L.I^-1.L/2 to rounding for any time step
+/// (Lewis and Simo 1994; Simo and Wong 1991).
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
@@ -32,7 +32,7 @@ struct PrescribedRigid {
   std::string place{};  ///< in the deck
 };
 
-/// A node of a body that a wall stops in the present step.
+/// A node of a body in contact with a wall in the present time step.
 struct WallTouch {
   int node = 0;
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();
@@ -59,8 +59,8 @@ struct RigidBody {
   Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< about the centre, at the last half step
   Eigen::Vector3d force = Eigen::Vector3d::Zero();             ///< of loads, in this step
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  Eigen::Vector3d weight = Eigen::Vector3d::Zero();  ///< the share of gravity in the force
-  std::vector<WallTouch> touch;                      ///< of the wall that is looked at
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero();  ///< gravity as a part of the force
+  std::vector<WallTouch> touch;                      ///< at the wall under consideration
 
   bool is_given(int axis) const;
 };
@@ -89,9 +89,9 @@ double weight_power(const RigidBodies& bodies);
 /// Weight and its moment about the origin.
 Impulse weight(const RigidBodies& bodies);
 
-/// Kick by the loads and set the prescribed components. \return what supports did.
+/// Apply the impulses of loads and set the prescribed components. \return the reaction of supports.
 Reaction accelerate(RigidBodies& bodies, const StepTimes& times);
-/// Take over what contact or walls have given, and forget it.
+/// Add the impulses of contact or walls to the momenta and clear them.
 void settle(RigidBodies& bodies);
 /// Velocities of all nodes of the bodies, from those of the bodies.
 void carry_velocities(const RigidBodies& bodies, Nodes& nodes, ThreadTeam& team);

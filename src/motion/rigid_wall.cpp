@@ -1,4 +1,5 @@
-// Rigid walls against rigid bodies: sequential impulses over the nodes that would be behind the wall.
+// Rigid walls against rigid bodies: projected Gauss-Seidel iterations (sequential impulses) over the nodes
+// that would be behind the wall.
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,12 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int most_passes = 50;
-constexpr double converged_share = 1e-10;
-// Share of an old overlap, left by rounding and by turning, that a step removes.
+constexpr double converged_ratio = 1e-10;
+// Fraction of an old overlap, left by rounding and by rotation, that a time step removes.
 constexpr double overlap_recovery = 0.1;
-// Nodes count while they could reach the wall at this multiple of their approach: other impulses of the step
-// may turn the body towards it.
-constexpr double approach_share = 2;
+// Nodes are considered that reach the wall at this multiple of their approach: other impulses of the step may
+// rotate the body towards it.
+constexpr double approach_factor = 2;
 
 Vector3d point_of(const Nodes& nodes, int node) {
   return Vector3d(nodes.record[static_cast<std::size_t>(node)].position);
@@ -33,7 +34,7 @@ void find_touches(const WallInRun& entry, const StepTimes& times, RigidBody& bod
     const Vector3d x = point_of(nodes, node);
     const double height = normal.dot(x) - offset;
     const Vector3d arm = x - body.centre;
-    const double reach = approach_share * times.next * (motion.velocity_at(arm) - wall_velocity).norm();
+    const double reach = approach_factor * times.next * (motion.velocity_at(arm) - wall_velocity).norm();
     if (height > reach) continue;
     WallTouch touch;
     touch.node = node;
@@ -46,8 +47,9 @@ void find_touches(const WallInRun& entry, const StepTimes& times, RigidBody& bod
   }
 }
 
-// \returns the change of the relative velocity that was asked for.
-double push(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_velocity, RigidMotion& motion) {
+// \returns the change of the relative velocity.
+double solve_normal(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_velocity,
+                    RigidMotion& motion) {
   const double along = normal.dot(motion.velocity_at(touch.arm) - wall_velocity);
   const double impulse = std::max(0.0, touch.impulse + touch.normal_mass * (touch.target - along));
   const double change = impulse - touch.impulse;
@@ -57,8 +59,8 @@ double push(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_veloc
 }
 
 // Against the slip, with the effective mass in its direction.
-double rub(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_velocity, double friction,
-           RigidMotion& motion) {
+double solve_friction(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_velocity,
+                      double friction, RigidMotion& motion) {
   const Vector3d relative = motion.velocity_at(touch.arm) - wall_velocity;
   const Vector3d slip = relative - normal.dot(relative) * normal;
   const double speed = slip.norm();
@@ -104,12 +106,13 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& 
   for (int pass = 0; pass < most_passes; ++pass) {
     double residual = 0;
     for (WallTouch& touch : body.touch) {
-      residual = std::max(residual, push(touch, normal, wall_velocity, motion));
+      residual = std::max(residual, solve_normal(touch, normal, wall_velocity, motion));
       if (entry.wall.friction > 0)
-        residual = std::max(residual, rub(touch, normal, wall_velocity, entry.wall.friction, motion));
+        residual =
+            std::max(residual, solve_friction(touch, normal, wall_velocity, entry.wall.friction, motion));
     }
     first = std::max(first, residual);
-    if (residual <= converged_share * first) break;
+    if (residual <= converged_ratio * first) break;
   }
   for (const WallTouch& touch : body.touch) {
     const Vector3d position = body.centre + touch.arm;

@@ -1,5 +1,5 @@
 #pragma once
-/// What output shows of a model: fields, history rows, end state.
+/// Output of a model: fields, history rows, end state.
 
 #include <optional>
 #include <span>

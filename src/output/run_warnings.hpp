@@ -1,5 +1,5 @@
 #pragma once
-/// What a run shows of itself that makes its results doubtful, though it reaches its end.
+/// Warnings of a run that reaches its end, though its results are doubtful.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace brio {
 
-/// Looks at the present state; called where fields are written.
+/// Examines the present state; called where fields are written.
 void watch(Model& model);
 
 /// Sentences for the user: what is doubtful, of which part, at what time, and what to try.

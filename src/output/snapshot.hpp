@@ -1,6 +1,7 @@
 #pragma once
-/// What one dump of the results shows: plain arrays that the owner of the step loop fills and a writer reads.
-/// The same snapshot is filled again for the next dump, so that its buffers are allocated once.
+/// Snapshot of the model at one time (a dump of the results): plain arrays that the owner of the step loop
+/// fills and a writer reads. The same snapshot is filled again for the next dump, so that its buffers are
+/// allocated once.
 
 #include <cstdint>
 #include <string>

@@ -24,10 +24,9 @@ struct Summary {
     double kinetic = 0, internal = 0, hourglass = 0, viscous = 0, contact = 0, friction = 0, external = 0,
            deleted = 0;
     double total_start = 0;     ///< at the beginning of the run
-    double error_relative = 0;  ///< what the balance misses, over the largest energy in it
+    double error_relative = 0;  ///< error of the energy balance, over the largest energy in it
   };
-  /// Of nodes with elements, of nodes that fly free, of nodes that were dropped: their sum is that of the
-  /// start.
+  /// Mass of nodes with elements, of free point masses, of removed nodes: their sum is the initial mass.
   struct Masses {
     double start = 0, intact = 0, debris = 0, deleted = 0;
     double of_deleted_elements = 0;  ///< rests on their nodes
@@ -56,17 +55,17 @@ struct Summary {
     std::int64_t bodies = 0;              ///< that the surface consists of
     std::int64_t constraints_total = 0;   ///< sum over steps
     double passes_mean = 0;               ///< iterations of the solver a step
-    double certified_share = 0;           ///< of looks along a step: those that a direction settled
-    std::int64_t last_resort_uses = 0;    ///< zones that moved as one for a step
+    double certified_share = 0;           ///< fraction of pairs that a separating plane settled
+    std::int64_t last_resort_uses = 0;    ///< impact zones
     std::int64_t unresolved = 0;          ///< steps that ended with something about to cross
   };
   struct HourglassRatio {
     double value = 0;  ///< hourglass energy of a part over its largest internal energy until then
-    std::string part;  ///< empty: hourglass control never held energy that matters
+    std::string part;  ///< empty: no hourglass energy worth mention
     double time = 0;
   };
   struct TieCounts {
-    std::int64_t nodes = 0;     ///< held at the start
+    std::int64_t nodes = 0;     ///< tied at the start
     std::int64_t released = 0;  ///< of these, because elements were deleted
   };
   struct MassScaling {

@@ -1,19 +1,19 @@
 #pragma once
-/// The step.
+/// One time step of the central difference method.
 
 #include "src/base/breakdown.hpp"
 #include "src/model/model.hpp"
 
 namespace brio {
 
-/// First half of a step: stresses and forces at the present time, the next step's size, and the velocities
+/// First half of a time step: stresses and forces at the present time, the next time step, and the velocities
 /// over it, corrected by supports, contact and walls. After it the model is complete at its time: energy and
 /// momentum balance are up to date and results may be written. \throws Breakdown for an inverted element, a
 /// collapsed step, or an energy error beyond `energy_error_limit`.
 void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team);
 
-/// Deletes what `model.sweep_results` gave up, with all that follows from it: loads, contact surfaces,
-/// chunks. Part of `update_velocities`.
+/// Deletes the elements listed by `model.sweep_results`, and updates loads, contact surfaces and chunks. Part
+/// of `update_velocities`.
 void erode_elements(Model& model, ThreadTeam& team);
 
 /// Audits contact at the present positions if the deck asks for it (contact/audit/audit.hpp). Called where

@@ -1,5 +1,5 @@
 #pragma once
-/// What a run that breaks down says of the place, the likely cause and what to try.
+/// Messages of a breakdown: place, likely cause, advice.
 
 #include <string>
 
@@ -7,17 +7,17 @@
 
 namespace brio {
 
-/// As few digits as tell a number; in every locale the same.
+/// Shortest text of a number, the same in every locale.
 std::string written(double number);
 
 /// "element 3 of part 'cube'"; by the numbers of the part's mesh.
 std::string element_name(const Model& model, std::size_t block, std::size_t element);
 
-/// Of an energy error: where nodes move fastest by the speed of sound of their part, or where a value is not
-/// a number; the likely cause; what to try.
+/// Of an energy error: the place of the largest velocity over the speed of sound of its part, or of a value
+/// that is not a number; the likely cause; advice.
 std::string cause_of_energy_error(const Model& model);
 
-/// Of a step that has collapsed, or an element that has inverted, at the element that sets the step.
+/// Of a collapsed time step or an inverted element, at the element that sets the stable time step.
 std::string cause_of_collapse(const Model& model);
 
 }  // namespace brio

@@ -5,8 +5,8 @@
 
 namespace brio {
 
-/// After contact was resolved. \throws Breakdown where two rigid bodies are driven into each other, neither
-/// of which can give way
+/// After contact was resolved. \throws Breakdown where two rigid bodies of prescribed motion are driven
+/// into each other
 void expect_driven_bodies_apart(const Model& model, const ContactScene& scene);
 
 }  // namespace brio

@@ -1,12 +1,12 @@
 #pragma once
-/// Deletion of what a deletion lays open and cannot be kept apart.
+/// Deletion of elements whose newly exposed faces cross others.
 
 #include "src/model/model.hpp"
 
 namespace brio {
 
-/// Give up, as distorted, elements that cross others now that the last deletion has laid them open, where
-/// their part can lose elements: they are what the next `erode` deletes. \returns whether there are any
+/// Marks for deletion, as distorted, elements whose faces, exposed by the last deletion, cross others, if
+/// elements of their part can be deleted; the next `erode` deletes them. \returns whether there are any
 bool give_up_crossed(Model& model, ThreadTeam& team);
 
 }  // namespace brio

@@ -1,10 +1,10 @@
 #pragma once
-/// Deletion of elements: out of their packs, their energy from the internal and hourglass energy of the model
-/// to that of the deleted, and what is left of their nodes. Exists only where something can be deleted.
+/// Erosion: deletion of elements from their packs, transfer of their energy from internal and hourglass
+/// energy to deleted energy, and treatment of their nodes. Exists only where elements can be deleted.
 ///
-/// A lost element gives its place to the last element of its chunk, so that the chunks of a colour go on
-/// sharing no node, and nothing that is dead is swept. When chunks have become so short that a quarter of
-/// the lanes is padding, all blocks are packed anew. Work is proportional to what is deleted.
+/// A deleted element is replaced by the last element of its chunk, so that the chunks of a colour still share
+/// no node, and no deleted element is swept. When a quarter of the lanes is padding, all blocks are repacked.
+/// Work is proportional to the number of deleted elements.
 
 #include <compare>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace brio {
 
-/// Where the nodes and elements of a part went.
+/// Maps of the nodes and elements of a part to those of the model.
 struct PartInModel {
   std::string name;
   std::size_t block = 0;
@@ -41,11 +41,11 @@ struct Erosion {
   std::vector<DeletedElement> deleted;  ///< in the present step, ascending
   std::vector<int> freed;               ///< nodes that lost their last element in the present step, ascending
 
-  std::vector<int> elements_of_node;        ///< that live
+  std::vector<int> elements_of_node;        ///< not deleted
   std::vector<std::int64_t> deleted_count;  ///< of each part, so far
   CountByCause deleted_by_cause{};          ///< by DeletionCause, so far
   double mass_of_deleted = 0;               ///< of deleted elements so far; it stays on their nodes
-  std::vector<int> dropping;                ///< nodes that leave before the next step, ascending
+  std::vector<int> dropping;                ///< nodes to be removed before the next step, ascending
   double dropped_mass = 0;
 
   std::int64_t total_deleted() const;
@@ -57,28 +57,28 @@ bool can_erode(std::span<const Block> blocks);
 /// \param parts by block: part p is block p
 Erosion make_erosion(std::span<const Block> blocks, std::size_t node_count);
 
-/// Deletes what the last sweep gave up and says so in `deleted` and `freed`.
+/// Deletes the elements listed by the last sweep; fills `deleted` and `freed`.
 void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResult> results,
            std::span<Block> blocks, std::span<PartInModel> parts, EnergyBalance& energy);
 
-/// True when chunks are so short that packing anew pays.
+/// True when chunks are so short that repacking pays.
 bool is_sparse(const SweepSchedule& schedule, std::span<const Block> blocks);
 
-/// Elements of every block side by side again, in their present order, and new chunks and colours.
+/// Repacks the elements of every block in their present order, with new chunks and colours.
 SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std::span<PartInModel> parts,
                      std::size_t node_count);
 
-/// Takes the sides of deleted elements out of a load. \param deleted ascending
+/// Removes the sides of deleted elements from a load. \param deleted ascending
 void drop_sides(ActiveLoad& load, std::span<const DeletedElement> deleted);
 
-/// Takes nodes that leave out of a load. \param dropping ascending
+/// Removes nodes from a load. \param dropping ascending
 void drop_nodes(ActiveLoad& load, std::span<const int> dropping);
 
-/// Lets the nodes go that are listed in `dropping`: their mass, momentum and kinetic energy are counted as
+/// Removes the nodes listed in `dropping`: their mass, momentum and kinetic energy are counted as
 /// deleted.
 void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBalance& energy, MomentumBalance& momentum);
 
-/// Mass of nodes that still have elements, and of those that fly free.
+/// Mass of nodes with elements, and of free point masses.
 struct MassBalance {
   double intact = 0, debris = 0;
 };

@@ -1,7 +1,7 @@
 #pragma once
-/// Mass that small elements get so that they do not set the step. It comes with the velocity of its node:
-/// what that brings in energy and momentum counts as work and impulse of supports, or, at the start, as
-/// there from the start.
+/// Mass scaling: mass added to small elements, so that they do not set the stable time step. Added mass has
+/// the velocity of its node: its energy and momentum count as work and impulse of supports, or, at the start,
+/// as initial ones.
 
 #include <span>
 #include <vector>
@@ -15,7 +15,7 @@ namespace brio {
 
 struct AddedMass {
   MassScaling settings;
-  double elements = 0;        ///< mass of all elements at the start
+  double elements = 0;        ///< initial mass of all elements
   std::vector<double> added;  ///< one a part
 
   double total() const;
@@ -26,7 +26,7 @@ struct AddedMass {
 AddedMass make_mass_scaling(const TimeSection& time, const Deck& deck, std::span<Block> blocks,
                             std::span<const PartInModel> parts);
 
-/// Hands the nodes what the last sweep gave their elements, in the order of the tasks.
+/// Adds to the nodes the mass that the last sweep added to their elements, in the order of the tasks.
 /// \param at_start whether the run has not begun
 /// \throws Breakdown where more has been added than the deck accepts.
 void hand_out(AddedMass& mass, const SweepSchedule& schedule, std::span<const SweepResult> results,

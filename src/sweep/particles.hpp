@@ -14,12 +14,12 @@ namespace brio {
 void find_neighbours(Block& block, std::span<const double> volume, const Nodes& nodes);
 
 /// Particles that have come closer to another than half of their present spacing. In tension, and in sheets
-/// that spread, particles with an updated-Lagrangian kernel gather in pairs (Swegle, Hicks & Attaway 1995;
-/// Dehnen & Aly 2012): their stress is then too low.
+/// that spread, particles with an updated-Lagrangian kernel gather in pairs (tensile instability; Swegle,
+/// Hicks & Attaway 1995; Dehnen & Aly 2012): their stress is then too low.
 struct PairedParticles {
   static constexpr double closer_than = 0.5;       ///< of the spacing
-  static constexpr double worth_a_warning = 0.01;  ///< share of a block's particles
-  double largest_share = 0;                        ///< of those that live, so far
+  static constexpr double worth_a_warning = 0.01;  ///< fraction of a block's particles
+  double largest_share = 0;                        ///< of those not deleted, so far
   double time = 0;                                 ///< of that
 };
 
@@ -34,8 +34,8 @@ struct ParticleSearch {
   SearchCounts counts{};
 };
 
-/// Smoothing lengths of the step that begins; new lists of neighbours where particles have moved, or lengths
-/// have grown, by more than the lists allow.
+/// Smoothing lengths of the present time step; new lists of neighbours where particles have moved, or
+/// smoothing lengths have grown, by more than the search margin.
 void follow_neighbours(ParticleSearch& search, Block& block, const Nodes& nodes, ThreadTeam& team);
 
 /// Fraction of the particles of a block with an updated-Lagrangian kernel that are closer to another than

@@ -1,5 +1,5 @@
 #pragma once
-/// The size of a step, from the bound that elements set.
+/// Choice of the time step, from the stable time step of the elements.
 
 #include <cstddef>
 
@@ -7,30 +7,31 @@
 
 namespace brio {
 
-/// The step and what bounds it.
+/// The time step and its bounds.
 struct StepControl {
   TimeSection settings;
-  double stable = 0;                 ///< of all elements, at the present time
-  std::size_t critical_block = 0;    ///< where it is set
-  std::size_t critical_element = 0;  ///< of the part's mesh
-  double held = 0;                   ///< what the bound has left since it last grew
+  double stable = 0;                 ///< stable time step of all elements, at the present time
+  std::size_t critical_block = 0;    ///< block of the element that sets it
+  std::size_t critical_element = 0;  ///< that element, of the part's mesh
+  double held = 0;                   ///< least bound since the last increase
   double window_least = 0;           ///< least bound of the steps counted in `window`
   int window = 0;
-  double whole = 0;  ///< of which a whole number leads to the end; 0: none is known
-  double first = 0;  ///< bound of the first step made
+  double whole = 0;  ///< time step of which a whole number reaches the end time; 0: none chosen
+  double first = 0;  ///< bound of the first time step
   double least = 0;
   double largest = 0;
 };
 
-/// A step that follows the stable step through every vibration is in time with that vibration and feeds it
-/// (Skeel 1993, Variable step size destabilizes the Stoermer/leapfrog/Verlet method): it comes down at once,
-/// but goes up only by what the least bound of a whole window leaves, and only where that is worth it.
+/// A time step that follows the stable time step through every vibration is in phase with it and adds energy
+/// (Skeel 1993, Variable step size destabilizes the Stoermer/leapfrog/Verlet method). It therefore decreases
+/// at once, but increases only to the least bound of a whole window of steps, and only if that is a
+/// worthwhile increase.
 double held_step(StepControl& control, double bound);
 
-/// The step for a bound and the time that is left: the bound, and where few steps are left, one of which a
-/// whole number leads to the end. A change of the step from d to d' changes the energy of central differences
-/// by |f|^2 / m (d'^2 - d^2) / 8, f the force on a mass m: of an oscillation near its stable step by twice
-/// the share by which the step is shortened, so that a last step of half the size can end a run.
+/// The time step for a bound and the remaining time: the bound, or, where few steps remain, one of which a
+/// whole number reaches the end time. A change of the time step from d to d' changes the energy of the
+/// central difference method by |f|^2 / m (d'^2 - d^2) / 8, f the force on a mass m: of an oscillation near
+/// its stable time step by twice the relative change, so that a last step of half the size can end a run.
 double whole_step(StepControl& control, double bound, double left);
 
 }  // namespace brio

@@ -47,7 +47,7 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted) {
   delete_elements(surface, erosion.topology, deleted, erosion.change);
   if (erosion.change.split)
     for (Contact& contact : scene.contacts)
-      if (!contact.of_lines()) contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;
+      if (!contact.of_edges()) contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;
   const std::vector<int>& affected =
       erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
   scene.velocity.resize(surface.slaves(), Vector3d::Zero());

@@ -188,7 +188,7 @@ class Zones {
   void join_node(int u, int slave) {
     join(u, unit(slave));
     const int node = scene_.surface.node[static_cast<std::size_t>(slave)];
-    if (!ties_.holds(node)) return;
+    if (!ties_.is_tied(node)) return;
     const Tie& tie = ties_.node[static_cast<std::size_t>(ties_.of_node[static_cast<std::size_t>(node)])].tie;
     for (int corner : tie.corner)
       if (const int other = scene_.surface.slave(corner); other >= 0) join_node(u, other);

@@ -8,7 +8,7 @@
 namespace brio {
 
 /// Of contacts of edges: Contact::slave is this plus the number of the first edge.
-inline constexpr int first_line_slave = 1 << 30;
+inline constexpr int first_edge_slave = 1 << 30;
 
 struct Contact {
   int slave = 0;              ///< index among the slave nodes
@@ -24,7 +24,7 @@ struct Contact {
   double impulse = 0;          ///< along the normal, on the first side; never negative
   Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< tangential impulse on the first side
 
-  bool of_lines() const { return face < 0; }
+  bool of_edges() const { return face < 0; }
 };
 
 }  // namespace brio

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <chrono>
 
-#include "contact/enforcement/inherited_impulses.hpp"
 #include "contact/enforcement/recovery.hpp"
+#include "contact/enforcement/warm_start.hpp"
 #include "contact/impact_zone.hpp"
 #include "contact/scene.hpp"
 #include "contact/step_totals.hpp"
@@ -99,7 +99,7 @@ class Resolution {
     scene_.last.swap(scene_.contacts);
     find_proximities(scene_.proximity, scene_.features, scene_.surface, scene_.excluded, scene_.options,
                      scene_.pairs, scene_.motion, team_, scene_.contacts);
-    inherit_impulses(scene_.last, step_ratio(), scene_.contacts, rows_.taken);
+    warm_start(scene_.last, step_ratio(), scene_.contacts, rows_.taken);
   }
 
   void search() {
@@ -108,7 +108,7 @@ class Resolution {
     scene_.step.searched = true;
     scene_.step.search_seconds += seconds_since(start);
   }
-  void select() { select_awake(scene_.proximity, scene_.features, scene_.pairs, scene_.motion, team_); }
+  void select() { select_active(scene_.proximity, scene_.features, scene_.pairs, scene_.motion, team_); }
   // Of pairs that were surely apart in the predicted motion.
   void look_again() {
     if (scene_.pairs.is_due_after_solution(scene_.features, scene_.surface, scene_.motion, team_)) {
@@ -363,11 +363,11 @@ class Resolution {
   }
 
   void account_rows() {
-    std::vector<PushOnWall>& pushes = scene_.walls.push;
+    std::vector<ImpulseOnWall>& pushes = scene_.walls.push;
     pushes.assign(walls_.size(), {});
     const RowWork work = account_work(rows_.rows, rows_.before, rows_.block, rows_.place, pushes);
     ContactStep& step = scene_.step;
-    for (const PushOnWall& push : pushes) {
+    for (const ImpulseOnWall& push : pushes) {
       step.wall_impulse -= to_eigen(push.impulse);
       step.wall_moment -= to_eigen(push.moment);
     }

@@ -1,6 +1,6 @@
 #include "contact/scene.hpp"
 
-#include "contact/ties/tied_pairs.hpp"
+#include "contact/ties/find_tied_pairs.hpp"
 
 #include "contact/surface/exclusion.hpp"
 
@@ -32,12 +32,12 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   return scene;
 }
 
-void hold(ContactScene& scene, const Ties& ties, const std::vector<int>& part_of_surface) {
-  scene.surface.held = held_pairs(scene.surface, ties, part_of_surface);
+void exclude_tied_pairs(ContactScene& scene, const Ties& ties, const std::vector<int>& part_of_surface) {
+  scene.surface.tied = find_tied_pairs(scene.surface, ties, part_of_surface);
 }
 
-void let_go(ContactScene& scene, const Ties& ties) {
-  renew(scene.surface.held, scene.surface, ties);
+void release_tied_pairs(ContactScene& scene, const Ties& ties) {
+  renew(scene.surface.tied, scene.surface, ties);
   scene.pairs.expire();
 }
 

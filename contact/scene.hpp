@@ -133,16 +133,16 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
 /// \param bodies rigid bodies, by the numbers that the parts of the surface name. Their nodes carry the
 /// velocities of their bodies on entry; on return the bodies are corrected, and their nodes are left to the
 /// caller
-/// \param ties tied nodes, passed to `hold` before; they move with their faces on entry and on return
-/// \param walls as they are at the start of the step, always the same ones
+/// \param ties tied nodes, passed to `exclude_tied_pairs` before; they move with their faces on entry and on
+/// return \param walls as they are at the start of the step, always the same ones
 void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team,
              std::span<RigidMotion> bodies = {}, const Ties& ties = {},
              std::span<const ContactWall> walls = {});
 
 /// Exclude contact between tied nodes and their main surface. \param part_of_surface of each part of the
 /// ties: its number in the surface, or -1
-void hold(ContactScene& scene, const Ties& ties, const std::vector<int>& part_of_surface);
+void exclude_tied_pairs(ContactScene& scene, const Ties& ties, const std::vector<int>& part_of_surface);
 /// Allow contact of released nodes from the next call of `resolve` on.
-void let_go(ContactScene& scene, const Ties& ties);
+void release_tied_pairs(ContactScene& scene, const Ties& ties);
 
 }  // namespace brio

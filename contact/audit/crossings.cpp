@@ -154,7 +154,7 @@ class CrossingSearch {
     for (int node : other.node)
       if (own.face != nullptr ? surface_.never_touch(surface_.slave(node), *own.face)
                               : surface_.pairs.apart(node, own.part) ||
-                                    (!surface_.held.empty() && surface_.held.apart(node, own.part)))
+                                    (!surface_.tied.empty() && surface_.tied.apart(node, own.part)))
         return true;
     return false;
   }

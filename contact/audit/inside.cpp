@@ -145,7 +145,7 @@ class Enclosure {
         surface_
             .face[static_cast<std::size_t>(audited_.face[static_cast<std::size_t>(piece(other).face)].face)];
     const auto body = [&](int node) { return surface_.body[static_cast<std::size_t>(surface_.slave(node))]; };
-    if (!surface_.held.empty() && surface_.held.one_piece(body(piece(own).node), face.body)) return true;
+    if (!surface_.tied.empty() && surface_.tied.one_piece(body(piece(own).node), face.body)) return true;
     return (piece(own).part >= 0 && surface_.pairs.parts_apart(piece(own).part, face.part)) ||
            surface_.never_touch(surface_.slave(piece(own).node), face);
   }

@@ -143,12 +143,12 @@ class SegmentProximity {
     const int rigid = surface_.rigid_body(first.node[0]);
     if (rigid >= 0 && rigid == surface_.rigid_body(second.node[0])) return true;
     if (surface_.pairs.parts_apart(first.part, second.part)) return true;
-    if (!surface_.held.empty() && (is_tied(first, second.part) || is_tied(second, first.part))) return true;
+    if (!surface_.tied.empty() && (is_tied(first, second.part) || is_tied(second, first.part))) return true;
     return (first.body == second.body && share_a_face(first, second)) || lie_so_by_the_mesh(first, second);
   }
 
   bool is_tied(const AuditedSegment& segment, int part) const {
-    return surface_.held.apart(segment.node[0], part) || surface_.held.apart(segment.node[1], part);
+    return surface_.tied.apart(segment.node[0], part) || surface_.tied.apart(segment.node[1], part);
   }
 
   bool share_a_face(const AuditedSegment& first, const AuditedSegment& second) const {

@@ -93,7 +93,7 @@ std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   if (!touch) return std::nullopt;
   Hit hit{.kind = PairKind::edge_edge, .pair = pair, .time = touch->time, .at_start = {}, .at_hit = {}};
   Contact contact;
-  contact.slave = first_line_slave + list.first(pair);
+  contact.slave = first_edge_slave + list.first(pair);
   contact.face = -1;
   contact.body = b.body;
   contact.own = 2;

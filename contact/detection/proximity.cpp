@@ -32,7 +32,7 @@ Vector3<double> between_middles(const Points& at) {
   return {rounded(inverse * d.x), rounded(inverse * d.y), rounded(inverse * d.z)};
 }
 
-/// Passes over a range of awake pairs of one kind.
+/// Passes over a range of active pairs of one kind.
 template <class Kind>
 class Finder {
  public:
@@ -44,11 +44,11 @@ class Finder {
         band_(proximity_band * kind.features.smallest_edge),
         least_square_(square(no_distance * kind.features.smallest_edge)) {}
 
-  void find(const std::vector<int>& awake, std::size_t begin, std::size_t end,
+  void find(const std::vector<int>& active, std::size_t begin, std::size_t end,
             Proximity::Range& range) const {
     PairsOfRange near;
     for (std::size_t i = begin; i < end; ++i)
-      if (is_near(OnePair<Kind>(kind_, awake[i]))) near.add(kind_.list, awake[i]);
+      if (is_near(OnePair<Kind>(kind_, active[i]))) near.add(kind_.list, active[i]);
     range.found.clear();
     range.closest_points = near.count[0] + near.count[1];
     find_closest<false>(near, range.found);
@@ -174,16 +174,16 @@ void take_over(Proximity& proximity, std::size_t ranges, std::vector<Contact>& c
 
 template <class Kind>
 void find_of_kind(Proximity& proximity, const Kind& kind, const ProximityFilter& filter,
-                  const std::vector<int>& awake, ThreadTeam& team, std::vector<Contact>& contacts) {
-  if (awake.empty()) return;
-  const std::size_t ranges = (awake.size() + pairs_a_range - 1) / pairs_a_range;
+                  const std::vector<int>& active, ThreadTeam& team, std::vector<Contact>& contacts) {
+  if (active.empty()) return;
+  const std::size_t ranges = (active.size() + pairs_a_range - 1) / pairs_a_range;
   while (proximity.range.size() < ranges) proximity.range.emplace_back().found.reserve(pairs_a_range / 8);
   const Finder<Kind> finder(kind, filter);
-  team.for_ranges(awake.size(), pairs_a_range, [&](std::size_t begin, std::size_t end) {
-    finder.find(awake, begin, end, proximity.range[begin / pairs_a_range]);
+  team.for_ranges(active.size(), pairs_a_range, [&](std::size_t begin, std::size_t end) {
+    finder.find(active, begin, end, proximity.range[begin / pairs_a_range]);
   });
   take_over(proximity, ranges, contacts);
-  proximity.looked_at += awake.size();
+  proximity.looked_at += active.size();
 }
 
 }  // namespace
@@ -192,13 +192,13 @@ double allowed_surplus(const SurfaceFeatures& features) {
   return 0.25 * proximity_band * features.smallest_edge;
 }
 
-void select_awake(Proximity& proximity, const SurfaceFeatures& features, const FeaturePairs& pairs,
-                  const FeatureMotion& motion, ThreadTeam& team) {
+void select_active(Proximity& proximity, const SurfaceFeatures& features, const FeaturePairs& pairs,
+                   const FeatureMotion& motion, ThreadTeam& team) {
   const double surplus = 2 * allowed_surplus(features);
-  select_awake_pairs(proximity.node_face_blocks, pairs.node_face, motion.of_node, motion.of_face, motion,
-                     surplus, team, proximity.node_face);
-  select_awake_pairs(proximity.edge_edge_blocks, pairs.edge_edge, motion.of_edge, motion.of_edge, motion,
-                     surplus, team, proximity.edge_edge);
+  select_active_pairs(proximity.node_face_blocks, pairs.node_face, motion.of_node, motion.of_face, motion,
+                      surplus, team, proximity.node_face);
+  select_active_pairs(proximity.edge_edge_blocks, pairs.edge_edge, motion.of_edge, motion.of_edge, motion,
+                      surplus, team, proximity.edge_edge);
 }
 
 void find_proximities(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "contact/detection/awake_pairs.hpp"
+#include "contact/detection/active_pairs.hpp"
 #include "contact/features/feature_motion.hpp"
 #include "contact/features/features.hpp"
 #include "contact/options.hpp"
@@ -45,8 +45,8 @@ struct Proximity {
 };
 
 /// Active pairs: those that may come within their radii in this step, by their motion bounds.
-void select_awake(Proximity& proximity, const SurfaceFeatures& features, const FeaturePairs& pairs,
-                  const FeatureMotion& motion, ThreadTeam& team);
+void select_active(Proximity& proximity, const SurfaceFeatures& features, const FeaturePairs& pairs,
+                   const FeatureMotion& motion, ThreadTeam& team);
 
 /// Replace `contacts` by the constraints of this step, those of nodes and faces by node, then those of edges.
 /// Directions and motion bounds of the pairs are renewed. The same bits for any number of threads. \param

@@ -346,7 +346,7 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   if (flat_a != Flatness::none && flat_b != Flatness::none && !rims) return;
 
   Contact contact;
-  contact.slave = first_line_slave + (on_a >= 0 ? on_a : ea);
+  contact.slave = first_edge_slave + (on_a >= 0 ? on_a : ea);
   contact.face = -1;
   contact.body = b.body;
   contact.own = 2;

@@ -125,7 +125,7 @@ class Builder {
   }
 
   bool is_prescribed(int node, int axis) const {
-    return surface_.rigid_body(node) < 0 && !ties_.holds(node) &&
+    return surface_.rigid_body(node) < 0 && !ties_.is_tied(node) &&
            nodes_.free_inverse_mass(index(node), axis) == 0;
   }
   bool turns(int node) const {
@@ -134,7 +134,7 @@ class Builder {
     return nodes_.rotational_inertia[index(node)] > 0;
   }
   const Tie* tie_of(int node) const {
-    return ties_.holds(node) ? &ties_.node[index(ties_.of_node[index(node)])].tie : nullptr;
+    return ties_.is_tied(node) ? &ties_.node[index(ties_.of_node[index(node)])].tie : nullptr;
   }
 
   // How far the contact point stands off both sides. \returns whether there is a place for it.

@@ -45,7 +45,7 @@ void account_supports(const RowMap& map, const Vector& impulse, std::span<const 
 
 RowWork account_work(ConstraintRows& rows, std::span<const Vector> before,
                      std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
-                     std::span<PushOnWall> walls) {
+                     std::span<ImpulseOnWall> walls) {
   RowWork work;
   for (ConstraintRow& row : rows.row) {
     if (row.impulse == 0) continue;
@@ -62,7 +62,7 @@ RowWork account_work(ConstraintRows& rows, std::span<const Vector> before,
     const Vector impulse = impulse_of(row);
     account_supports(map, impulse, before, after, places, work);
     if (row.wall < 0) continue;
-    PushOnWall& wall = walls[index(row.wall)];
+    ImpulseOnWall& wall = walls[index(row.wall)];
     wall.impulse = wall.impulse - impulse;
     wall.moment = wall.moment - cross(row.point, impulse);
     wall.work += dot(impulse, row.wall_velocity);

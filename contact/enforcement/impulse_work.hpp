@@ -30,7 +30,7 @@ struct RowWork {
 };
 
 /// Impulse and work of all rows at a rigid wall.
-struct PushOnWall {
+struct ImpulseOnWall {
   Vector3<double> impulse{0, 0, 0};
   Vector3<double> moment{0, 0, 0};  ///< about the origin
   double work = 0;                  ///< of the wall on the bodies
@@ -42,6 +42,6 @@ struct PushOnWall {
 /// \param walls by number; their sums are increased.
 RowWork account_work(ConstraintRows& rows, std::span<const Vector3<double>> before,
                      std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
-                     std::span<PushOnWall> walls);
+                     std::span<ImpulseOnWall> walls);
 
 }  // namespace brio

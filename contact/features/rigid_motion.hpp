@@ -28,7 +28,7 @@ struct RigidMotion {
   Eigen::Vector3d velocity_before_at(const Eigen::Vector3d& arm) const {
     return velocity_before + angular_velocity_before.cross(arm);
   }
-  void push(const Eigen::Vector3d& given, const Eigen::Vector3d& arm) {
+  void apply_impulse(const Eigen::Vector3d& given, const Eigen::Vector3d& arm) {
     const Eigen::Vector3d turn = arm.cross(given);
     impulse += given;
     moment += turn;

@@ -41,10 +41,10 @@ bool may_meet(const Surface& surface, const EdgeFeature& a, const EdgeFeature& b
   const int rigid = surface.rigid_body(node_a);
   if (rigid >= 0 && rigid == surface.rigid_body(node_b)) return false;
   if (surface.pairs.parts_apart(a.part, b.part)) return false;
-  if (surface.held.empty()) return true;
+  if (surface.tied.empty()) return true;
   const auto tied = [&](const EdgeFeature& edge, const EdgeFeature& other) {
     return std::any_of(edge.node.begin(), edge.node.end(), [&](int slave) {
-      return surface.held.apart(surface.node[static_cast<std::size_t>(slave)], other.part);
+      return surface.tied.apart(surface.node[static_cast<std::size_t>(slave)], other.part);
     });
   };
   return !tied(a, b) && !tied(b, a);
@@ -74,7 +74,7 @@ bool are_of_one_piece(const SurfaceFeatures& features, const Surface& surface, c
         if (f >= 0 && is_excluded(excluded, node, f)) return true;
     return false;
   };
-  if (!surface.held.one_piece(a.body, b.body)) return false;
+  if (!surface.tied.one_piece(a.body, b.body)) return false;
   if (!a.of_face() && !b.of_face()) return a.body == b.body && drawn_together(features, a, b);
   return excludes(a, b) || excludes(b, a);
 }

@@ -127,7 +127,7 @@ std::optional<Piercing> find_piercing(const SurfaceFeatures& features, const Sur
       const EdgeFeature& edge = features.edge[static_cast<std::size_t>(e)];
       const std::array<int, 2> ends = ends_of(surface, edge);
       if (face.has(ends[0]) || face.has(ends[1]) || surface.pairs.parts_apart(edge.part, face.part)) continue;
-      if (shells_alone && surface.held.one_piece(face.body, edge.body)) continue;
+      if (shells_alone && surface.tied.one_piece(face.body, edge.body)) continue;
       if (surface.never_touch(edge.node[0], face) || surface.never_touch(edge.node[1], face)) continue;
       const bool spaced = !is_excluded(excluded, edge.node[0], static_cast<int>(f)) &&
                           !is_excluded(excluded, edge.node[1], static_cast<int>(f));

@@ -93,7 +93,7 @@ class GapMaker {
     }
     expect_within_limit();
     for (const SidedPair& pair : found_)
-      if (is_missing(pair) && (!is_held(pair) || must_move(pair))) record(pair);
+      if (is_missing(pair) && (!is_fixed(pair) || must_move(pair))) record(pair);
     const bool moves = !report_.empty() && make_gap();
     record_motion();
     if (crosses || moves) expect_uncrossed(false);
@@ -156,13 +156,13 @@ class GapMaker {
       if (!pair.spaced || !is_missing(pair) || pair.skin >= 2 * features_.skin) continue;
       if (pair.contact.face >= 0) {
         const int body = surface_.body[static_cast<std::size_t>(pair.contact.slave)];
-        if (surface_.held.one_piece(pair.contact.body, body))
+        if (surface_.tied.one_piece(pair.contact.body, body))
           drawn.emplace_back(pair.contact.slave, pair.contact.face);
         continue;
       }
       const EdgeFeature& a = features_.edge[static_cast<std::size_t>(pair.feature[0])];
       const EdgeFeature& b = features_.edge[static_cast<std::size_t>(pair.feature[1])];
-      if (!surface_.held.one_piece(a.body, b.body)) continue;
+      if (!surface_.tied.one_piece(a.body, b.body)) continue;
       for (const auto& [edge, other] : {std::pair(&a, &b), std::pair(&b, &a)})
         for (int node : edge->node)
           for (int f : other->face)
@@ -256,11 +256,11 @@ class GapMaker {
     const int node = surface_.node[static_cast<std::size_t>(slave)];
     const auto n = static_cast<std::size_t>(node);
     if (!nodes_.prescribed.empty() && (nodes_.prescribed[n] >> axis & 1) != 0) return false;
-    if (!surface_.held.empty() && surface_.held.holder[n] >= 0) return false;
+    if (!surface_.tied.empty() && surface_.tied.main_part[n] >= 0) return false;
     return surface_.rigid_body(node) < 0;
   }
   // Whether no node of either side can move along the normal.
-  bool is_held(const SidedPair& pair) const {
+  bool is_fixed(const SidedPair& pair) const {
     const Contact& contact = pair.contact;
     for (std::size_t k = 0; k < contact.node.size(); ++k)
       for (int axis = 0; axis < 3; ++axis)
@@ -271,7 +271,7 @@ class GapMaker {
   const SidedPair* worst_missing() const {
     const SidedPair* worst = nullptr;
     for (const SidedPair& pair : found_) {
-      if (!is_missing(pair) || (is_held(pair) && !must_move(pair))) continue;
+      if (!is_missing(pair) || (is_fixed(pair) && !must_move(pair))) continue;
       const auto badness = [&](const SidedPair& one) { return std::pair(must_move(one), -one.contact.gap); };
       if (worst == nullptr || badness(pair) > badness(*worst)) worst = &pair;
     }
@@ -286,7 +286,7 @@ class GapMaker {
       if (worst == nullptr) return round > 0;
       const bool only_gap = !must_move(*worst);
       missing = -worst->contact.gap;
-      const bool is_last = round >= most_rounds || is_held(*worst);
+      const bool is_last = round >= most_rounds || is_fixed(*worst);
       if (!only_gap)  // before many rounds in vain
         expect_bodies_apart(scene_, nodes_, round > 0 || is_last ? 0 : scene_.options.initial_overlap_limit);
       if (!only_gap && is_last) refuse(*worst, "which moving nodes does not remove");
@@ -332,7 +332,7 @@ class GapMaker {
       return block;
     };
     for (const SidedPair& pair : found_) {
-      if (is_held(pair)) continue;
+      if (is_fixed(pair)) continue;
       const Contact& contact = pair.contact;
       ConstraintRow& row =
           rows_.add_row({contact.normal[0], contact.normal[1], contact.normal[2]}, contact.gap, 0);

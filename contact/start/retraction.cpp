@@ -170,7 +170,7 @@ class Retraction {
   }
 
   bool are_two(int body, int other) const {
-    return body != other && !surface_.held.one_piece(body, other) &&
+    return body != other && !surface_.tied.one_piece(body, other) &&
            !overlapping_.contains(std::minmax(body, other));
   }
 
@@ -208,15 +208,15 @@ class Retraction {
   void move() {
     std::vector<Vector3d> displacement(surface_.slaves(), Vector3d::Zero());
     for (std::size_t s = 0; s < displacement.size(); ++s)
-      if (!is_held(static_cast<int>(s))) displacement[s] = inward(static_cast<int>(s));
+      if (!is_tied(static_cast<int>(s))) displacement[s] = inward(static_cast<int>(s));
     for (std::size_t s = 0; s < displacement.size(); ++s)
       for (int axis = 0; axis < 3 && !displacement[s].isZero(0); ++axis)
         nodes_.record[static_cast<std::size_t>(surface_.node[s])].position[axis] += displacement[s][axis];
   }
 
-  bool is_held(int s) const {
-    return !surface_.held.empty() &&
-           surface_.held.holder[static_cast<std::size_t>(surface_.node[static_cast<std::size_t>(s)])] >= 0;
+  bool is_tied(int s) const {
+    return !surface_.tied.empty() &&
+           surface_.tied.main_part[static_cast<std::size_t>(surface_.node[static_cast<std::size_t>(s)])] >= 0;
   }
 
   // Sets all faces at a node back by what the most of them needs.

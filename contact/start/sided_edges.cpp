@@ -31,7 +31,7 @@ class EdgesAndEdges {
  private:
   Segment segment(const EdgeFeature& edge) const { return {look_.at(edge.node[0]), look_.at(edge.node[1])}; }
   bool one_piece(const EdgeFeature& a, const EdgeFeature& b) const {
-    return a.body == b.body || surface_.held.one_piece(a.body, b.body);
+    return a.body == b.body || surface_.tied.one_piece(a.body, b.body);
   }
   static bool of_solid(const EdgeFeature& edge) { return edge.of_face() && !edge.shell; }
   bool is_spaced(std::size_t pair) const { return list_.has_radii(pair); }
@@ -146,7 +146,7 @@ class EdgesAndEdges {
     one.contact.node = {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
     one.contact.gap = -reach;
     one.contact.face = -1;
-    one.contact.slave = first_line_slave + ea;
+    one.contact.slave = first_edge_slave + ea;
     one.scale = reach;
     one.is_apart = false;
     one.feature = {ea, eb};
@@ -165,7 +165,7 @@ class EdgesAndEdges {
         !look_.is_minimum(eb, feet.parameter[1], feet.on_b, -normal, one.support[1]))
       return;
     Contact& contact = one.contact;
-    contact.slave = first_line_slave + (one.support[0] >= 0 ? one.support[0] : ea);
+    contact.slave = first_edge_slave + (one.support[0] >= 0 ? one.support[0] : ea);
     contact.face = -1;
     contact.body = b.body;
     contact.own = 2;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "contact/surface/held_pairs.hpp"
 #include "contact/surface/pair_table.hpp"
+#include "contact/surface/tied_pairs.hpp"
 #include "src/base/lists.hpp"
 
 namespace brio {
@@ -79,7 +79,7 @@ struct Surface {
   int body_count = 0;
   std::vector<int> rigid_of_node;  ///< of each global node: its rigid body, or -1; empty where there is none
   PairTable pairs;                 ///< rules for pairs of parts
-  HeldPairs held;                  ///< pairs excluded because they are tied
+  TiedPairs tied;                  ///< pairs excluded because they are tied
 
   /// -1: none.
   int rigid_body(int global_node) const {
@@ -91,15 +91,15 @@ struct Surface {
     const int global_node = node[static_cast<std::size_t>(slave)];
     const int own = rigid_body(global_node);
     return (own >= 0 && own == rigid_body(other.node[0])) || pairs.apart(global_node, other.part) ||
-           (!held.empty() && is_held(slave, other));
+           (!tied.empty() && is_tied(slave, other));
   }
   /// Whether a node and a face belong to a tie: the node to its face's part, or a corner to the node's part.
-  bool is_held(int slave, const Face& other) const {
-    if (held.apart(node[static_cast<std::size_t>(slave)], other.part)) return true;
+  bool is_tied(int slave, const Face& other) const {
+    if (tied.apart(node[static_cast<std::size_t>(slave)], other.part)) return true;
     for (int corner : other.node)
-      if (const int holder = held.holder[static_cast<std::size_t>(corner)]; holder >= 0)
+      if (const int main_part = tied.main_part[static_cast<std::size_t>(corner)]; main_part >= 0)
         for (int f : faces_of.of(slave))
-          if (face[static_cast<std::size_t>(f)].part == holder) return true;
+          if (face[static_cast<std::size_t>(f)].part == main_part) return true;
     return false;
   }
 

@@ -100,7 +100,7 @@ Vector3d normal_rate(const Tie& tie, const FaceVertices& face, const FaceVertice
 
 Vector3d point_on(const Tie& tie, const FaceVertices& face) { return face[0] + combine(tie.weight, face); }
 
-Vector3d held_position(const Tie& tie, const FaceVertices& face) {
+Vector3d tied_position(const Tie& tie, const FaceVertices& face) {
   const Vector3d point = point_on(tie, face);
   if (tie.turning) return point + tie.arm;
   return tie.gap == 0 ? point : Vector3d(point + tie.gap * normal_at(tie, face));

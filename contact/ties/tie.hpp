@@ -49,7 +49,7 @@ Eigen::Vector3d normal_rate(const Tie& tie, const FaceVertices& face, const Face
 Eigen::Vector3d point_on(const Tie& tie, const FaceVertices& face);
 
 /// Position of the tied node.
-Eigen::Vector3d held_position(const Tie& tie, const FaceVertices& face);
+Eigen::Vector3d tied_position(const Tie& tie, const FaceVertices& face);
 
 /// Forces on the corners with the power of a force on the node.
 /// \pre not turning: an arm adds a moment on the corners, arm x force times each weight

@@ -49,21 +49,21 @@ void set_inverses(Nodes& nodes, int entry) {
         nodes.rotational_inertia[node] > 0 ? 1 / nodes.rotational_inertia[node] : 0;
 }
 
-void move_mass(TiedNode& held, Nodes& nodes) {
-  const Tie& tie = held.tie;
+void move_mass(TiedNode& tied, Nodes& nodes) {
+  const Tie& tie = tied.tie;
   const auto node = static_cast<std::size_t>(tie.node);
   const std::array<double, 4> share = mass_share(tie);
-  held.mass = nodes.mass[node];
+  tied.mass = nodes.mass[node];
   nodes.mass[node] = 0;
   if (tie.turning) {
-    held.inertia = nodes.rotational_inertia[node] + held.mass * tie.arm.squaredNorm();
+    tied.inertia = nodes.rotational_inertia[node] + tied.mass * tie.arm.squaredNorm();
     nodes.rotational_inertia[node] = 0;
   }
   set_inverses(nodes, tie.node);
   for (std::size_t k = 0; k < 4; ++k) {
     const auto corner = static_cast<std::size_t>(tie.corner[k]);
-    nodes.mass[corner] += share[k] * held.mass;
-    if (tie.turning) nodes.rotational_inertia[corner] += share[k] * held.inertia;
+    nodes.mass[corner] += share[k] * tied.mass;
+    if (tie.turning) nodes.rotational_inertia[corner] += share[k] * tied.inertia;
     set_inverses(nodes, tie.corner[k]);
   }
 }
@@ -74,15 +74,15 @@ std::size_t place_in(std::span<const int> ascending, int node) {
 }
 
 // Rayleigh's quotient: the highest frequency grows at most by the largest ratio of the energy that masses
-// would have where they are held to the energy that they have on the corners. Of a node that moves as
+// would have where they are tied to the energy that they have on the corners. Of a node that moves as
 // sum A_k v_k that energy is at most (sum |A_k|) sum |A_k| v_k^2 m / 2; an arm that turns with angular
 // velocities adds the product of v_k and the arm times omega_k.
 double largest_energy_ratio(Ties& ties, const Nodes& nodes) {
   ties.bound = ties.own_mass;
   ties.coupling.assign(ties.bound.size(), 0);
   const auto at = [&](int node) { return place_in(ties.concerned, node); };
-  for (const TiedNode& held : ties.node) {
-    const Tie& tie = held.tie;
+  for (const TiedNode& tied : ties.node) {
+    const Tie& tie = tied.tie;
     const std::array<double, 4> share = largest_share(tie, corners_of(tie, nodes));
     double sum = 0;
     for (double one : share) sum += one;
@@ -106,9 +106,9 @@ double largest_energy_ratio(Ties& ties, const Nodes& nodes) {
 
 void list_concerned(Ties& ties, const Nodes& nodes) {
   ties.concerned.clear();
-  for (const TiedNode& held : ties.node) {
-    ties.concerned.push_back(held.tie.node);
-    for (int corner : held.tie.corner) ties.concerned.push_back(corner);
+  for (const TiedNode& tied : ties.node) {
+    ties.concerned.push_back(tied.tie.node);
+    for (int corner : tied.tie.corner) ties.concerned.push_back(corner);
   }
   std::sort(ties.concerned.begin(), ties.concerned.end());
   ties.concerned.erase(std::unique(ties.concerned.begin(), ties.concerned.end()), ties.concerned.end());
@@ -122,9 +122,9 @@ void list_concerned(Ties& ties, const Nodes& nodes) {
 }
 
 void move_masses(Ties& ties, Nodes& nodes) {
-  for (TiedNode& held : ties.node) {
-    move_mass(held, nodes);
-    ties.moved_mass[static_cast<std::size_t>(held.tie.node)] = held.mass;
+  for (TiedNode& tied : ties.node) {
+    move_mass(tied, nodes);
+    ties.moved_mass[static_cast<std::size_t>(tied.tie.node)] = tied.mass;
   }
   // Weights that sum to one but for rounding take nothing from the step.
   constexpr double rounding = 1e-9;
@@ -134,7 +134,7 @@ void move_masses(Ties& ties, Nodes& nodes) {
 
 // Where masses are without ties.
 void take_back(Ties& ties, Nodes& nodes) {
-  for (const TiedNode& held : ties.node) ties.moved_mass[static_cast<std::size_t>(held.tie.node)] = 0;
+  for (const TiedNode& tied : ties.node) ties.moved_mass[static_cast<std::size_t>(tied.tie.node)] = 0;
   for (std::size_t i = 0; i < ties.concerned.size(); ++i) {
     const auto node = static_cast<std::size_t>(ties.concerned[i]);
     nodes.mass[node] = ties.own_mass[i];
@@ -182,18 +182,18 @@ void condense(Ties& ties, Nodes& nodes) {
 }
 
 NodeMotion release(Ties& ties, Nodes& nodes) {
-  const auto marked = [](const TiedNode& held) { return held.released; };
+  const auto marked = [](const TiedNode& tied) { return tied.released; };
   NodeMotion lost;
   if (std::none_of(ties.node.begin(), ties.node.end(), marked)) return lost;
   const NodeMotion before = motion_of(ties.concerned, nodes);
   take_back(ties, nodes);
-  for (const TiedNode& held : ties.node)
-    if (held.released) ties.of_node[static_cast<std::size_t>(held.tie.node)] = -1;
+  for (const TiedNode& tied : ties.node)
+    if (tied.released) ties.of_node[static_cast<std::size_t>(tied.tie.node)] = -1;
   ties.released += static_cast<std::int64_t>(std::erase_if(ties.node, marked));
   for (std::size_t i = 0; i < ties.node.size(); ++i)
     ties.of_node[static_cast<std::size_t>(ties.node[i].tie.node)] = static_cast<int>(i);
   // With the masses without ties still at hand for those that remain, and motion compared over all.
-  for (TiedNode& held : ties.node) move_mass(held, nodes);
+  for (TiedNode& tied : ties.node) move_mass(tied, nodes);
   const NodeMotion after = motion_of(ties.concerned, nodes);
   take_back(ties, nodes);
   list_concerned(ties, nodes);
@@ -205,8 +205,8 @@ NodeMotion release(Ties& ties, Nodes& nodes) {
 }
 
 void gather_forces(const Ties& ties, Nodes& nodes) {
-  for (const TiedNode& held : ties.node) {
-    const Tie& tie = held.tie;
+  for (const TiedNode& tied : ties.node) {
+    const Tie& tie = tied.tie;
     const Vector3d force = row(nodes.force, tie.node);
     if (tie.gap != 0) {
       const std::array<Vector3d, 4> share = spread(tie, corners_of(tie, nodes), force);
@@ -220,7 +220,7 @@ void gather_forces(const Ties& ties, Nodes& nodes) {
   }
 }
 
-Vector3d held_velocity(const Tie& tie, const Nodes& nodes, double step) {
+Vector3d tied_velocity(const Tie& tie, const Nodes& nodes, double step) {
   Vector3d velocity = Vector3d::Zero();
   for (std::size_t k = 0; k < 4; ++k) velocity += tie.weight[k] * brio::velocity(nodes, tie.corner[k]);
   if (tie.turning) {
@@ -243,7 +243,7 @@ void carry_velocities(const Ties& ties, Nodes& nodes, double step) {
   for (std::size_t i = ties.node.size(); i-- > 0;) {
     const Tie& tie = ties.node[i].tie;
     const auto node = static_cast<std::size_t>(tie.node);
-    set_components(nodes.record[node].velocity, held_velocity(tie, nodes, step));
+    set_components(nodes.record[node].velocity, tied_velocity(tie, nodes, step));
     if (tie.turning)
       set_components(nodes.angular_velocity[node].component, mean_angular_velocity(tie, nodes));
   }
@@ -254,7 +254,7 @@ void place(Ties& ties, Nodes& nodes, double step) {
     Tie& tie = ties.node[i].tie;
     if (tie.has_arm() && step > 0) tie.arm = turned_by(step * mean_angular_velocity(tie, nodes), tie.arm);
     set_components(nodes.record[static_cast<std::size_t>(tie.node)].position,
-                   held_position(tie, corners_of(tie, nodes)));
+                   tied_position(tie, corners_of(tie, nodes)));
   }
 }
 

@@ -45,12 +45,13 @@ struct Ties {
   std::vector<int> concerned;                 ///< tied nodes and corners, ascending
   std::vector<double> own_mass, own_inertia;  ///< of these, without ties
   std::vector<double> bound, coupling;        ///< working space, of these
-  std::vector<Eigen::Vector3d> wall_push, wall_rub;  ///< impulses of a wall on each tied node in this step
-  double step_share = 1;                             ///< ratio to the stable time step of the elements
-  std::int64_t released = 0;                         ///< nodes, since the start
+  std::vector<Eigen::Vector3d> wall_impulse,
+      wall_friction;          ///< impulses of a wall on each tied node in this step
+  double step_share = 1;      ///< ratio to the stable time step of the elements
+  std::int64_t released = 0;  ///< nodes, since the start
 
   bool empty() const { return node.empty(); }
-  bool holds(int global_node) const {
+  bool is_tied(int global_node) const {
     return !of_node.empty() && of_node[static_cast<std::size_t>(global_node)] >= 0;
   }
 };
@@ -79,7 +80,7 @@ NodeMotion release(Ties& ties, Nodes& nodes);
 void gather_forces(const Ties& ties, Nodes& nodes);
 
 /// Velocity of one tied node from those of its corners.
-Eigen::Vector3d held_velocity(const Tie& tie, const Nodes& nodes, double step);
+Eigen::Vector3d tied_velocity(const Tie& tie, const Nodes& nodes, double step);
 
 /// Velocities of tied nodes, such that they are at their position after the step.
 void carry_velocities(const Ties& ties, Nodes& nodes, double step);

@@ -136,7 +136,7 @@ struct ParticleKernel : Particle {
   template <class T, class Law>
   static BRIO_INLINE T secant_modulus(const Law& law, T modulus,
                                       const typename Law::template History<T>& history) {
-    if constexpr (flows<Law>) {
+    if constexpr (has_yield_stress<Law>) {
       const T plastic_strain = history.equivalent_plastic_strain;
       const T yield_stress = point_of(law.hardening(), history).stress;
       return modulus * yield_stress / (yield_stress + modulus * plastic_strain);

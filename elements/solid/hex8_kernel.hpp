@@ -132,16 +132,16 @@ struct Hex8Kernel : Hex8 {
                                                        const HourglassStrain<T>& growth,
                                                        HourglassState<T>& state) const {
     const T stiffness = state.scale.stiffness;
-    if constexpr (!flows<Law>) {
+    if constexpr (!has_yield_stress<Law>) {
       return {stiffness * stretch_hourglass(state.strain, carried, growth, T(1.0)), T(0.0)};
     } else {
       const T old_energy = square(carried) * stored_energy(state);
       const auto hardening = law.hardening();
       const T plastic_strain = point.history.equivalent_plastic_strain;
-      const MaskOf<T> has_flowed = plastic_strain > step.old_plastic_strain;
+      const MaskOf<T> has_yielded = plastic_strain > step.old_plastic_strain;
       T share(1.0);
-      if (any(has_flowed)) {
-        const MaskOf<T> grows = has_flowed & (dot(state.strain, growth) >= T(0.0));
+      if (any(has_yielded)) {
+        const MaskOf<T> grows = has_yielded & (dot(state.strain, growth) >= T(0.0));
         share = where(grows, T(hourglass_share_in_flow(hourglass_stiffness)), T(1.0));
       }
       const T elastic_work = stiffness * stretch_hourglass(state.strain, carried, growth, share);
@@ -149,9 +149,8 @@ struct Hex8Kernel : Hex8 {
       const T at_first_yield =
           hourglass_energy_at_yield(T(hardening.initial_yield_stress()), volume, bending);
       const bool any_yields = any(trial_energy > at_first_yield);
-      if (any(has_flowed) || any_yields) {
-        T left =
-            share_left_by_flow(step.old_stress, point.stress, T(2.0) * axes.half_strain, shear, has_flowed);
+      if (any(has_yielded) || any_yields) {
+        T left = return_ratio(step.old_stress, point.stress, T(2.0) * axes.half_strain, shear, has_yielded);
         if (any_yields) {
           const T most =
               hourglass_energy_at_yield(point_of(hardening, point.history).stress, volume, bending);

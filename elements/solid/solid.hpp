@@ -23,7 +23,7 @@ concept StretchLaw = requires(const Law& law, const SymmetricTensor<double>& str
 };
 /// A material model with a yield stress (plastic_flow.hpp).
 template <class Law>
-inline constexpr bool flows = requires(const Law& law) {
+inline constexpr bool has_yield_stress = requires(const Law& law) {
   law.hardening();
 };
 template <class Law>
@@ -63,14 +63,14 @@ struct PointStep {
 };
 
 /// Ratio of the returned deviatoric stress to the elastic trial stress, 1 in elastic steps: hourglass stress
-/// is returned by the same ratio. \param shear elastic shear modulus. \param has_flowed lanes with plastic
+/// is returned by the same ratio. \param shear elastic shear modulus. \param has_yielded lanes with plastic
 /// strain in this step.
 template <class T>
-BRIO_INLINE T share_left_by_flow(const SymmetricTensor<T>& old_stress, const SymmetricTensor<T>& stress,
-                                 const SymmetricTensor<T>& strain, T shear, MaskOf<T> has_flowed) {
+BRIO_INLINE T return_ratio(const SymmetricTensor<T>& old_stress, const SymmetricTensor<T>& stress,
+                           const SymmetricTensor<T>& strain, T shear, MaskOf<T> has_yielded) {
   const SymmetricTensor<T> trial = deviator(old_stress) + (2.0 * shear) * deviator(strain);
-  const T left = contract(stress, trial) / where(has_flowed, contract(trial, trial), T(1.0));
-  return where(has_flowed, min(max(left, T(0.0)), T(1.0)), T(1.0));
+  const T left = contract(stress, trial) / where(has_yielded, contract(trial, trial), T(1.0));
+  return where(has_yielded, min(max(left, T(0.0)), T(1.0)), T(1.0));
 }
 
 /// Rotates the material axes and updates the stress. \param n dt/2 times the velocity gradient of the
@@ -87,7 +87,7 @@ BRIO_INLINE PointStep<T> update(const Law& law, const Tensor<T>& n, SolidPoint<T
       point.history.back_stress = turned(axes.end, point.history.back_stress);
   }
   PointStep<T> step{T(0.0), point.stress, T(0.0)};
-  if constexpr (flows<Law>) step.old_plastic_strain = point.history.equivalent_plastic_strain;
+  if constexpr (has_yield_stress<Law>) step.old_plastic_strain = point.history.equivalent_plastic_strain;
   if constexpr (RateLaw<Law>) {
     law.update(T(2.0) * axes.half_strain, point.stress, point.history);
   } else {

@@ -209,15 +209,16 @@ void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) 
                     "'tie' takes a part or a set, and the part whose faces its nodes are tied to");
   const YamlNode& slave = *names.items[0];
   check_set(slave, slot, node_set_names);
-  const Part& held = slot.known.part(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));
-  refuse_rigid(slave, held);
-  const Part& holder = slot.known.part(*names.items[1], tie.names[1]);
-  refuse_rigid(*names.items[1], holder);
-  if (nodes_per_element(holder.element) < 4)
+  const Part& tied = slot.known.part(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));
+  refuse_rigid(slave, tied);
+  const Part& main_surface = slot.known.part(*names.items[1], tie.names[1]);
+  refuse_rigid(*names.items[1], main_surface);
+  if (nodes_per_element(main_surface.element) < 4)
     throw DeckError(names.items[1]->place,
-                    "part '" + holder.name + "' is of elements '" + std::string(name_of(holder.element)) +
+                    "part '" + main_surface.name + "' is of elements '" +
+                        std::string(name_of(main_surface.element)) +
                         "', which have no faces; accepted are parts of solids and shells");
-  if (&held == &holder) throw DeckError(names.place, "'tie' takes two different parts");
+  if (&tied == &main_surface) throw DeckError(names.place, "'tie' takes two different parts");
 }
 
 }  // namespace

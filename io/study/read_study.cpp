@@ -52,7 +52,7 @@ void check_references(const CheckedStudy& checked, const YamlNode& root) {
     if (entry.value->find("reference") == nullptr)
       throw DeckError(entry.place,
                       "'" + entry.key +
-                          "' has nothing to be held against; give it a 'reference', or the study "
+                          "' has no reference to be compared with; give it a 'reference', or the study "
                           "the name of a reference run");
 }
 

@@ -313,7 +313,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     if (deck.contact->options.audit) model.contact_audits.emplace();
     const std::vector<PairRule> rules = pair_rules(*deck.contact, surfaces);
     if (!rules.empty()) model.contacts.back().surface.pairs = {rules, surfaces, model.nodes.size()};
-    if (!model.ties.empty()) hold(model.contacts.back(), model.ties, part_of_surface);
+    if (!model.ties.empty()) exclude_tied_pairs(model.contacts.back(), model.ties, part_of_surface);
     if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
     ThreadTeam team(threads);
     for (InitialOverlap& overlap : make_initial_gap(model.contacts.back(), model.nodes, team))

@@ -30,15 +30,15 @@ std::string at(const Nodes& nodes, int node) {
 }
 
 /// Faces of one part and the nodes that may be near them.
-struct Holder {
+struct MainSurface {
   std::size_t part;
   Surface surface;
   double half_thickness;
   bool turning;
 };
 
-Holder holder_of(std::size_t p, const Deck& deck, std::span<const Mesh> meshes,
-                 std::span<const std::vector<int>> connectivity, const Model& model) {
+MainSurface main_surface_of(std::size_t p, const Deck& deck, std::span<const Mesh> meshes,
+                            std::span<const std::vector<int>> connectivity, const Model& model) {
   SurfacePart surface;
   surface.name = deck.parts[p].name;
   surface.nodes_per_element = meshes[p].nodes_per_element;
@@ -51,7 +51,7 @@ Holder holder_of(std::size_t p, const Deck& deck, std::span<const Mesh> meshes,
           .turning = shell != nullptr};
 }
 
-CandidatePairs find_near(const Holder& holder, std::span<const int> slaves, double tolerance,
+CandidatePairs find_near(const MainSurface& main_surface, std::span<const int> slaves, double tolerance,
                          const Nodes& nodes) {
   std::vector<Vector3<double>> points;
   for (int node : slaves) {
@@ -59,11 +59,11 @@ CandidatePairs find_near(const Holder& holder, std::span<const int> slaves, doub
     points.push_back({x[0], x[1], x[2]});
   }
   std::vector<CaptureBox> boxes;
-  for (const Face& face : holder.surface.face) {
+  for (const Face& face : main_surface.surface.face) {
     const FaceVertices corners = vertices(nodes, face);
     Eigen::AlignedBox3d box;
     for (const Vector3d& corner : corners) box.extend(corner);
-    const double reach = tolerance + holder.half_thickness + 2 * beyond_edge * box.diagonal().norm();
+    const double reach = tolerance + main_surface.half_thickness + 2 * beyond_edge * box.diagonal().norm();
     CaptureBox& grown = boxes.emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
       grown.lower[axis] = box.min()[axis] - reach;
@@ -86,18 +86,18 @@ struct Found {
 };
 
 // Of each slave: the closest face within the tolerance, the first of those as close.
-std::vector<Found> closest_faces(const Holder& holder, std::span<const int> slaves, double tolerance,
-                                 const Nodes& nodes) {
+std::vector<Found> closest_faces(const MainSurface& main_surface, std::span<const int> slaves,
+                                 double tolerance, const Nodes& nodes) {
   std::vector<Found> closest(slaves.size());
-  const CandidatePairs pairs = find_near(holder, slaves, tolerance, nodes);
-  for (std::size_t f = 0; f < holder.surface.face.size(); ++f) {
-    const Face& face = holder.surface.face[f];
+  const CandidatePairs pairs = find_near(main_surface, slaves, tolerance, nodes);
+  for (std::size_t f = 0; f < main_surface.surface.face.size(); ++f) {
+    const Face& face = main_surface.surface.face[f];
     const FaceVertices corners = vertices(nodes, face);
     for (int s : pairs.of_box(f)) {
       const int node = slaves[static_cast<std::size_t>(s)];
       std::optional<Tie> tie = project(position(nodes, node), corners);
       if (!tie) continue;
-      const double distance = std::max(std::abs(tie->gap) - holder.half_thickness, 0.0);
+      const double distance = std::max(std::abs(tie->gap) - main_surface.half_thickness, 0.0);
       if (!(distance <= tolerance)) continue;
       const double outside = -std::min(*std::min_element(tie->weight.begin(), tie->weight.end()), 0.0);
       const double rank = distance + beyond_weight * outside * (corners[2] - corners[0]).norm();
@@ -105,7 +105,7 @@ std::vector<Found> closest_faces(const Holder& holder, std::span<const int> slav
       if (best.face >= 0 && !(rank < best.rank)) continue;
       tie->node = node;
       tie->corner = face.node;
-      if (holder.turning) {
+      if (main_surface.turning) {
         tie->turning = true;
         tie->arm = position(nodes, node) - point_on(*tie, corners);
         if (tie->gap == 0) tie->arm.setZero();
@@ -125,19 +125,20 @@ class Tying {
 
   void add(const TieToSurface& entry) {
     if (index_of_.empty()) index_of_.assign(model_.nodes.size(), -1);
-    const Holder holder = holder_of(part_index(entry.names[1], deck_), deck_, meshes_, connectivity_, model_);
+    const MainSurface main_surface =
+        main_surface_of(part_index(entry.names[1], deck_), deck_, meshes_, connectivity_, model_);
     NodeSelection named;
     named.set = entry.names[0];
     named.place = entry.place;
     std::vector<int> slaves = select_nodes(named, deck_, meshes_, model_);
-    std::vector<int> own = model_.parts[holder.part].node;
+    std::vector<int> own = model_.parts[main_surface.part].node;
     std::sort(own.begin(), own.end());
     std::erase_if(slaves, [&](int node) { return std::binary_search(own.begin(), own.end(), node); });
 
     TiedParts parts{.nodes = entry.names[0], .surface = entry.names[1], .place = entry.place};
-    for (const Found& found : closest_faces(holder, slaves, entry.tolerance, model_.nodes)) {
+    for (const Found& found : closest_faces(main_surface, slaves, entry.tolerance, model_.nodes)) {
       if (found.face < 0) continue;
-      hold(found, holder, entry);
+      tie_node(found, main_surface, entry);
       ++parts.count;
       parts.largest_gap = std::max(parts.largest_gap, found.distance);
     }
@@ -161,7 +162,7 @@ class Tying {
   }
 
  private:
-  void hold(const Found& found, const Holder& holder, const TieToSurface& entry) {
+  void tie_node(const Found& found, const MainSurface& main_surface, const TieToSurface& entry) {
     const int node = found.tie.node;
     int& index = index_of_[static_cast<std::size_t>(node)];
     if (index >= 0) {
@@ -173,11 +174,11 @@ class Tying {
                        entry.place);
     }
     index = static_cast<int>(model_.ties.node.size());
-    const int slot = holder.surface.face[static_cast<std::size_t>(found.face)].element;
+    const int slot = main_surface.surface.face[static_cast<std::size_t>(found.face)].element;
     model_.ties.node.push_back(
         {.tie = found.tie,
-         .face_part = static_cast<int>(holder.part),
-         .element = model_.parts[holder.part].element_order[static_cast<std::size_t>(slot)],
+         .face_part = static_cast<int>(main_surface.part),
+         .element = model_.parts[main_surface.part].element_order[static_cast<std::size_t>(slot)],
          .connection = static_cast<int>(model_.ties.found.size())});
   }
 
@@ -186,16 +187,16 @@ class Tying {
   void visit(int i, std::vector<std::uint8_t>& seen) {
     std::uint8_t& state = seen[static_cast<std::size_t>(i)];
     if (state == done) return;
-    const TiedNode& held = model_.ties.node[static_cast<std::size_t>(i)];
+    const TiedNode& tied = model_.ties.node[static_cast<std::size_t>(i)];
     if (state == open) {
-      const TiedParts& parts = model_.ties.found[static_cast<std::size_t>(held.connection)];
+      const TiedParts& parts = model_.ties.found[static_cast<std::size_t>(tied.connection)];
       throw BuildError(
-          "a node of '" + parts.nodes + "' " + at(model_.nodes, held.tie.node) +
+          "a node of '" + parts.nodes + "' " + at(model_.nodes, tied.tie.node) +
               " would be tied to a face whose nodes are tied to it; accepted are ties without cycles",
           parts.place);
     }
     state = open;
-    for (int corner : held.tie.corner)
+    for (int corner : tied.tie.corner)
       if (const int next = index_of_[static_cast<std::size_t>(corner)]; next >= 0) visit(next, seen);
     seen[static_cast<std::size_t>(i)] = done;
     order_.push_back(i);
@@ -231,14 +232,14 @@ bool all_corners_follow(const Tie& tie, const PrescribedNodes& motion,
 void release_supports(const Ties& ties, Model& model) {
   if (model.prescribed.empty()) return;
   const std::vector<PrescribedNodes> given = model.prescribed;
-  for (const TiedNode& held : ties.node) {
-    const int node = held.tie.node;
+  for (const TiedNode& tied : ties.node) {
+    const int node = tied.tie.node;
     for (std::size_t i = 0; i < given.size(); ++i) {
       const int axis = given[i].axis;
-      if (axis >= 3 && !held.tie.turning) continue;
+      if (axis >= 3 && !tied.tie.turning) continue;
       if (!std::binary_search(given[i].nodes.begin(), given[i].nodes.end(), node)) continue;
-      const TiedParts& parts = ties.found[static_cast<std::size_t>(held.connection)];
-      if (!all_corners_follow(held.tie, given[i], given))
+      const TiedParts& parts = ties.found[static_cast<std::size_t>(tied.connection)];
+      if (!all_corners_follow(tied.tie, given[i], given))
         throw BuildError("the motion of a node of '" + parts.nodes + "' " + at(model.nodes, node) +
                              " is prescribed, but not that of the face of '" + parts.surface +
                              "' that it is tied to; accepted: the same for both",
@@ -267,7 +268,7 @@ void start_ties(Model& model) {
   if (ties.empty()) return;
   Nodes& nodes = model.nodes;
   std::vector<Vector3d> given;
-  for (const TiedNode& held : ties.node) given.push_back(velocity(nodes, held.tie.node));
+  for (const TiedNode& tied : ties.node) given.push_back(velocity(nodes, tied.tie.node));
   carry_velocities(ties, nodes, 0);
   for (std::size_t i = 0; i < given.size(); ++i) {
     const Tie& tie = ties.node[i].tie;

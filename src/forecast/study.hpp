@@ -128,13 +128,13 @@ struct Study {
         optional("set", &Study::set, any_number, "overrides of the deck, for all runs: KEY.PATH: VALUE"),
         required("quantities", &Study::quantities, any_number, "what is looked at in each result"),
         optional("reference", &Study::reference, any_number,
-                 "run that the others are held against: `default`, KNOB.SETTING, or several joined by +"),
+                 "reference run: `default`, KNOB.SETTING, or several joined by +"),
         required("knobs", &Study::knobs, any_number,
                  "a map of knobs, each a map of settings, each a map of overrides of the deck"),
         optional("combinations", &Study::combinations, any_number,
                  "lists of KNOB.SETTING that are run together"),
         optional("physics", &Study::physics, any_number,
-                 "knobs that change the problem, not how it is solved: they are held to no comparison of "
+                 "knobs that change the problem, not how it is solved: excluded from the comparison of "
                  "cost and error"),
         optional(
             "refined", &Study::refined, any_number,

@@ -58,8 +58,8 @@ WallReaction stop_at(const WallInRun& wall, const StepTimes& times, Nodes& nodes
 
 /// Stops tied nodes, by impulses on the corners of their faces; before the others. Tied nodes then move with
 /// their faces. \param support the reactions of supports of the corners are added
-void stop_held_at(const WallInRun& wall, const StepTimes& times, Ties& ties, Nodes& nodes, Reaction& support);
+void stop_tied_at(const WallInRun& wall, const StepTimes& times, Ties& ties, Nodes& nodes, Reaction& support);
 /// Reaction of the wall on tied nodes, once all nodes have been stopped.
-WallReaction reaction_of_held(const Ties& ties, const StepTimes& times, Nodes& nodes);
+WallReaction reaction_of_tied(const Ties& ties, const StepTimes& times, Nodes& nodes);
 
 }  // namespace brio

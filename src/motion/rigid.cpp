@@ -254,7 +254,7 @@ Reaction accelerate(RigidBodies& bodies, const StepTimes& times) {
   return reaction;
 }
 
-void settle(RigidBodies& bodies) {
+void add_contact_impulses(RigidBodies& bodies) {
   for (std::size_t b = 0; b < bodies.body.size(); ++b) {
     RigidBody& body = bodies.body[b];
     RigidMotion& motion = bodies.motion[b];

@@ -92,7 +92,7 @@ Impulse weight(const RigidBodies& bodies);
 /// Apply the impulses of loads and set the prescribed components. \return the reaction of supports.
 Reaction accelerate(RigidBodies& bodies, const StepTimes& times);
 /// Add the impulses of contact or walls to the momenta and clear them.
-void settle(RigidBodies& bodies);
+void add_contact_impulses(RigidBodies& bodies);
 /// Velocities of all nodes of the bodies, from those of the bodies.
 void carry_velocities(const RigidBodies& bodies, Nodes& nodes, ThreadTeam& team);
 

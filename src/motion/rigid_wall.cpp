@@ -54,7 +54,7 @@ double solve_normal(WallTouch& touch, const Vector3d& normal, const Vector3d& wa
   const double impulse = std::max(0.0, touch.impulse + touch.normal_mass * (touch.target - along));
   const double change = impulse - touch.impulse;
   touch.impulse = impulse;
-  if (change != 0) motion.push(change * normal, touch.arm);
+  if (change != 0) motion.apply_impulse(change * normal, touch.arm);
   return std::abs(change) / touch.normal_mass;
 }
 
@@ -73,7 +73,7 @@ double solve_friction(WallTouch& touch, const Vector3d& normal, const Vector3d& 
   if (size > limit) impulse *= limit / size;
   const Vector3d change = impulse - touch.friction;
   touch.friction = impulse;
-  motion.push(change, touch.arm);
+  motion.apply_impulse(change, touch.arm);
   return change.norm() * inverse;
 }
 

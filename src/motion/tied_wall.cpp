@@ -17,9 +17,9 @@ const Tie& tie_of(const Ties& ties, int node) {
 
 /// Calls visit(node, impulse, moment) for the nodes with motion of their own that take an impulse.
 template <class Visit>
-void pass(const Ties& ties, const Nodes& nodes, int node, const Vector3d& impulse, const Vector3d& moment,
-          const Visit& visit) {
-  if (!ties.holds(node)) {
+void transfer(const Ties& ties, const Nodes& nodes, int node, const Vector3d& impulse, const Vector3d& moment,
+              const Visit& visit) {
+  if (!ties.is_tied(node)) {
     visit(static_cast<std::size_t>(node), impulse, moment);
     return;
   }
@@ -28,7 +28,7 @@ void pass(const Ties& ties, const Nodes& nodes, int node, const Vector3d& impuls
   const Vector3d turn = tie.turning ? Vector3d(moment + tie.arm.cross(impulse)) : Vector3d(Vector3d::Zero());
   for (std::size_t k = 0; k < 4; ++k)
     if (tie.weight[k] != 0 || !share[k].isZero(0))
-      pass(ties, nodes, tie.corner[k], share[k], tie.weight[k] * turn, visit);
+      transfer(ties, nodes, tie.corner[k], share[k], tie.weight[k] * turn, visit);
 }
 
 double free_inverse_inertia(const Nodes& nodes, std::size_t node, int axis) {
@@ -41,48 +41,48 @@ double free_inverse_inertia(const Nodes& nodes, std::size_t node, int axis) {
 /// each alone.
 double inverse_mass_along(const Ties& ties, const Nodes& nodes, int node, const Vector3d& direction) {
   double sum = 0;
-  pass(ties, nodes, node, direction, Vector3d::Zero(),
-       [&](std::size_t corner, const Vector3d& impulse, const Vector3d& moment) {
-         for (int axis = 0; axis < 3; ++axis)
-           sum += impulse[axis] * impulse[axis] * nodes.free_inverse_mass(corner, axis) +
-                  moment[axis] * moment[axis] * free_inverse_inertia(nodes, corner, axis);
-       });
+  transfer(ties, nodes, node, direction, Vector3d::Zero(),
+           [&](std::size_t corner, const Vector3d& impulse, const Vector3d& moment) {
+             for (int axis = 0; axis < 3; ++axis)
+               sum += impulse[axis] * impulse[axis] * nodes.free_inverse_mass(corner, axis) +
+                      moment[axis] * moment[axis] * free_inverse_inertia(nodes, corner, axis);
+           });
   return sum;
 }
 
-void give(const Ties& ties, Nodes& nodes, int node, const Vector3d& given, Reaction& support) {
-  pass(ties, nodes, node, given, Vector3d::Zero(),
-       [&](std::size_t corner, const Vector3d& impulse, const Vector3d& moment) {
-         Vector3d reaction = Vector3d::Zero();
-         double* v = nodes.record[corner].velocity;
-         for (int axis = 0; axis < 3; ++axis) {
-           const double free = nodes.free_inverse_mass(corner, axis);
-           v[axis] += free * impulse[axis];
-           if (free == 0) {
-             reaction[axis] = -impulse[axis];
-             support.before += reaction[axis] * nodes.velocity_before[corner].component[axis];
-             support.after += reaction[axis] * v[axis];
-           }
-           if (!nodes.has_rotations()) continue;
-           const double free_turn = free_inverse_inertia(nodes, corner, axis);
-           double* rate = nodes.angular_velocity[corner].component;
-           rate[axis] += free_turn * moment[axis];
-           if (free_turn > 0) continue;
-           support.before -= moment[axis] * nodes.angular_velocity_before[corner].component[axis];
-           support.after -= moment[axis] * rate[axis];
-           support.impulse.angular[static_cast<std::size_t>(axis)] -= moment[axis];
-         }
-         const double* x = nodes.record[corner].position;
-         support.impulse.add({x[0], x[1], x[2]}, to_vector(reaction));
-       });
+void apply(const Ties& ties, Nodes& nodes, int node, const Vector3d& given, Reaction& support) {
+  transfer(ties, nodes, node, given, Vector3d::Zero(),
+           [&](std::size_t corner, const Vector3d& impulse, const Vector3d& moment) {
+             Vector3d reaction = Vector3d::Zero();
+             double* v = nodes.record[corner].velocity;
+             for (int axis = 0; axis < 3; ++axis) {
+               const double free = nodes.free_inverse_mass(corner, axis);
+               v[axis] += free * impulse[axis];
+               if (free == 0) {
+                 reaction[axis] = -impulse[axis];
+                 support.before += reaction[axis] * nodes.velocity_before[corner].component[axis];
+                 support.after += reaction[axis] * v[axis];
+               }
+               if (!nodes.has_rotations()) continue;
+               const double free_turn = free_inverse_inertia(nodes, corner, axis);
+               double* rate = nodes.angular_velocity[corner].component;
+               rate[axis] += free_turn * moment[axis];
+               if (free_turn > 0) continue;
+               support.before -= moment[axis] * nodes.angular_velocity_before[corner].component[axis];
+               support.after -= moment[axis] * rate[axis];
+               support.impulse.angular[static_cast<std::size_t>(axis)] -= moment[axis];
+             }
+             const double* x = nodes.record[corner].position;
+             support.impulse.add({x[0], x[1], x[2]}, to_vector(reaction));
+           });
 }
 
 }  // namespace
 
-void stop_held_at(const WallInRun& entry, const StepTimes& times, Ties& ties, Nodes& nodes,
+void stop_tied_at(const WallInRun& entry, const StepTimes& times, Ties& ties, Nodes& nodes,
                   Reaction& support) {
-  ties.wall_push.assign(ties.node.size(), Vector3d::Zero());
-  ties.wall_rub.assign(ties.node.size(), Vector3d::Zero());
+  ties.wall_impulse.assign(ties.node.size(), Vector3d::Zero());
+  ties.wall_friction.assign(ties.node.size(), Vector3d::Zero());
   if (times.next <= 0) return;
   const Vector3d normal(entry.wall.normal.data());
   const Vector3d wall_velocity(entry.wall.velocity.data());
@@ -91,41 +91,42 @@ void stop_held_at(const WallInRun& entry, const StepTimes& times, Ties& ties, No
   for (std::size_t i = ties.node.size(); i-- > 0;) {
     const Tie& tie = ties.node[i].tie;
     const Vector3d x(nodes.record[static_cast<std::size_t>(tie.node)].position);
-    const Vector3d v = held_velocity(tie, nodes, times.next);
+    const Vector3d v = tied_velocity(tie, nodes, times.next);
     const double height = normal.dot(x + times.next * v) - offset;
     if (height >= 0) continue;
     const double compliance = inverse_mass_along(ties, nodes, tie.node, normal);
     if (!(compliance > 0)) continue;
-    ties.wall_push[i] = -height / times.next / compliance * normal;
+    ties.wall_impulse[i] = -height / times.next / compliance * normal;
     const Vector3d relative = v - wall_velocity;
     const Vector3d sliding = relative - normal.dot(relative) * normal;
     const double speed = sliding.norm();
     if (entry.wall.friction > 0 && speed > 0) {
       const double slip = inverse_mass_along(ties, nodes, tie.node, sliding / speed);
       const double stick = slip > 0 ? speed / slip : 0;
-      ties.wall_rub[i] = -std::min(stick, entry.wall.friction * ties.wall_push[i].norm()) / speed * sliding;
+      ties.wall_friction[i] =
+          -std::min(stick, entry.wall.friction * ties.wall_impulse[i].norm()) / speed * sliding;
     }
-    give(ties, nodes, tie.node, ties.wall_push[i] + ties.wall_rub[i], support);
+    apply(ties, nodes, tie.node, ties.wall_impulse[i] + ties.wall_friction[i], support);
   }
   carry_velocities(ties, nodes, times.next);
 }
 
-WallReaction reaction_of_held(const Ties& ties, const StepTimes& times, Nodes& nodes) {
+WallReaction reaction_of_tied(const Ties& ties, const StepTimes& times, Nodes& nodes) {
   carry_velocities(ties, nodes, times.next);
   WallReaction reaction;
   for (std::size_t i = 0; i < ties.node.size(); ++i) {
-    if (ties.wall_push[i].isZero(0)) continue;
+    if (ties.wall_impulse[i].isZero(0)) continue;
     const auto node = static_cast<std::size_t>(ties.node[i].tie.node);
     const NodeRecord& record = nodes.record[node];
     const Vector3d before(nodes.velocity_before[node].component);
     const Vector3d after(record.velocity);
     const Vector position{record.position[0], record.position[1], record.position[2]};
-    reaction.normal.before += ties.wall_push[i].dot(before);
-    reaction.normal.after += ties.wall_push[i].dot(after);
-    reaction.friction.before += ties.wall_rub[i].dot(before);
-    reaction.friction.after += ties.wall_rub[i].dot(after);
-    reaction.normal.impulse.add(position, to_vector(ties.wall_push[i]));
-    reaction.friction.impulse.add(position, to_vector(ties.wall_rub[i]));
+    reaction.normal.before += ties.wall_impulse[i].dot(before);
+    reaction.normal.after += ties.wall_impulse[i].dot(after);
+    reaction.friction.before += ties.wall_friction[i].dot(before);
+    reaction.friction.after += ties.wall_friction[i].dot(after);
+    reaction.normal.impulse.add(position, to_vector(ties.wall_impulse[i]));
+    reaction.friction.impulse.add(position, to_vector(ties.wall_friction[i]));
   }
   return reaction;
 }

@@ -211,7 +211,7 @@ void resolve_contact(Model& model, ThreadTeam& team) {
     }
     expect_driven_bodies_apart(model, scene);
     if (scene.unresolved.steps == 1 && scene.unresolved.time < 0) scene.unresolved.time = model.times.time;
-    settle(model.rigid);
+    add_contact_impulses(model.rigid);
     const ContactStep& step = scene.step;
     model.stages[Stage::contact_search] += step.search_seconds;
     model.stages[Stage::contact] -= step.search_seconds;
@@ -250,10 +250,10 @@ void stop_at_walls(Model& model) {
   const StageTimer timer(model.stages, Stage::constraints);
   for (const WallInRun& wall : model.walls) {
     Reaction support_of_ties;
-    if (!model.ties.empty()) stop_held_at(wall, model.times, model.ties, model.nodes, support_of_ties);
+    if (!model.ties.empty()) stop_tied_at(wall, model.times, model.ties, model.nodes, support_of_ties);
     account_wall(model, stop_at(wall, model.times, model.nodes));
     if (!model.ties.empty()) {
-      account_wall(model, reaction_of_held(model.ties, model.times, model.nodes));
+      account_wall(model, reaction_of_tied(model.ties, model.times, model.nodes));
       account_support(model, support_of_ties);
     }
     for (std::size_t b = 0; b < model.rigid.body.size(); ++b) {
@@ -262,7 +262,7 @@ void stop_at_walls(Model& model) {
                                   support));
       account_support(model, support);
     }
-    settle(model.rigid);
+    add_contact_impulses(model.rigid);
   }
 }
 
@@ -309,10 +309,10 @@ void erode_elements(Model& model, ThreadTeam& team) {
   do {
     erode(erosion, model.schedule, model.sweep_results, model.blocks, model.parts, model.energy);
     if (erosion.deleted.empty()) return;
-    for (ActiveLoad& load : model.loads) drop_sides(load, erosion.deleted);
+    for (ActiveLoad& load : model.loads) remove_sides(load, erosion.deleted);
     for (ContactScene& scene : model.contacts) erode(scene, *model.surface_numbers, erosion.deleted);
     if (release_ties(model.ties, erosion, model.nodes, model.energy, model.momentum))
-      for (ContactScene& scene : model.contacts) let_go(scene, model.ties);
+      for (ContactScene& scene : model.contacts) release_tied_pairs(scene, model.ties);
   } while (give_up_crossed(model, team));
   if (!is_sparse(model.schedule, model.blocks)) return;
   model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
@@ -324,8 +324,8 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   for (Work* work : {&energy.external, &energy.contact, &energy.friction}) work->begin_step();
 
   if (model.erosion) {
-    for (ActiveLoad& load : model.loads) drop_nodes(load, model.erosion->dropping);
-    drop_nodes(*model.erosion, model.nodes, energy, model.momentum);
+    for (ActiveLoad& load : model.loads) remove_nodes(load, model.erosion->dropping);
+    remove_nodes(*model.erosion, model.nodes, energy, model.momentum);
   }
   apply_loads(model);
   sweep_elements(model, team);

@@ -146,7 +146,7 @@ SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std
   return make_schedule(blocks, node_count);
 }
 
-void drop_sides(ActiveLoad& load, std::span<const DeletedElement> deleted) {
+void remove_sides(ActiveLoad& load, std::span<const DeletedElement> deleted) {
   auto* pressure = std::get_if<PressureLoad>(&load.load);
   if (pressure == nullptr) return;
   std::size_t kept = 0;
@@ -160,14 +160,14 @@ void drop_sides(ActiveLoad& load, std::span<const DeletedElement> deleted) {
   pressure->element.resize(kept);
 }
 
-void drop_nodes(ActiveLoad& load, std::span<const int> dropping) {
+void remove_nodes(ActiveLoad& load, std::span<const int> dropping) {
   auto* nodal = std::get_if<NodalLoad>(&load.load);
   if (nodal == nullptr || dropping.empty()) return;
   std::erase_if(nodal->nodes,
                 [&](int node) { return std::binary_search(dropping.begin(), dropping.end(), node); });
 }
 
-void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBalance& energy, MomentumBalance& momentum) {
+void remove_nodes(Erosion& erosion, Nodes& nodes, EnergyBalance& energy, MomentumBalance& momentum) {
   for (const int entry : erosion.dropping) {
     const auto node = static_cast<std::size_t>(entry);
     NodeRecord& record = nodes.record[node];

@@ -69,14 +69,14 @@ SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std
                      std::size_t node_count);
 
 /// Removes the sides of deleted elements from a load. \param deleted ascending
-void drop_sides(ActiveLoad& load, std::span<const DeletedElement> deleted);
+void remove_sides(ActiveLoad& load, std::span<const DeletedElement> deleted);
 
 /// Removes nodes from a load. \param dropping ascending
-void drop_nodes(ActiveLoad& load, std::span<const int> dropping);
+void remove_nodes(ActiveLoad& load, std::span<const int> dropping);
 
 /// Removes the nodes listed in `dropping`: their mass, momentum and kinetic energy are counted as
 /// deleted.
-void drop_nodes(Erosion& erosion, Nodes& nodes, EnergyBalance& energy, MomentumBalance& momentum);
+void remove_nodes(Erosion& erosion, Nodes& nodes, EnergyBalance& energy, MomentumBalance& momentum);
 
 /// Mass of nodes with elements, and of free point masses.
 struct MassBalance {

@@ -7,11 +7,11 @@ namespace brio {
 bool release_ties(Ties& ties, const Erosion& erosion, Nodes& nodes, EnergyBalance& energy,
                   MomentumBalance& momentum) {
   bool any = false;
-  for (TiedNode& held : ties.node) {
-    const DeletedElement owner{held.face_part, held.element};
-    held.released = std::binary_search(erosion.deleted.begin(), erosion.deleted.end(), owner) ||
-                    std::binary_search(erosion.freed.begin(), erosion.freed.end(), held.tie.node);
-    any = any || held.released;
+  for (TiedNode& tied : ties.node) {
+    const DeletedElement owner{tied.face_part, tied.element};
+    tied.released = std::binary_search(erosion.deleted.begin(), erosion.deleted.end(), owner) ||
+                    std::binary_search(erosion.freed.begin(), erosion.freed.end(), tied.tie.node);
+    any = any || tied.released;
   }
   if (!any) return false;
   const NodeMotion lost = release(ties, nodes);

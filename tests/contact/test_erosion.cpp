@@ -152,7 +152,7 @@ TEST(Erosion, NodesLaidBareCarryWhatComesDown) {
     model.step(2e-3);
     if (i == 0) {
       int nodes = 0;
-      for (const Contact& contact : model.scene.contacts) nodes += contact.of_lines() ? 0 : 1;
+      for (const Contact& contact : model.scene.contacts) nodes += contact.of_edges() ? 0 : 1;
       EXPECT_EQ(nodes, 16) << "twelve at the rim and four that were inside";
     }
     ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << i;

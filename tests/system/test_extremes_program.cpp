@@ -27,7 +27,8 @@ TEST_F(ExtremesProgram, StepJustAboveTheCriticalOneEndsWithThreeAndNamesTheEleme
   EXPECT_EQ(brio("run cube.yaml --quiet --set time.step=2.9e-4").exit_code, 0);
   const Ending ending = brio("run cube.yaml --quiet --set time.step=3.2e-4");
   EXPECT_EQ(ending.exit_code, 3);
-  EXPECT_NE(ending.faults.find("the constant step 0.00032 exceeds the stable step 0.000"), std::string::npos)
+  EXPECT_NE(ending.faults.find("the constant time step 0.00032 exceeds the stable time step 0.000"),
+            std::string::npos)
       << ending.faults;
   EXPECT_NE(ending.faults.find("of part 'cube'"), std::string::npos) << ending.faults;
   EXPECT_EQ(summary("cube")["status"], "failed");

@@ -67,7 +67,7 @@ TEST_F(ProgramStudy, MakesATableAndPictures) {
   Table table = table_of(read("bars.study/bars.csv"));
   ASSERT_EQ(table.size(), 5u);
   const auto value = [&](const char* run, const char* column) { return std::stod(table[run][column]); };
-  EXPECT_GT(value("mesh.fine", "error"), 0) << "the speed is held against a number";
+  EXPECT_GT(value("mesh.fine", "error"), 0) << "the speed is compared with a number";
   EXPECT_EQ(value("mesh.fine", "length_error"), 0);
   EXPECT_GT(value("mesh.coarse", "length_error"), value("default", "length_error"));
   EXPECT_LT(value("precision.float", "kinetic_error"), 2 * value("default", "kinetic_error"));
@@ -157,7 +157,8 @@ TEST_F(ProgramStudy, FaultsNameThePlaceBeforeAnythingRuns) {
   const std::vector<std::pair<std::string, std::string>> faulty{
       {with(bar_study, "deck: bar.yaml", "deck: rod.yaml"), "rod.yaml"},
       {with(bar_study, "reference: mesh.fine", "reference: mesh.finest"), "bad.yaml:4:12: no run is called"},
-      {with(bar_study, "reference: mesh.fine\n", ""), "bad.yaml:5:3: 'end' has nothing to be held against"},
+      {with(bar_study, "reference: mesh.fine\n", ""),
+       "bad.yaml:5:3: 'end' has no reference to be compared with"},
       {with(bar_study, "take: mean", "take: median"), "bad.yaml:9:"},
       {with(bar_study, "part: bar", "part: rod"), "bad.yaml:7:"},
       {with(bar_study, "history: kinetic,", "history: kinetic, field: stress,"), "bad.yaml:9:"},

@@ -25,7 +25,7 @@ struct Detector {
     motion.begin(scene.features, scene.surface, scene.nodes, team);
     motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
     if (pairs.is_due(scene.features, scene.surface, motion, team)) search();
-    select_awake(proximity, scene.features, pairs, motion, team);
+    select_active(proximity, scene.features, pairs, motion, team);
     motion.set_limits(2, allowed_surplus(scene.features));
     find_proximities(proximity, scene.features, scene.surface, scene.excluded, scene.options, pairs, motion,
                      team, contacts);
@@ -49,7 +49,7 @@ struct Detector {
       search();
     else if (!motion.exceeds_limits())
       return;
-    select_awake(proximity, scene.features, pairs, motion, team);
+    select_active(proximity, scene.features, pairs, motion, team);
   }
   void find() {
     find_hits(guard, proximity, scene.features, scene.surface, scene.options, pairs, motion, team);
@@ -75,7 +75,7 @@ constexpr int scenes = 500;
 TEST(Passes, FindWhatALookAtEveryPairFinds) {
   Random random(1);
   ThreadTeam team(2);
-  std::size_t contacts = 0, of_lines = 0, touches = 0, asleep = 0, pairs = 0;
+  std::size_t contacts = 0, of_edges = 0, touches = 0, asleep = 0, pairs = 0;
   for (int s = 0; s < scenes; ++s) {
     const int rounds = s % 2 * 2;  // half of the scenes are of faces alone
     RandomScene scene({.beams = rounds, .particles = rounds}, random);
@@ -91,7 +91,7 @@ TEST(Passes, FindWhatALookAtEveryPairFinds) {
       ASSERT_EQ(detector.contacts.size(), expected.size()) << s << ' ' << step;
       for (std::size_t i = 0; i < expected.size(); ++i) {
         ASSERT_TRUE(Reference::same(detector.contacts[i], expected[i])) << s << ' ' << step << ' ' << i;
-        of_lines += expected[i].of_lines() ? 1 : 0;
+        of_edges += expected[i].of_edges() ? 1 : 0;
       }
       contacts += expected.size();
       detector.solve(speed, random);
@@ -106,8 +106,8 @@ TEST(Passes, FindWhatALookAtEveryPairFinds) {
     }
   }
   // All that is judged occurs.
-  EXPECT_GT(contacts - of_lines, 10U * scenes);
-  EXPECT_GT(of_lines, 1U * scenes);
+  EXPECT_GT(contacts - of_edges, 10U * scenes);
+  EXPECT_GT(of_edges, 1U * scenes);
   EXPECT_GT(touches, 4U * scenes);
   EXPECT_GT(asleep, pairs / 20);
 }
@@ -171,7 +171,7 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
     if (first.restarts() > 0) detector.motion = first;
     detector.motion.begin(scene.features, scene.surface, scene.nodes, team);
     detector.motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
-    select_awake(detector.proximity, scene.features, detector.pairs, detector.motion, team);
+    select_active(detector.proximity, scene.features, detector.pairs, detector.motion, team);
     find_proximities(detector.proximity, scene.features, scene.surface, scene.excluded, scene.options,
                      detector.pairs, detector.motion, team, detector.contacts);
     detector.find();
@@ -202,11 +202,11 @@ TEST(Passes, WhatSleepsIsNotNear) {
       scene.push(random.integer(0, 99) == 0 ? 3 : 0.1, random);
       detector.begin();
       const Reference reference(scene, detector.pairs, detector.motion);
-      const auto judge = [&](const PairList& list, const std::vector<int>& awake, const auto& distance,
+      const auto judge = [&](const PairList& list, const std::vector<int>& active, const auto& distance,
                              const auto& reach, const auto& at_end) {
-        auto next = awake.begin();
+        auto next = active.begin();
         for (std::size_t i = 0; i < list.size(); ++i) {
-          if (next != awake.end() && *next == static_cast<int>(i)) {
+          if (next != active.end() && *next == static_cast<int>(i)) {
             ++next;
             ++looked_at;
           } else if (list.spacing(i) != Spacing::none) {
@@ -216,7 +216,7 @@ TEST(Passes, WhatSleepsIsNotNear) {
             asleep_at_ends += near ? 1 : 0;
           }
         }
-        ASSERT_EQ(next, awake.end());
+        ASSERT_EQ(next, active.end());
       };
       const double skins = 2 * scene.features.skin;
       const auto& nf = detector.pairs.node_face;

@@ -191,7 +191,7 @@ TEST_F(Rows, EnergyAndMomentumBalance) {
   wall.point = {1, 2, 3};
   scene.blocks[2].velocity = {0.1, 0, 0};
   solve(scene, to_the_end());
-  PushOnWall reaction[1];
+  ImpulseOnWall reaction[1];
   const RowWork work = account_work(scene.rows, before, scene.blocks, places, reaction);
   const auto change = [&](std::size_t b, double mass) {
     return 0.5 * mass * (dot(scene.blocks[b].velocity, scene.blocks[b].velocity) - dot(before[b], before[b]));

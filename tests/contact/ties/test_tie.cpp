@@ -42,7 +42,7 @@ class Tied : public testing::Test {
       tie.across = {u - 1, -u, u, 1 - u};
     }
     tie.gap = gap;
-    return held_position(tie, face);
+    return tied_position(tie, face);
   }
 
   std::mt19937 random_{7};
@@ -55,7 +55,7 @@ TEST_F(Tied, NodeIsHeldWhereItIs) {
     const Vector3d node = node_over(face, gap);
     const auto tie = project(node, face);
     ASSERT_TRUE(tie.has_value());
-    EXPECT_LT((held_position(*tie, face) - node).norm(), 1e-12);
+    EXPECT_LT((tied_position(*tie, face) - node).norm(), 1e-12);
     EXPECT_NEAR(tie->gap, gap, 1e-12);
     double sum = 0;
     for (double weight : tie->weight) sum += weight;
@@ -111,7 +111,7 @@ TEST_F(Tied, ForcesHaveThePowerOfTheForce) {
       rate += tie->weight[k] * velocity[k];
     }
     EXPECT_NEAR(power, force.dot(rate), 1e-12 * 100);
-    EXPECT_NEAR(power, force.dot(held_position(*tie, after) - held_position(*tie, before)) / (2 * h), 1e-6);
+    EXPECT_NEAR(power, force.dot(tied_position(*tie, after) - tied_position(*tie, before)) / (2 * h), 1e-6);
   }
 }
 
@@ -126,7 +126,7 @@ TEST_F(Tied, NoCornerMovesTheNodeFurtherThanItsShare) {
       const Vector3d direction = vector().normalized();
       FaceVertices moved = face;
       moved[k] += 1e-6 * direction;
-      EXPECT_LT((held_position(*tie, moved) - held_position(*tie, face)).norm(), 1e-6 * (share[k] + 1e-4));
+      EXPECT_LT((tied_position(*tie, moved) - tied_position(*tie, face)).norm(), 1e-6 * (share[k] + 1e-4));
     }
   }
 }

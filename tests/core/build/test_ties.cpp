@@ -413,7 +413,7 @@ TEST(Ties, InACircleAreRefused) {
 TEST(Ties, OfSupportedNodesToFreeFacesAreRefused) {
   Deck deck = two_boxes({2, 2, 2}, {3, 3, 3});
   deck.boundary_conditions = {fix("fine.xmin", {0})};
-  EXPECT_NE(fault_of(deck).find("is prescribed, but not that of the face of 'coarse' that holds it"),
+  EXPECT_NE(fault_of(deck).find("is prescribed, but not that of the face of 'coarse' that it is tied to"),
             std::string::npos);
   deck.boundary_conditions.push_back(fix("coarse.xmin", {0}));
   EXPECT_EQ(fault_of(deck), "");
@@ -432,7 +432,7 @@ TEST(Ties, MayStartTurning) {
 TEST(Ties, OfNodesThatStartOtherwiseAreRefused) {
   Deck deck = two_boxes({2, 2, 2}, {3, 3, 3});
   deck.initial_conditions = {moving("fine", {1, 0, 0})};
-  EXPECT_NE(fault_of(deck).find("starts with another velocity than the face of 'coarse' that holds it"),
+  EXPECT_NE(fault_of(deck).find("starts with another velocity than the face of 'coarse' that it is tied to"),
             std::string::npos);
 }
 

@@ -159,7 +159,7 @@ TEST(TiesThatEnd, LeaveTheOthersAsTheyAre) {
   const NodeMotion lost = release(model.ties, model.nodes);
   const Momentum after = momentum(model.nodes);
   EXPECT_EQ(model.ties.node.size(), 15u);
-  EXPECT_FALSE(model.ties.holds(gone));
+  EXPECT_FALSE(model.ties.is_tied(gone));
   EXPECT_NEAR(model.nodes.mass[static_cast<std::size_t>(gone)], 1000.0 / 27 / 4, 1e-9);
   EXPECT_NEAR(total_mass(model), 2000, 1e-9);
   EXPECT_NEAR(lost.energy, energy_before - kinetic(model.nodes), 1e-9 * energy_before);
@@ -169,9 +169,9 @@ TEST(TiesThatEnd, LeaveTheOthersAsTheyAre) {
     EXPECT_NEAR(before.total.angular[i] - after.total.angular[i], lost.angular[axis], 1e-9);
   }
   // Put back, everything is as it was.
-  for (const TiedNode& held : model.ties.node) EXPECT_TRUE(model.ties.holds(held.tie.node));
+  for (const TiedNode& tied : model.ties.node) EXPECT_TRUE(model.ties.is_tied(tied.tie.node));
   Model again = build_model(deck);
-  for (TiedNode& held : again.ties.node) held.released = true;
+  for (TiedNode& tied : again.ties.node) tied.released = true;
   release(again.ties, again.nodes);
   EXPECT_TRUE(again.ties.empty());
   EXPECT_EQ(again.ties.step_share, 1);

@@ -84,7 +84,7 @@ LineRun drop(const Part& lower, const Part& upper, double speed, double end, int
       if (contact.impulse > 0 && first != second && (contact.normal[2] > 0) != first) ++outcome.wrong_side;
     }
     const auto pushing = std::count_if(contacts.begin(), contacts.end(), [](const Contact& contact) {
-      return contact.of_lines() && contact.impulse > 0;
+      return contact.of_edges() && contact.impulse > 0;
     });
     outcome.lines = std::max(outcome.lines, static_cast<int>(pushing));
   });

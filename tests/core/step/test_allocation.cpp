@@ -153,7 +153,7 @@ Counted count(const Deck& deck, int threads, int steps) {
       counted.active += scene.step.active;
       counted.edges += static_cast<int>(
           std::count_if(scene.contacts.begin(), scene.contacts.end(),
-                        [](const Contact& contact) { return contact.of_lines() && contact.impulse > 0; }));
+                        [](const Contact& contact) { return contact.of_edges() && contact.impulse > 0; }));
     }
   }
   return counted;

@@ -114,7 +114,7 @@ TEST(Debris, WithARadiusIsCaughtBetweenWhatMeets) {
       for (const int node : freed) ASSERT_EQ(scene.surface.slave(node) >= 0, with_radius);
       for (const Contact& contact : scene.contacts)
         pushed +=
-            contact.impulse > 0 && !contact.of_lines() && scene.surface.faces_of.of(contact.slave).empty();
+            contact.impulse > 0 && !contact.of_edges() && scene.surface.faces_of.of(contact.slave).empty();
       added = scene.totals.largest_normal_work;
     });
     EXPECT_GE(freed.size(), 4u);

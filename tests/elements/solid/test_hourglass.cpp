@@ -50,8 +50,7 @@ TEST(Hourglass, FlowLeavesTheStressAtYieldOfTheElasticTrial) {
     const SymmetricTensor<double> before = stress;
     const double plastic_strain = history.equivalent_plastic_strain;
     metal.update(strain, stress, history);
-    return share_left_by_flow(before, stress, strain, shear,
-                              history.equivalent_plastic_strain > plastic_strain);
+    return return_ratio(before, stress, strain, shear, history.equivalent_plastic_strain > plastic_strain);
   };
   EXPECT_EQ(share_of(small), 1);
   for (int i = 0; i < 200; ++i) share_of(small);

@@ -8,9 +8,9 @@ namespace brio {
 
 /// Tied pairs of a surface. \param part_of_surface of each part with a main surface: its number in the
 /// surface, or -1
-HeldPairs held_pairs(const Surface& surface, const Ties& ties, const std::vector<int>& part_of_surface);
+TiedPairs find_tied_pairs(const Surface& surface, const Ties& ties, const std::vector<int>& part_of_surface);
 
 /// The same after ties have ended.
-void renew(HeldPairs& held, const Surface& surface, const Ties& ties);
+void renew(TiedPairs& tied, const Surface& surface, const Ties& ties);
 
 }  // namespace brio

@@ -13,7 +13,7 @@ namespace brio {
 /// impulse of a contact that has ended is distributed equally to new contacts of the same node or edge with
 /// the same body and about the same normal. Both lists are ordered by Contact::slave. \param taken working
 /// space
-void inherit_impulses(std::span<const Contact> last, double step_ratio, std::span<Contact> contacts,
-                      std::vector<std::uint8_t>& taken);
+void warm_start(std::span<const Contact> last, double step_ratio, std::span<Contact> contacts,
+                std::vector<std::uint8_t>& taken);
 
 }  // namespace brio

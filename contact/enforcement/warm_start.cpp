@@ -1,4 +1,4 @@
-#include "contact/enforcement/inherited_impulses.hpp"
+#include "contact/enforcement/warm_start.hpp"
 
 #include <cmath>
 
@@ -32,8 +32,8 @@ bool inherits(const Contact& contact, const Contact& last) {
 
 }  // namespace
 
-void inherit_impulses(std::span<const Contact> last, double step_ratio, std::span<Contact> contacts,
-                      std::vector<std::uint8_t>& taken) {
+void warm_start(std::span<const Contact> last, double step_ratio, std::span<Contact> contacts,
+                std::vector<std::uint8_t>& taken) {
   taken.assign(last.size() + contacts.size(), 0);
   std::uint8_t* found = taken.data() + last.size();
   std::size_t old_begin = 0;

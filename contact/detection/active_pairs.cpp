@@ -1,4 +1,4 @@
-#include "contact/detection/awake_pairs.hpp"
+#include "contact/detection/active_pairs.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -40,31 +40,31 @@ void lay_down(PairBlock& block, const PathAndAhead& total, double left) {
 void look_into(PairBlock& block, const PairList& pairs, const Ahead& ahead, const PathAndAhead& total,
                std::size_t begin, std::size_t end) {
   double least = infinity;
-  block.awake = 0;
+  block.active = 0;
   for (std::size_t i = begin; i < end; ++i) {
     const double left = ahead.left_of(pairs, i);
-    const bool awake = ahead.is_awake(left);
-    block.awake |= std::uint32_t{awake} << (i - begin);
-    if (!awake) least = std::min(least, left);
+    const bool active = ahead.is_awake(left);
+    block.active |= std::uint32_t{active} << (i - begin);
+    if (!active) least = std::min(least, left);
   }
-  block.sleeps = block.relations >= 0;
+  block.inactive = block.relations >= 0;
   block.wake.fill(infinity);
-  if (block.sleeps && least < infinity) lay_down(block, total, least);
+  if (block.inactive && least < infinity) lay_down(block, total, least);
 }
 
-// Those that were awake.
+// Those that were active.
 void look_at_awake(PairBlock& block, const PairList& pairs, const Ahead& ahead, const PathAndAhead& total,
                    std::size_t begin) {
-  for (std::uint32_t bits = block.awake; bits != 0; bits &= bits - 1) {
+  for (std::uint32_t bits = block.active; bits != 0; bits &= bits - 1) {
     const double left = ahead.left_of(pairs, begin + static_cast<std::size_t>(std::countr_zero(bits)));
     if (ahead.is_awake(left)) continue;
-    block.awake &= ~(bits & -bits);
+    block.active &= ~(bits & -bits);
     lay_down(block, total, left);
   }
 }
 
 bool still_sleeps(const PairBlock& block, const PathAndAhead& total, double surplus) {
-  if (!block.sleeps) return false;
+  if (!block.inactive) return false;
   for (std::size_t k = 0; k < static_cast<std::size_t>(block.relations); ++k)
     if (!(total.ahead[static_cast<std::size_t>(block.relation[k])] + surplus < block.wake[k])) return false;
   return true;
@@ -88,20 +88,20 @@ void find_relations(PairBlock& block, const PairList& pairs, std::size_t begin, 
   block.relations = static_cast<std::int8_t>(count);
 }
 
-void join(const PairBlocks& blocks, std::vector<int>& awake) {
+void join(const PairBlocks& blocks, std::vector<int>& active) {
   std::size_t total = 0;
   for (std::size_t count : blocks.count) total += count;
-  awake.resize(total);
-  int* to = awake.data();
+  active.resize(total);
+  int* to = active.data();
   for (std::size_t range = 0; range < blocks.count.size(); ++range)
     to = std::copy_n(&blocks.found[range * blocks_a_range * pairs_a_block], blocks.count[range], to);
 }
 
 }  // namespace
 
-void select_awake_pairs(PairBlocks& blocks, const PairList& pairs, const PathAndAhead& first,
-                        const PathAndAhead& second, const FeatureMotion& motion, double surplus,
-                        ThreadTeam& team, std::vector<int>& awake) {
+void select_active_pairs(PairBlocks& blocks, const PairList& pairs, const PathAndAhead& first,
+                         const PathAndAhead& second, const FeatureMotion& motion, double surplus,
+                         ThreadTeam& team, std::vector<int>& active) {
   const std::size_t count = (pairs.size() + pairs_a_block - 1) / pairs_a_block;
   if (blocks.restarts != motion.restarts()) blocks.block.clear();
   blocks.block.resize(count);
@@ -124,12 +124,12 @@ void select_awake_pairs(PairBlocks& blocks, const PairList& pairs, const PathAnd
         if (!is_known) find_relations(block, pairs, from, last);
         look_into(block, pairs, ahead, groups.total, from, last);
       }
-      for (std::uint32_t left = block.awake; left != 0; left &= left - 1)
+      for (std::uint32_t left = block.active; left != 0; left &= left - 1)
         *to++ = static_cast<int>(from) + std::countr_zero(left);
     }
     blocks.count[begin / blocks_a_range] = static_cast<std::size_t>(to - start);
   });
-  join(blocks, awake);
+  join(blocks, active);
 }
 
 }  // namespace brio

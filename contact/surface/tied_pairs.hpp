@@ -7,15 +7,15 @@
 
 namespace brio {
 
-struct HeldPairs {
-  std::vector<int> holder;  ///< of each global node: the part of its main surface, or -1
+struct TiedPairs {
+  std::vector<int> main_part;  ///< of each global node: the part of its main surface, or -1
   /// Excluded pairs of global nodes and parts, ascending: tied nodes and the part of their main surface;
   /// corners of main faces and the parts tied to them.
   std::vector<std::pair<int, int>> pairs;
   std::vector<int> piece;            ///< of each body as built: the least body tied to it
   std::vector<int> part_of_surface;  ///< of each part with a main surface: its number in the surface, or -1
 
-  bool empty() const { return holder.empty(); }
+  bool empty() const { return main_part.empty(); }
   bool apart(int global_node, int part) const {
     return std::binary_search(pairs.begin(), pairs.end(), std::pair(global_node, part));
   }

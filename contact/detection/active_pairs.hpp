@@ -21,9 +21,9 @@ namespace brio {
 /// State of a block of pairs.
 struct alignas(64) PairBlock {
   std::uint64_t version = 0;  ///< of the list, for which the relations were found
-  std::uint32_t awake = 0;    ///< bit i: pair i of the block was active in the last step
+  std::uint32_t active = 0;   ///< bit i: pair i of the block was active in the last step
   std::int8_t relations = 0;  ///< -1: too many
-  bool sleeps = false;        ///< whether all others are inactive
+  bool inactive = false;      ///< whether all others are inactive
   std::array<int, 12> relation{};
   std::array<double, 12> wake{};  ///< longest predicted path of the relation at which the block is examined
 };
@@ -37,8 +37,8 @@ struct PairBlocks {
 };
 
 /// The active pairs, ascending: those whose predicted paths and a surplus reach their motion bounds (`wake`).
-void select_awake_pairs(PairBlocks& blocks, const PairList& pairs, const PathAndAhead& first,
-                        const PathAndAhead& second, const FeatureMotion& motion, double surplus,
-                        ThreadTeam& team, std::vector<int>& awake);
+void select_active_pairs(PairBlocks& blocks, const PairList& pairs, const PathAndAhead& first,
+                         const PathAndAhead& second, const FeatureMotion& motion, double surplus,
+                         ThreadTeam& team, std::vector<int>& active);
 
 }  // namespace brio

@@ -20,7 +20,7 @@ constexpr double least_inertia = 1e-12;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Over the largest eigenvalue: what is prescribed twice.
+/// Over the largest eigenvalue: components prescribed twice.
 constexpr double same_prescription = 1e-10;
 
 /// Velocity at the centre of mass and angular velocity of a zone that moves as one.
@@ -184,7 +184,7 @@ class Zones {
     if (a != b) scene_.zone_of[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
 
-  // With the corners that hold it.
+  // With the corners of its main face.
   void join_node(int u, int slave) {
     join(u, unit(slave));
     const int node = scene_.surface.node[static_cast<std::size_t>(slave)];

@@ -1,4 +1,4 @@
-// `resolve`: the stages of a step, on one page.
+// `resolve`: the stages of contact in a time step, on one page.
 
 #include <algorithm>
 #include <cassert>
@@ -109,7 +109,7 @@ class Resolution {
     scene_.step.search_seconds += seconds_since(start);
   }
   void select() { select_active(scene_.proximity, scene_.features, scene_.pairs, scene_.motion, team_); }
-  // Of pairs that were surely apart in the predicted motion.
+  // Of pairs that were inactive in the predicted motion.
   void look_again() {
     if (scene_.pairs.is_due_after_solution(scene_.features, scene_.surface, scene_.motion, team_)) {
       search();
@@ -149,7 +149,7 @@ class Resolution {
   }
   ConstraintRow& row_of(std::size_t contact) { return rows_.rows.row[scene_.row_of_contact[contact]]; }
 
-  // Rows for nodes that others push behind a wall.
+  // Rows for nodes pushed behind a wall by other impulses.
   bool find_missed_at_walls(int round) {
     if (walls_.empty() || round >= most_rounds) return false;
     const std::size_t known = scene_.walls.touch.size();
@@ -209,7 +209,7 @@ class Resolution {
     if (!ties_.empty()) carry_velocities(ties_, nodes_, dt_);
   }
 
-  // Where the solution takes the nodes.
+  // Positions of the solution.
   void follow() {
     if (ties_.empty())
       scene_.motion.end_by_solution(scene_.features, scene_.surface, scene_.in_contact, scene_.velocity, dt_,
@@ -217,8 +217,8 @@ class Resolution {
     else
       scene_.motion.end_by_velocity(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
   }
-  // Along the closest points at the start, which keeps angular momentum; where that did not do, along the
-  // direction in which they meet as well.
+  // Along the closest points at the start, which conserves angular momentum; if that is not sufficient, along
+  // the direction of first contact as well.
   void add_constraints(std::size_t ordinary) {
     const std::size_t known = scene_.contacts.size();
     scene_.added.last_of_node.resize(scene_.surface.slaves(), -1);
@@ -239,8 +239,8 @@ class Resolution {
     for (std::size_t k = 0; k < 5; ++k) apart = std::max(apart, std::abs(a.weight[k] - b.weight[k]));
     return a.node == b.node && apart < same_weight && a.normal.dot(b.normal) > same_direction;
   }
-  // What nearly touches crosses by the turn of the normal alone, whatever its velocity along the normal: by
-  // as much as the nodes move against each other, times the angle by which that turns an edge.
+  // Features nearly in contact cross by the rotation of the normal alone, for any velocity along the normal:
+  // by the relative displacement of the nodes times the angle by which it rotates an edge.
   void open_wider(const Contact& contact, ConstraintRow& row) const {
     const double edge = scene_.features.smallest_edge;
     double squared = 0;
@@ -311,7 +311,7 @@ class Resolution {
     return pushes;
   }
 
-  // Before the impulses of rows are given to the bodies, which hold those of zones.
+  // Before the impulses of rows are added to the bodies, which have those of zones.
   void account_zones() {
     ContactStep& step = scene_.step;
     for (std::size_t s = 0; s < scene_.zone_impulse.size(); ++s) {

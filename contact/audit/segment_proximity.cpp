@@ -183,7 +183,7 @@ class SegmentProximity {
     if (b < a) std::swap(a, b);
     return {a[0], a[1], b[0], b[1]};
   }
-  // Whether a node of one is not held apart from a face of the other.
+  // Whether a node of one is excluded from contact with a face of the other.
   bool is_excluded(const AuditedSegment& first, const AuditedSegment& second) const {
     for (int node : first.node)
       for (int f : scene_.excluded.of(surface_.slave(node)))
@@ -192,7 +192,7 @@ class SegmentProximity {
           return true;
     return false;
   }
-  // Pairs that were nearer than their radii when they were laid bare, and have not been apart since.
+  // Pairs that were nearer than their radii when they were exposed, and still are.
   void collect_waiting() {
     const PairList& list = scene_.pairs.edge_edge;
     const auto segment = [&](int e) {

@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::size_t pairs_a_block = PairList::block_size;
 constexpr std::size_t blocks_a_range = 64;
-/// Of the lengths added, by which a block's wake is rounded down.
+/// Relative rounding, downwards, of the motion bound of a block.
 constexpr double rounding = 1e-14;
 
-/// Looks ahead of the features of pairs and of the frames of their relations.
+/// Predicted paths of the features of pairs and of the frames of their relations.
 struct Ahead {
   const double *first, *second, *frames;
   double surplus;
 
-  /// What a pair has left before it has to be looked at.
+  /// Remaining path of a pair before it has to be examined.
   double left_of(const PairList& pairs, std::size_t i) const {
     const PairRecord& pair = pairs[i];
     return pairs.wake[i] - (first[pair.first] + second[pair.second] + frames[pair.relation]);

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Distances below this share of the smallest edge have no direction.
+/// Distances below this fraction of the smallest edge have no direction.
 constexpr double no_distance = 1e-12;
 /// By which a separation is lowered, as its direction is kept in single precision.
 constexpr double rounding_of_direction = 1e-6;
@@ -56,7 +56,7 @@ class Finder {
   }
 
  private:
-  // Whether it is not far enough apart along the direction that it had.
+  // Whether its stored direction does not separate it by enough.
   BRIO_INLINE bool is_near(const OnePair<Kind>& one) const {
     const auto at = one.points(rows_);
     Vector3<double> direction = one.direction();
@@ -66,7 +66,7 @@ class Finder {
     }
     const double apart = (1 - rounding_of_direction) * height_between(direction, at.first, at.second);
     const Spacing spacing = one.record.spacing;
-    // Pairs that wait are looked at as if they did not, so that they are seen to be apart before they meet.
+    // Waiting pairs are examined as if they did not wait, so that they are found disjoint before contact.
     const double reach = spacing == Spacing::skins ? 2 * kind_.features.skin : one.radii();
     const double wake = one.path() + apart - reach - band_;
     kind_.list.wake[one.pair] = wake;
@@ -113,8 +113,8 @@ class Finder {
     }
   }
 
-  // Of any point of one feature towards any of the other in this step: of no frame, and no more than the
-  // looks ahead.
+  // Of any point of one feature towards any of the other in this step: in any frame, and no more than the
+  // predicted paths.
   static BRIO_INLINE Pack longest_approach(const typename Kind::Points& start,
                                            const typename Kind::Points& end) {
     Pack square(0.0);
@@ -126,7 +126,7 @@ class Finder {
     return sqrt(square);
   }
 
-  // Not what the filter leaves out at once: edges of faces that are nearest at their ends.
+  // Without those that the filter rejects at once: edges of faces that are nearest at their ends.
   unsigned candidates(const ClosestNodeFace&) const { return first_lanes(pack_size); }
   unsigned candidates(const ClosestOnSegments<Pack>& closest) const {
     if (!kind_.features.all_of_faces) return first_lanes(pack_size);

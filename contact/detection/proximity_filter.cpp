@@ -14,23 +14,23 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Neighbours that come nearer by less than this sine do not count, so that surfaces that lie on each other
-/// and bend keep their constraints: at distance d what is left out is nearer by less than d sine^2. A face
-/// beside an edge lies in the plane at right angles to the closest distance where it leaves it by less; where
-/// that is so at both edges, faces lie on each other, and nodes, and rims and diagonals where they cross,
-/// keep the distance of inner edges to a quarter of the sine times their length.
+/// Neighbours that are nearer by less than this sine are ignored, so that surfaces in contact that bend keep
+/// their constraints: at distance d an ignored neighbour is nearer by less than d sine^2. A face beside an
+/// edge counts as perpendicular to the closest distance if it deviates by less; if that is so at both edges,
+/// faces lie on each other, and nodes, and rims and diagonals where they cross, keep the distance of inner
+/// edges to a quarter of the sine times their length.
 constexpr double flat_sine = 1e-3;
 /// The same in units in the last place of positions, over the distance.
 constexpr double roundings = 8;
-/// Where the direction leaves the normals of the faces at a sharp edge by this angle or more, solids touch at
-/// what is left of their skins: rounded by whole skins, an edge that stands out by a hundredth of them would
-/// hold up what slides over it.
+/// If the direction deviates from the normals of the faces at a sharp edge by this angle or more, solids are
+/// in contact at a part of their skins: rounded by whole skins, an edge that stands out by a hundredth of
+/// them would stop a sliding body.
 constexpr double tilted_angle = 0.1;
 constexpr double skin_of_sharp_edges = 0.4;
-/// Faces that are turned by more than 20 degrees against each other meet in a sharp edge; less is the mesh of
-/// a curved surface.
+/// Faces at an angle of more than 20 degrees form a sharp edge; smaller angles are the mesh of a curved
+/// surface.
 constexpr double sharp_cosine = 0.94;
-/// Of the step: where a motion that may lead past is looked at.
+/// Fraction of the step at which a motion that may pass is examined.
 constexpr std::array<double, 2> looked_at_shares{0.5, 1};
 
 }  // namespace
@@ -52,19 +52,19 @@ ProximityFilter::Edginess ProximityFilter::edginess(const Faces& faces, const Ve
   return found;
 }
 
-// From where on it is asked whether a motion leads past. Not where a contact rests, at a gap of rounding.
+// Gap from which on a passing motion is tested. Not for a resting contact, with a gap of rounding.
 double ProximityFilter::passing_gap(double tilt) const {
   return tilt < tilted_angle ? band_ : 0.1 * 2 * features_.skin;
 }
 
 double ProximityFilter::tilt_of(double cosine) { return std::sqrt(2 * std::max(1 - cosine, 0.0)); }
 
-// What solids at a sharp edge do without of the distance at which they touch.
+// Reduction of the contact distance of solids at a sharp edge.
 double ProximityFilter::spared_skin(double tilt) const {
   return (1 - skin_of_sharp_edges) * 2 * features_.skin * std::min(tilt / tilted_angle, 1.0);
 }
 
-// The sine by which directions are off where the closest points are as far apart as given.
+// The sine of the error of directions for a distance of the closest points.
 double ProximityFilter::slack_of(const Vector3d& foot, double distance) {
   return std::max(flat_sine,
                   roundings * std::numeric_limits<double>::epsilon() * foot.cwiseAbs().maxCoeff() / distance);
@@ -77,15 +77,15 @@ double ProximityFilter::rounding_of_foot(double slack, double distance) const {
 }
 
 // Where a shell folds onto itself, neighbours towards the fold are the nearer the closer they are to it:
-// those within the tightest fold are kept apart by nothing.
+// those within the tightest fold are not constrained.
 bool ProximityFilter::is_one_piece(int neighbour, OtherSide other) const {
   return std::any_of(other.begin(), other.end(),
                      [&](int f) { return f >= 0 && is_excluded(excluded_, neighbour, f); });
 }
 
-// Whether no neighbour in the list comes nearer than the foot along the direction away from the other side:
-// at the start of the step, or where the motion leads, so that what carries is not let go for a step in which
-// a neighbour is a little nearer.
+// Whether no neighbour in the list is nearer than the foot along the direction away from the other side: at
+// the start of the step, or at its predicted end, so that a loaded constraint is not dropped in a step in
+// which a neighbour is a little nearer.
 template <class List, class Allowed>
 bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away,
                                 double slack, OtherSide other, const Allowed& allowed) const {
@@ -105,8 +105,8 @@ bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot,
   return look_away(neighbours, foot, away, slack, other, [](int) { return 0.0; });
 }
 
-// Of an edge. The diagonals of a flat face stand for nothing of their own: where one of its corners comes
-// nearer by less than the face may be thick, the edge keeps the distance.
+// Of an edge. The diagonals of a flat face are no features: if one of its corners is nearer by less than the
+// allowed thickness of the face, the edge keeps the distance.
 bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint& foot, const Vector3d& away,
                                       double slack, bool radii, OtherSide other) const {
   return look_away(own.wing, foot, away, slack, other, [&](int neighbour) {
@@ -166,8 +166,8 @@ std::array<int, 2> ProximityFilter::faces_of_side(int f, const std::array<int, 2
   return {f, -1};
 }
 
-// Whether the motion of the step leads past without coming nearer than `reach`: what would be stopped along
-// the direction that it has at the start. What goes through is found by the guard against crossings.
+// Whether the motion of the step passes without coming nearer than `reach`: it would be stopped along the
+// direction at the start. Crossings are found by continuous collision detection.
 bool ProximityFilter::passes_by(int slave, int f, bool as_hull, double reach) const {
   const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
   for (const double share : looked_at_shares) {
@@ -192,7 +192,7 @@ bool ProximityFilter::passes_by(const EdgeFeature& a, const EdgeFeature& b, doub
   return true;
 }
 
-// Where the direction to the rim of a face leaves its normal by no more than the slack, the constraint is
+// If the direction to the rim of a face deviates from its normal by no more than the slack, the constraint is
 // along the normal, and its foot is the point of the plane of the face below the node. Two rims that are
 // pressed together would otherwise stand on each other as an inverted pendulum of the length of the gap.
 // \returns whether it is so
@@ -261,7 +261,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
     in_plane = lay_in_plane(near, slack, contact);
     const double tilt = in_plane ? 0 : tilt_of(std::max(of_face.cosine, of_node.cosine));
     // Of two nodes of which only the first has a face at right angles to the direction, the second is the one
-    // that is held on a face: that constraint has the normal for its direction.
+    // that is constrained to a face: that constraint has the normal for its direction.
     if (!in_plane && support[1] < 0 && tilt_of(of_node.cosine) < slack) return;
     const bool skins = of_face.sharp && of_node.sharp && !face.shell &&
                        features_.node_radius[static_cast<std::size_t>(s)] <= features_.skin;
@@ -309,8 +309,8 @@ ProximityFilter::Flatness ProximityFilter::flatness(const EdgeFeature& own, cons
   return steep == 0 && own.faces == 2 ? Flatness::inside : Flatness::rim;
 }
 
-// Sides of faces along each other: the ends of what they share are nodes at a side, whose constraints hold
-// what is between.
+// Parallel sides of faces: the ends of their common length are nodes at a side, whose constraints hold the
+// part in between.
 bool ProximityFilter::are_parallel(const EdgeFeature& a, const EdgeFeature& b, double sine) const {
   if (!a.of_face() || !b.of_face()) return false;
   const Vector3d along_a = motion_.start(a.node[1]) - motion_.start(a.node[0]);

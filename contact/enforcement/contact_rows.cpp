@@ -13,10 +13,10 @@ using Vector = Vector3<double>;
 
 namespace {
 
-/// Faces share the couple of a side as the squares of the cosines of their normals; below this share of the
-/// largest they take none.
+/// The couple of a side is distributed to its faces by the squares of the cosines of their normals; below
+/// this fraction of the largest they get none.
 constexpr double least_share = 1e-9;
-/// Faces whose squared cosines are all below this stand along the normal: they have no tilt to speak of.
+/// Faces whose squared cosines are all below this are parallel to the normal: their tilt is negligible.
 constexpr double standing = 0.01;
 /// A weight below this is rounding: the closest point does not lie on that corner's side.
 constexpr double no_weight = 1e-9;
@@ -43,7 +43,7 @@ Matrix3d cross_matrix(const Vector3d& a) {
   return m;
 }
 
-/// What takes the couple of a side.
+/// Degrees of freedom that resist the couple of a side.
 enum class Couple { none, faces, rotations, rigid };
 
 /// One side of a contact: its closest point as a mean of nodes.
@@ -170,9 +170,9 @@ class Builder {
   }
 
   // The points do not lie one behind the other along the normal: equal and opposite impulses at them would
-  // turn the bodies. Their couple is taken by the nodes of both sides as by one rigid body: the row then asks
-  // for the relative velocity as seen by who turns with them. \returns whether much of it is left, and
-  // some of that not prescribed
+  // turn the bodies. Their couple is distributed to the nodes of both sides as to one rigid body: the row
+  // then constrains the relative velocity in the frame rotating with them. \returns whether much of it
+  // remains, and some of that not prescribed
   bool add_without_spin(const Contact& contact, const SidePoint& first, const SidePoint& second) {
     Vector3d middle = Vector3d::Zero();
     const auto count = static_cast<double>(first.count + second.count);
@@ -337,7 +337,7 @@ class Builder {
     rows_.add_matrix(block_of_node(node), to_tensor(map));
   }
 
-  // Of a node held with a gap, by the derivative of the map from its corners.
+  // Of a tied node with a gap, by the derivative of the map from its corners.
   void add_mapped(const Tie& tie, const Matrix3d& map) {
     std::array<Matrix3d, 4> share;
     for (std::size_t k = 0; k < 4; ++k) share[k] = tie.weight[k] * Matrix3d::Identity();
@@ -355,7 +355,7 @@ class Builder {
     }
   }
 
-  // omega x arm of a node that turns.
+  // omega x arm of a node with rotations.
   void add_turn(int node, const Vector3d& arm) {
     if (const Tie* tie = tie_of(node); tie != nullptr && tie->turning) {
       for (std::size_t k = 0; k < 4; ++k)

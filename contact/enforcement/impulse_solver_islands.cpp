@@ -17,7 +17,7 @@ constexpr std::size_t most_rows_of_small = 4096;
 constexpr double most_unconverged = 0.25;
 /// ... which has at least as many rows.
 constexpr std::uint32_t least_rows = 64;
-/// Rows that change by less than this share of what is tolerated are held.
+/// Rows that change by less than this fraction of the tolerance are fixed.
 constexpr double held_below = 0.05;
 /// What is tolerated of rows that are solved alone, over what is tolerated of all, ...
 constexpr double tolerated_alone = 0.5;

@@ -11,24 +11,24 @@ namespace brio {
 
 namespace {
 
-/// Steps of the present motion that boxes hold: at least so many, and as many as take a node as far as this
-/// share of the scale of the node.
+/// Steps of the present motion contained in a box (search margin): at least so many, and as many as move a
+/// node by this fraction of its scale.
 constexpr double least_steps_ahead = 10;
 constexpr double most_steps_ahead = 200;
 constexpr double way_ahead = 0.6;
-/// What would leave its box within so many steps is looked for together with what does.
+/// Features that would leave their box within so many steps are searched together with those that do.
 constexpr double steps_of_notice = 4;
-/// Share of the nodes of which more than that leaving means to search for all.
+/// If more than this fraction of the nodes have left, all are searched.
 constexpr double most_leaving = 0.2;
 /// The scale of a node is the mean edge of all, or this times the shortest edge at it: boxes of slender cells
-/// hold a few neighbours, not hundreds.
+/// contain a few neighbours, not hundreds.
 constexpr double most_of_own_edge = 4;
 /// Of ContactOptions::reach_buffer: both features of a pair have a box that is larger on both sides.
 constexpr double share_of_buffer = 0.25;
 constexpr std::size_t nodes_a_range = 4096;
-/// Boxes that meet in a search: so many a feature, and so many times those that do at rest (cells much finer
-/// than they are thick meet hundreds), where what is at rest grows by so much at a search for all. Where
-/// motion takes nodes past each other, all meet.
+/// Overlapping boxes in a search: so many a feature, and so many times those that do at rest (cells much
+/// finer than they are thick meet hundreds), where what is at rest grows by so much at a search for all.
+/// Where motion takes nodes past each other, all meet.
 constexpr std::uint64_t most_pairs_a_feature = 150;
 constexpr std::uint64_t most_of_rest = 3;
 constexpr double growth_of_rest = 1.1;

@@ -30,7 +30,7 @@ class LaidOpen {
       if (is_side(f)) open_.push_back(f);
   }
 
-  // The other faces by the boxes of the last search, those laid open since then by their own.
+  // The other faces by the boxes of the last search, those exposed since then by their own.
   void find_near(FeaturePairs& pairs, const FeatureMotion& motion, ThreadTeam& team) {
     const std::span<const int> since = pairs.faces_since_search();
     std::vector<int> young(since.begin(), since.end());

@@ -12,8 +12,8 @@
 
 namespace brio {
 
-/// Of hexahedra whose faces a deletion has laid open, those of which such a face crosses a face of a
-/// hexahedron, ascending. The work is proportional to the faces laid open. \pre the nodes are where the last
+/// Of hexahedra whose faces a deletion has exposed, those of which such a face crosses a face of a
+/// hexahedron, ascending. The work is proportional to the exposed faces. \pre the nodes are where the last
 /// step of contact has taken them. \param laid_open numbers of living faces
 std::vector<SurfaceElement> find_crossed_elements(const Surface& surface, FeaturePairs& pairs,
                                                   const FeatureMotion& motion, const Nodes& nodes,

@@ -30,7 +30,7 @@ struct alignas(32) PairRecord {
 class PairList {
  public:
   static constexpr std::size_t block_size = 32;
-  /// Sum of the paths at which each pair has to be looked at; of vacant places infinite.
+  /// Motion bound: sum of the paths at which each pair has to be examined; of vacant places infinite.
   std::vector<double> wake;
 
   /// Places, vacant ones too.

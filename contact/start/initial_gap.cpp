@@ -22,23 +22,23 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Overlaps are looked for down to this share of an edge, or as deep as the limit allows.
+/// Overlaps are searched to a depth of this fraction of an edge, or to the limit.
 constexpr double least_searched_share = 0.75;
-/// What is missing may be this share of the scale: rounding.
+/// Tolerance of a missing gap, over the scale: rounding.
 constexpr double resolved_share = 1e-9;
-/// Moved is by this much more, over the smallest edge, so that what the solver leaves is none.
+/// Additional displacement, over the smallest edge, so that no error of the solver remains.
 constexpr double surplus_share = 1e-8;
 constexpr int most_rounds = 50;
-/// Where only the gap is missing, it is made for as long as this many rounds halve what is missing.
+/// If only the gap is missing, rounds continue as long as this many of them halve the missing gap.
 constexpr int rounds_to_halve = 10;
 constexpr SolveOptions solve_options{2000, 1e-7};
-/// What boxes hold of the moves of nodes (ContactOptions::reach_buffer): where overlaps are only looked for,
-/// those of retracted faces.
+/// Search margins for the displacements of nodes (ContactOptions::reach_buffer): while overlaps are only
+/// searched, those of retracted faces.
 constexpr double buffer_of_retraction = 0.2;
-/// Of a motion that would make surfaces cross, the share of its first hit.
+/// Of a motion that would make surfaces cross: fraction of the time of the first hit.
 constexpr double share_of_hit = 0.5;
 
-/// Velocities of nodes serve as displacements; on destruction they are what they were.
+/// Velocities of nodes serve as displacements; they are restored on destruction.
 class Displacements {
  public:
   explicit Displacements(Nodes& nodes) : nodes_(nodes) {
@@ -126,7 +126,7 @@ class GapMaker {
     for (double& depth : node_depth_) depth = share * (depth < infinity ? depth : features_.smallest_edge);
   }
 
-  // Overlaps are looked for as all is drawn. An edge that passes through a flat face is not near a side of
+  // Overlaps are searched in the mesh as given. An edge that passes through a flat face is not near a side of
   // it.
   void search() { search(buffer_of_retraction, {node_depth_}); }
   // Nodes are moved by the limit.

@@ -24,7 +24,7 @@ constexpr double most_miter = 8;
 /// Neighbours lie in one plane where the cosine of their normals is above this.
 constexpr double coplanar_cosine = 1 - 1e-8;
 
-/// The firmer of two bodies stays as it is drawn.
+/// The less free of two bodies keeps its mesh.
 enum class Firmness : std::uint8_t { is_free, supported, rigid };
 
 class Retraction {
@@ -184,7 +184,7 @@ class Retraction {
     known = std::max(known, own == other ? 0.5 * missing : missing);
   }
 
-  // What is drawn flat stays flat.
+  // Flat surfaces stay flat.
   void spread_over_planes() {
     std::vector<int> open;
     for (int f = 0; f < static_cast<int>(set_back_.size()); ++f)

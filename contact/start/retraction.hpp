@@ -22,8 +22,8 @@ struct TouchingPair {
 /// Move nodes inward by what is missing of two skins: faces that touch, and of a node or an edge that touches
 /// those of its faces that look against the other side; with them what lies in their planes. Of two bodies
 /// the freer one makes all of the room, so that floors which are supported stay flush; of two that are rigid,
-/// supported or free each half. Nodes held by a tie stay.
-/// \param pairs hold what is nearer than two skins
+/// supported or free each half. Tied nodes stay.
+/// \param pairs contain all that are nearer than two skins
 /// \returns what was touching, in the order of pairs
 std::vector<TouchingPair> retract_touching_faces(const SurfaceFeatures& features, const Surface& surface,
                                                  const FeaturePairs& pairs, Nodes& nodes);

@@ -2,15 +2,15 @@
 /// Constraints of a mesh at rest, in which surfaces may still coincide or overlap. Here, and only here, sides
 /// are needed: afterwards nothing crosses, and the side is where the features are (proximity.hpp).
 ///
-/// A node outside of a closed surface is held off by the rule of distances. One that lies in it, or on it, is
-/// looked at from where it would be had it come out: along the way to the closest point, on the face along
+/// A node outside of a closed surface is constrained by the rule of distances. A node inside or on it is
+/// examined at the position that it would have outside: along the way to the closest point, on the face along
 /// the normals of those of its faces that the node's own neighbours do not reach behind. There the rule of
-/// distances tells the directions, and the gap is that of the node where it is; so a node in a groove is held
-/// off both of its sides, one at a corner off the corner alone. Two edges of solids overlap where each is
-/// behind both faces of the other, and they cross; that is looked at only between bodies of which no node
-/// lies in the other, as edges that are far from the surface would seem to overlap deeper than it is. Where
-/// edges coincide, the normals of their faces tell. Shells, beams and particles are on the side on which they
-/// are.
+/// distances gives the directions, and the gap is that of the node at its position; so a node in a groove is
+/// constrained by both of its sides, one at a corner by the corner alone. Two edges of solids overlap where
+/// each is behind both faces of the other, and they cross; this is examined only between bodies of which no
+/// node lies in the other, as edges that are far from the surface would seem to overlap deeper than it is.
+/// Where edges coincide, the normals of their faces tell. Shells, beams and particles are on the side on
+/// which they are.
 
 #include <array>
 #include <vector>
@@ -41,7 +41,7 @@ inline constexpr double coincident_share = 1e-6;
 
 /// Replace `found` by what of the pairs is nearer than its radii and the band, those of nodes and faces by
 /// node, then those of edges, in an order that depends on the surface alone.
-/// \param depth to which overlaps are looked for; the pairs hold what is as near
+/// \param depth to which overlaps are searched; the pairs contain all that are as near
 void find_sided_pairs(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes,
                       const FeaturePairs& pairs, const SearchedDepth& depth, double band,
                       std::vector<SidedPair>& found);

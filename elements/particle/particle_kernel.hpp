@@ -131,8 +131,8 @@ struct ParticleKernel : Particle {
     return {middle * where(is_valid, stretching, T(1.0)), middle, is_valid};
   }
 
-  /// What holds residual motions gives way where the material flows: with the stress of yielding Y and the
-  /// plastic strain p it is Y / (Y/E + p), the slope of stress over all of the strain.
+  /// The modulus of the stabilization is reduced when the material yields: with the yield stress Y and the
+  /// plastic strain p it is the secant modulus Y / (Y/E + p).
   template <class T, class Law>
   static BRIO_INLINE T secant_modulus(const Law& law, T modulus,
                                       const typename Law::template History<T>& history) {

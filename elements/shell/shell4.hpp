@@ -330,8 +330,8 @@ struct Shell4 {
   }
 
   /// Elastic and viscous hourglass forces (Belytschko, Ong, Liu & Kennedy 1984).
-  /// They stay elastic where the material flows: shrunk with its stress, as those of bricks are, they let the
-  /// elements of a can's folds collapse into slivers.
+  /// They stay elastic when the material yields: reduced with its stress, as those of bricks are, they let
+  /// the elements in the folds of a can collapse into slivers.
   template <class T, class Law>
   BRIO_INLINE void resist_hourglass(const ShellGeometry<T>& g, const PlaneStressModuli<T>& moduli,
                                     const ShellRates<T>& rates, T step, T undamped_step,

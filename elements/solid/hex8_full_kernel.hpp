@@ -262,7 +262,7 @@ struct Hex8FullKernel : Hex8Full {
   /// What the strains that vary over the element add to the frequency of the uniform ones. In a
   /// parallelepiped both are orthogonal and the varying ones have at most 2/3 of 2 mu g, so they add nothing;
   /// there the sum over points and corners of volume |B|^2 is 16/9 V tr G. What it has more is due to
-  /// distortion; the factor is held against assembled stiffness matrices in the tests.
+  /// distortion; the tests compare the factor with assembled stiffness matrices.
   template <class T>
   static BRIO_INLINE T distortion_excess(const ElasticModuli<T>& moduli, T trace_g, T gradient_square,
                                          T volume, T inverse_mass) {

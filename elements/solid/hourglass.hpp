@@ -233,13 +233,13 @@ BRIO_INLINE T stretch_hourglass(HourglassStrain<T>& strain, T carried, const Hou
   return work;
 }
 
-/// Largest coefficient with which hourglass forces grow in a brick that flows. On top of a uniform flow no
-/// stress grows along that flow, and the return to the yield surface (shrink_hourglass) does not know: with
-/// more, bricks that are torn resist by a third too much. With nothing along the flow, as the consistent
-/// tangent has it, layers of bricks fold onto each other at the foot of a rod that hits a wall.
+/// Largest coefficient of hourglass stiffness in a yielding brick. During uniform plastic flow the consistent
+/// tangent has no stiffness along the flow, which the return to the yield surface (shrink_hourglass) does not
+/// reproduce: with a larger coefficient, fracturing bricks resist by a third too much. With none, layers of
+/// bricks fold onto each other at the foot of a rod that hits a wall.
 inline constexpr double hourglass_stiffness_in_flow = 0.01;
 
-/// Share of the stiffness of hourglass motion that is left in a brick that flows.
+/// Ratio of the hourglass stiffness of a yielding brick to the elastic one.
 constexpr double hourglass_share_in_flow(double coefficient) {
   return coefficient > hourglass_stiffness_in_flow ? hourglass_stiffness_in_flow / coefficient : 1;
 }

@@ -24,7 +24,7 @@ struct PresetValues {
   std::span<const ElementSetting> elements;
 };
 
-// What they cost and buy is told by the knob `preset` of the studies in inputs/studies.
+// Their cost and accuracy: the parameter `preset` of the studies in inputs/studies.
 constexpr Setting fast_settings[] = {
     {"numerics.precision", "float", false}, {"contact.passes", "4"}, {"time.step_scale", "0.95"}};
 constexpr ElementSetting fast_elements[] = {{"hex8", "objective_rate", "jaumann"},

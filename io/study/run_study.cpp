@@ -295,7 +295,7 @@ class StudyInRun {
     const std::vector<bool> front = pareto_front(all);
     for (std::size_t i = 0; i < all.size(); ++i) {
       table_.rows[i].on_front = front[i];
-      // What is held against itself has no error to compare.
+      // A run that is its own reference has no error to compare.
       table_.rows[i].beats_default = !table_.rows[i].is_reference && beats(all[i], all[0], beating_share);
     }
   }

@@ -17,7 +17,7 @@ namespace {
 
 /// What lies beyond an edge counts so many times its distance.
 constexpr double beyond_weight = 2;
-/// Weights below this are rounding of 0: such corners hold nothing.
+/// Weights below this are rounding of 0: such corners have no weight.
 constexpr double held_weight = 1e-9;
 /// Initial velocities of a node and its face may differ by this share of the fastest corner: rounding.
 constexpr double same_velocity = 1e-9;
@@ -151,7 +151,7 @@ class Tying {
     model_.ties.found.push_back(std::move(parts));
   }
 
-  /// Held nodes before those that hold them.
+  /// Tied nodes before the nodes of their main faces.
   void sort() {
     std::vector<std::uint8_t> seen(model_.ties.node.size(), 0);
     for (int i = 0; i < static_cast<int>(seen.size()); ++i) visit(i, seen);
@@ -227,8 +227,8 @@ bool all_corners_follow(const Tie& tie, const PrescribedNodes& motion,
   return true;
 }
 
-// A support of a held node is one too many: it is left out where the corners have the same, so that planes of
-// symmetry may cut ties.
+// A support of a tied node overdetermines it: it is left out where the corners have the same, so that planes
+// of symmetry may cut ties.
 void release_supports(const Ties& ties, Model& model) {
   if (model.prescribed.empty()) return;
   const std::vector<PrescribedNodes> given = model.prescribed;

@@ -71,7 +71,7 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, Nodes& node
                           wall.normal[1] * (record.position[1] + times.next * record.velocity[1]) +
                           wall.normal[2] * (record.position[2] + times.next * record.velocity[2]) - offset;
     if (height >= 0 || times.next <= 0) continue;
-    // Impulse along the normal that puts the node on the wall; prescribed axes do not give way.
+    // Impulse along the normal that puts the node on the wall; prescribed axes do not move.
     double compliance = 0;
     for (int axis = 0; axis < 3; ++axis)
       compliance += wall.normal[static_cast<std::size_t>(axis)] *

@@ -1,4 +1,4 @@
-// Rigid walls against held nodes.
+// Rigid walls against tied nodes.
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ const Tie& tie_of(const Ties& ties, int node) {
   return ties.node[static_cast<std::size_t>(ties.of_node[static_cast<std::size_t>(node)])].tie;
 }
 
-/// Calls visit(node, impulse, moment) for the nodes with motion of their own that take an impulse.
+/// Calls visit(node, impulse, moment) for the independent nodes that get an impulse on a tied node.
 template <class Visit>
 void transfer(const Ties& ties, const Nodes& nodes, int node, const Vector3d& impulse, const Vector3d& moment,
               const Visit& visit) {
@@ -37,8 +37,7 @@ double free_inverse_inertia(const Nodes& nodes, std::size_t node, int axis) {
   return nodes.angular_velocity[node].component[3];
 }
 
-/// Velocity that a unit impulse gives a node along its own direction, at most: paths to one corner count
-/// each alone.
+/// Upper bound of the velocity of a node along a unit impulse: paths to one corner are counted separately.
 double inverse_mass_along(const Ties& ties, const Nodes& nodes, int node, const Vector3d& direction) {
   double sum = 0;
   transfer(ties, nodes, node, direction, Vector3d::Zero(),

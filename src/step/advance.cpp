@@ -16,7 +16,7 @@ namespace brio {
 
 namespace {
 
-// A step this much smaller than the first says that the mesh has collapsed.
+// A time step this much smaller than the first means that the mesh has collapsed.
 constexpr double collapse_ratio = 1e-5;
 
 bool has_loads(const Model& model) { return !model.loads.empty(); }
@@ -50,7 +50,7 @@ void account_load_impulses(Model& model) {
   if (!model.rigid.empty()) add(weight(model.rigid));
 }
 
-// Forces of particles on each other, once all have told theirs.
+// Forces between particles, after all have computed their stress.
 void exchange_between_elements(Model& model, ThreadTeam& team) {
   const auto exchanges = [](const Block& block) { return block.kernel.exchange != nullptr; };
   if (std::none_of(model.blocks.begin(), model.blocks.end(), exchanges)) return;
@@ -63,7 +63,7 @@ void exchange_between_elements(Model& model, ThreadTeam& team) {
   });
 }
 
-// Internal forces by colours of chunks; sums and the stable step in the order of tasks.
+// Internal forces by colours of chunks; sums and the stable time step in the order of tasks.
 void sweep_elements(Model& model, ThreadTeam& team) {
   const StageTimer timer(model.stages, Stage::elements);
   for (ParticleSearch& search : model.particle_searches)
@@ -109,7 +109,7 @@ void add_mass(Model& model) {
            model.energy, model.momentum, model.step == 0);
 }
 
-// The last step may be longer than the others by this share: rounding of the time.
+// The last step may be longer than the others by this ratio: rounding of the time.
 constexpr double last_step_share = 1e-3;
 
 void choose_step(Model& model) {
@@ -134,7 +134,7 @@ void choose_step(Model& model) {
     step = largest;
     control.whole = 0;
   }
-  // What growth or rounding has left over is met without a sliver.
+  // The remaining time is reached without a very short last step.
   if (left > 0 && step >= (1 - last_step_share) * left) {
     step = left;
   } else if (left > 0 && 2 * step > (1 + last_step_share) * left) {
@@ -152,14 +152,14 @@ void account_support(Model& model, const Reaction& reaction) {
   model.momentum.supports.add(reaction.impulse);
 }
 
-// Before velocities: what pulls at held nodes pulls at the faces that hold them.
+// Before velocities: forces on tied nodes are transferred to the corners of their main faces.
 void gather_tied_forces(Model& model) {
   if (model.ties.empty()) return;
   const StageTimer timer(model.stages, Stage::ties);
   gather_forces(model.ties, model.nodes);
 }
 
-// Whenever velocities of faces may have changed.
+// After any change of the velocities of main faces.
 void carry_tied_nodes(Model& model) {
   if (model.ties.empty()) return;
   const StageTimer timer(model.stages, Stage::ties);
@@ -180,14 +180,14 @@ void accelerate_rigid(Model& model, ThreadTeam& team) {
   carry_velocities(model.rigid, model.nodes, team);
 }
 
-// Contact and walls have pushed bodies: all of their nodes follow.
+// After impulses of contact and walls on bodies: all of their nodes follow.
 void carry_rigid(Model& model, ThreadTeam& team) {
   if (model.rigid.empty() || (model.contacts.empty() && model.walls.empty())) return;
   const StageTimer timer(model.stages, Stage::rigid);
   carry_velocities(model.rigid, model.nodes, team);
 }
 
-// To where they are at the start of the step.
+// To their positions at the start of the time step.
 void move_contact_walls(Model& model) {
   model.contact_walls.resize(model.walls.size());
   for (std::size_t w = 0; w < model.walls.size(); ++w) {

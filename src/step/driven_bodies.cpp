@@ -11,7 +11,7 @@ namespace brio {
 
 namespace {
 
-/// Rigid bodies that cannot give way may overlap by this share of the smallest edge: a touch, not a blow.
+/// Rigid bodies of prescribed motion may overlap by this fraction of the smallest edge: a light touch.
 constexpr double driven_overlap = 1e-3;
 
 }  // namespace

@@ -35,8 +35,7 @@ Leap largest_change(const Nodes& nodes, double mean_step) {
 
 }  // namespace
 
-// The energies tell a leap of most of the mass, which is what nodes near everything are; the nodes themselves
-// are looked at only then.
+// The energies show a leap of most of the mass; the nodes themselves are examined only then.
 void expect_no_leap(const Model& model, const KineticEnergy& kinetic) {
   const double most = most_widths * model.extent.width / model.times.next;
   if (!(most > 0) || kinetic.half - kinetic.now <= 0.5 * model.extent.mass * most * most) return;

@@ -45,7 +45,8 @@ void fill_place(Block& block, Chunk& chunk, std::size_t place, PartInModel& part
   part.element_order[last] = -1;
 }
 
-// Padding lanes repeat a living element, so that they hold sound numbers. \param end place after the last
+// Padding lanes repeat an existing element, so that they contain valid numbers. \param end place after the
+// last
 void fill_padding(Block& block, std::size_t first, std::size_t end) {
   if (end == first) return;
   for (std::size_t place = end; place % static_cast<std::size_t>(block.lanes) != 0; ++place)

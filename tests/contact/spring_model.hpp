@@ -1,5 +1,5 @@
 #pragma once
-/// A small elastic world for tests of contact: hexahedra and shells whose nodes are held together by springs
+/// A small elastic world for tests of contact: hexahedra and shells whose nodes are connected by springs
 /// (between all nodes of an element, and for shells between nodes two apart, which resist bending). Central
 /// difference.
 

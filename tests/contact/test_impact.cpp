@@ -7,7 +7,7 @@ namespace {
 
 const Map as_is = shifted({0, 0, 0});
 
-// A single hexahedron whose lowest nodes lie over a big held block.
+// A single hexahedron whose lowest nodes lie over a big fixed block.
 TEST(Impact, NodeOnFaceReceivesTheExactImpulse) {
   SpringModel model;
   model.stiffness = 0;

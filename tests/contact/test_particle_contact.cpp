@@ -26,7 +26,7 @@ struct Throw {
 
 void PrintTo(const Throw& given, std::ostream* out) { *out << given.name; }
 
-/// The cube, of 2 x 2 x 2 hexahedra, held fast, and one particle after it.
+/// The cube, of 2 x 2 x 2 hexahedra, fixed, and one particle after it.
 class Scene {
  public:
   Scene(const Vector3d& x, const Vector3d& v) {

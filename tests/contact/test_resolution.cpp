@@ -299,7 +299,7 @@ TEST(Resolution, OfABrickAtRestOnAFlatFaceIsOneCheck) {
   EXPECT_LE(solved, 30) << "one step in a hundred";
 }
 
-// A sheet whose nodes are held above the faces of a box, and a block that slides onto it.
+// A sheet whose nodes are tied above the faces of a box, and a block that slides onto it.
 TEST(Resolution, PushesWhatHoldsTiedNodes) {
   for (const double height : {0.0, 0.02}) {
     SpringModel model;

@@ -134,7 +134,7 @@ TEST(Friction, NeverLeavesTheCone) {
   EXPECT_GT(sticking, 10);
 }
 
-// A block sliding over a held floor under gravity.
+// A block sliding over a fixed floor under gravity.
 struct Slide {
   SpringModel model;
   int block = 0;
@@ -197,7 +197,7 @@ TEST(FrictionSlow, DampedStackRestsWithoutDrift) {
 }
 
 TEST(FastCrossing, IsStoppedThroughManyFacesAStep) {
-  // In one step the small sheet would fly over seven faces of the plate and far through it.
+  // In one step the small sheet would move over seven faces of the plate and far through it.
   for (const bool thin : {false, true}) {
     SpringModel model;
     if (thin) {

@@ -46,7 +46,7 @@ double number(const T& value) {
   }
 }
 
-/// Strain of `end` in equal steps, held against the curve at each of a hundred strains.
+/// Strain of `end` in equal steps, compared with the curve at each of a hundred strains.
 template <class T>
 void expect_curve(const PowerLawHardening& law, double end, int steps, double tolerance) {
   PowerLawHardening::History<T> space{T(0.0)}, plane{T(0.0)}, fibre{T(0.0)};

@@ -91,7 +91,7 @@ TEST_F(ProgramStudy, MakesATableAndPictures) {
        {"bars.front.svg", "bars.front.png", "bars.knobs.svg", "bars.knobs.png", "bars.gp"})
     EXPECT_GT(read(fs::path("bars.study") / picture).size(), 500u) << picture;
   EXPECT_NE(ending.output.find("| mesh.coarse |"), std::string::npos) << ending.output;
-  // Half an element of mass: 0.25 of the 1 that it is held against, and half of that with each mesh.
+  // Half an element of mass: 0.25 of the reference 1, and half of that with each mesh.
   EXPECT_NE(ending.output.find("speed beyond 30 %"), std::string::npos) << ending.output;
   EXPECT_NE(ending.output.find("Order of convergence"), std::string::npos) << ending.output;
 }

@@ -1,5 +1,5 @@
 /// The passes over pairs of features in lanes and threads: what they find is what a look at every listed pair
-/// finds, what would touch is what the exact checks of every pair of the scene find, and pairs that sleep are
+/// finds, what would touch is what the exact checks of every pair of the scene find, and inactive pairs are
 /// not near.
 
 #include <gtest/gtest.h>

@@ -9,8 +9,8 @@ namespace {
 
 using namespace test;
 
-// A node of a shell that is held, but may turn, under a node that is driven into it: turning about the normal
-// moves nothing along it, whatever rounding says.
+// A node of a shell that is fixed, but may rotate, under a node that is driven into it: rotation about the
+// normal moves nothing along it, whatever rounding says.
 TEST(HeldRows, WhatOnlyTurnsAboutTheNormalIsHeld) {
   RandomNumbers random(7);
   for (int i = 0; i < 100; ++i) {
@@ -27,7 +27,7 @@ TEST(HeldRows, WhatOnlyTurnsAboutTheNormalIsHeld) {
   }
 }
 
-/// A held node is driven against a point that a held and a free node share, or a free node along its own
+/// A fixed node is driven against a point between a fixed and a free node, or a free node along its own
 /// normal alone. \param share of the free node, or what of its other motion the point sees.
 RowScene nearly_held(double share, bool by_matrix, double friction) {
   RowScene scene;

@@ -259,7 +259,7 @@ TEST(SolverInvariants, PrescribedComponentsStay) {
     if (mask & 4) block.inverse_mass.zz = 0;
     before.push_back(block.velocity);
   }
-  // One row between blocks that are held altogether: its impulse must not grow.
+  // One row between fixed blocks: its impulse must not grow.
   scene.blocks[0].inverse_mass = scene.blocks[1].inverse_mass = isotropic(0.0);
   scene.rows.add_row(unit(scene.blocks[1].velocity - scene.blocks[0].velocity), 0, 0.3).impulse = 1;
   scene.rows.add_point(0, Side::first);
@@ -383,7 +383,7 @@ TEST(SolverInvariants, RowsThatStillChangeAreSolvedAlone) {
     EXPECT_LT(norm(scene.blocks[b].velocity - exact.blocks[b].velocity), 1e-3 * report.largest_velocity);
 }
 
-// A floor that is held altogether joins nothing.
+// A fixed floor joins no islands.
 TEST(SolverInvariants, WhatIsHeldDoesNotJoinIslands) {
   RowScene scene;
   scene.blocks.push_back({{0, 0, 0}, isotropic(0.0)});

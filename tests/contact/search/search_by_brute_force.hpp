@@ -1,5 +1,5 @@
 #pragma once
-/// Every node against every box: what the searches are held against.
+/// Every node against every box: the reference of the searches.
 
 #include <span>
 #include <vector>

@@ -301,7 +301,7 @@ TEST(InitialGap, LeavesPrescribedAndRigidNodesWhereTheyAre) {
   }
 }
 
-// Two bricks side by side whose bottoms are held: held nodes give way where they lie on each other.
+// Two bricks side by side whose bottoms are fixed: fixed nodes are moved where they coincide.
 TEST(InitialGap, OfTwoThatAreHeldIsMadeWhereTheyLieOnEachOther) {
   RestingScene scene;
   scene.box({0, 0, 0}, {1, 1, 1}, {1, 1, 1});

@@ -101,7 +101,7 @@ double reflection(std::array<int, 3> first, std::array<int, 3> second, bool tie_
   return std::sqrt(left / all);
 }
 
-// The finer mesh is the one to be held: what is held by few of its corners alone pushes those alone.
+// The finer mesh is to be tied: nodes tied to few corners load those alone.
 TEST(Ties, WavePassesFromCoarseToFineAndBack) {
   EXPECT_LT(reflection({2, 2, 60}, {4, 4, 60}, true), 1e-3);
   EXPECT_LT(reflection({3, 3, 60}, {10, 10, 60}, true), 2e-3);
@@ -188,7 +188,7 @@ TEST(Ties, OfTiesKeepMomentumAndEnergy) {
   Deck deck = two_boxes({2, 2, 2}, {3, 3, 3});
   deck.parts.push_back(box("finest", {1, 1, 0.5}, {5, 5, 2}, {0, 0, 1.25}, inviscid_hex8()));
   deck.connections.push_back(tied("finest.zmin", "fine"));
-  // Their faces meet where the first are held: nodes of the third stand on nodes that others hold.
+  // Their faces meet where the first are tied: nodes of the third lie on tied nodes.
   deck.parts.push_back(box("side", {0.5, 1, 2}, {2, 5, 9}, {0.75, 0, 0}, inviscid_hex8()));
   deck.connections.push_back(tied("side.xmin", "fine"));
   const Conserved errors = thrown(deck, 50, 10);

@@ -24,7 +24,7 @@ void expect_balanced(Model& model, double tolerance) {
 
 // ---- walls
 
-/// A block that falls onto a wall with what it holds first.
+/// A block that falls onto a wall with its tied part first.
 Deck falling(double thickness, double friction) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};

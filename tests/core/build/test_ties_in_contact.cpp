@@ -74,7 +74,7 @@ TEST(TiesInContactSlow, StiffenersDoNotMeetThePanelThatHoldsThem) {
   expect_no_contact(deck, 2);
 }
 
-// ---- what is held can be hit
+// ---- impact on tied nodes
 
 struct Hit {
   Model model;
@@ -109,7 +109,7 @@ Hit hit(Deck deck, Triple centre, Triple velocity, int threads = 1) {
 
 double mean_up(const Model& model) { return mean_velocity(model, 2, 2); }
 
-/// A block covered by a shell all of whose nodes are held.
+/// A block covered by a shell with all nodes tied.
 Deck covered_block(double thickness) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};

@@ -130,7 +130,7 @@ TEST(WallOverlap, LeavesPrescribedComponentsAlone) {
   EXPECT_EQ(model.initial_overlaps.size(), 1U);
 }
 
-// Nodes that faces hold are put onto the wall before it is found what holds them.
+// Tied nodes are moved onto the wall before their main faces are found.
 TEST(WallOverlap, OfTiedNodesIsRemoved) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};

@@ -26,7 +26,7 @@ inline Deck two_boxes(std::array<int, 3> coarse, std::array<int, 3> fine, double
   return deck;
 }
 
-/// Velocities of a linear field, with held nodes where they are held.
+/// Velocities of a linear field, with tied nodes at their positions.
 inline void set_velocities(Model& model, const Eigen::Vector3d& constant, const Eigen::Matrix3d& gradient) {
   using Eigen::Vector3d;
   const Vector3d spin(0.5 * (gradient(2, 1) - gradient(1, 2)), 0.5 * (gradient(0, 2) - gradient(2, 0)),

@@ -1,4 +1,4 @@
-/// A body that flies far away changes nothing for the others: neither their pairs nor their results.
+/// A body far away changes nothing for the others: neither their pairs nor their results.
 
 #include <gtest/gtest.h>
 

@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Speeds, ThrownCubes,
                          ::testing::Values(std::pair(1, 0.03), std::pair(1, 0.1), std::pair(1, 0.2),
                                            std::pair(2, 0.1), std::pair(2, 0.2)));
 
-// The heap in a box of rigid walls that rub, from which it springs back and meets again.
+// The heap in a box of rigid walls with friction, from which it springs back and meets again.
 void expect_box_holds(int elements, double share) {
   Deck deck = thrown_cubes(elements, share * wave_speed);
   constexpr double half = 3.2;

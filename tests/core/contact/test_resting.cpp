@@ -13,7 +13,7 @@ using namespace test;
 
 constexpr double weight = 100;  // acceleration of gravity: a cube of edge 1 is compressed by 5e-5
 
-// Cubes of edge 1 on each other from z = 0, edges aligned; the lowest is held at its bottom. `order` lists
+// Cubes of edge 1 on each other from z = 0, edges aligned; the lowest is fixed at its bottom. `order` lists
 // the floors in the order in which their parts are made.
 Deck stack(const std::vector<int>& order, double friction) {
   Deck deck;

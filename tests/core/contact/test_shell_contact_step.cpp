@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-// A can held at its bottom, crushed by a tilted block; thin and soft enough to fold.
+// A can fixed at its bottom, crushed by a tilted block; thin and soft enough to fold.
 Deck small_can(Precision precision) {
   ElasticPlastic law;
   law.density = 1000;

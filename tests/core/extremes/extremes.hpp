@@ -93,7 +93,7 @@ inline Deck impact(Kind upper, Kind lower, const Material& material = elastic(0.
   return deck;
 }
 
-/// A body of each kind thrown at a sheet that tears; what is left of it flies on and touches.
+/// A body of each kind thrown at a sheet that fractures; its free nodes remain in contact.
 inline Deck all_kinds_at_once() {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}, {"sheet", brittle(0.01, 0.02)}};

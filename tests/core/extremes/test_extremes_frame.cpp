@@ -48,7 +48,7 @@ double share_of_equal(const std::vector<int>& a, const std::vector<int>& b) {
   return static_cast<double>(equal) / static_cast<double>(std::max(a.size(), b.size()));
 }
 
-/// A bar thrown at bricks that lean against a held wall.
+/// A bar thrown at bricks that lean against a fixed wall.
 Deck few_bricks() {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}, {"soft", tough()}};

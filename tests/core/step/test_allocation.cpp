@@ -30,7 +30,7 @@ Deck block_on_wall(const Element& element) {
   return deck;
 }
 
-// A can of shells, held at its bottom, under a block that comes down: faces touch, nodes rub.
+// A can of shells, fixed at its bottom, under a block that comes down: contact with friction.
 Deck can_under_block() {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}, {"heavy", elastic(0.3)}};
@@ -58,7 +58,7 @@ Deck block_on_floor() {
   return deck;
 }
 
-// The same with a block that is covered by a shell, whose nodes it holds.
+// The same with a block that is covered by a tied shell.
 Deck can_under_covered_block() {
   Deck deck = can_under_block();
   deck.parts[1].placement.translate = {0, 0, 1.15};

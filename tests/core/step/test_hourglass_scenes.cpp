@@ -1,4 +1,4 @@
-// Hourglass control over whole scenes: it never supplies energy, and a run says where it holds much.
+// Hourglass control over whole scenes: it never adds energy, and a run warns where its energy is large.
 
 #include <gtest/gtest.h>
 

@@ -85,7 +85,7 @@ TEST_P(Leap, OfNodesThatArePushedIsThatOfTheOneThatIsThrownFarthest) {
   EXPECT_NE(fault.find("forces move node "), std::string::npos) << fault;
 }
 
-// Supports hold whatever pulls.
+// Supports resist any load.
 TEST(LeapOfHeldNodes, IsNone) {
   Deck deck = two_bodies(Kind::hex8);
   deck.loads = {gravity_of_leap(deck, 1e20)};
@@ -93,7 +93,7 @@ TEST(LeapOfHeldNodes, IsNone) {
   EXPECT_EQ(fault_of_first_step(deck), "");
 }
 
-// A sheet of 40 x 40 shells that a block crosses in a step: what it hits would fly past all the rest.
+// A sheet of 40 x 40 shells that a block crosses in a step: its nodes would move past all others.
 TEST(Crowd, OfASheetThatIsHitAtManyWidthsAStepIsRefusedByName) {
   Deck deck = two_bodies(Kind::shell);
   for (Part& part : deck.parts)

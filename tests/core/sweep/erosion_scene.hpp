@@ -37,7 +37,7 @@ inline PrescribedMotion pull(std::string set, int axis, double velocity) {
   return motion;
 }
 
-/// Cubes of edge 1 along x, held at one end and pulled at the other.
+/// Cubes of edge 1 along x, fixed at one end and pulled at the other.
 inline Deck pulled_bar(int elements, const Material& material, double velocity = 1) {
   Deck deck;
   deck.materials = {{"material", material}};
@@ -89,7 +89,7 @@ inline double total_mass(const Model& model) {
   return balance.intact + balance.debris + model.erosion->dropped_mass;
 }
 
-/// A block that is torn in a velocity field: deaths spread over many steps and chunks.
+/// A block that is torn in a velocity field: deletions spread over many steps and chunks.
 inline Deck torn_block(FreeNodes free_nodes = FreeNodes::keep) {
   Deck deck;
   deck.materials = {{"material", brittle(0.01, 0.02)}, {"other", tough()}};

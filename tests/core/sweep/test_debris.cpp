@@ -23,7 +23,7 @@ ElasticPlastic soft() {
 
 constexpr std::size_t column = 0, block = 1;
 
-// A soft column comes down on a block that nothing holds; its lowest element is crushed and goes.
+// A soft column comes down on a free block; its lowest element is crushed and deleted.
 Deck crushed_column(FreeNodes free_nodes) {
   Deck deck;
   deck.materials = {{"material", soft()}, {"hard", elastic(0.3)}};

@@ -60,7 +60,7 @@ TEST(Erosion, NothingGoesInCompression) {
   EXPECT_GT(model.blocks[0].kernel.sample(model.blocks[0], model.nodes, 0).equivalent_plastic_strain, 0.1);
 }
 
-// Half of the last step's work no longer acts and is taken back: it is 0.6 % of what the element holds.
+// Half of the last step's work no longer acts and is subtracted: it is 0.6 % of the energy of the element.
 TEST(Erosion, EnergyErrorDoesNotFeelADeletionUnderFullStress) {
   for (const Element& element : {Element(inviscid_hex8()), Element(Hex8{}), Element(Hex8Full{})}) {
     Deck deck = pulled_bar(1, tough(), 2);
@@ -207,7 +207,7 @@ TEST(Erosion, WhatIsSweptFallsAsElementsDie) {
   EXPECT_LT(living, 700);
 }
 
-// The middle of three cubes is deleted; the outer ones fly apart, turning and ringing without damping.
+// The middle of three cubes is deleted; the outer ones separate, rotating and vibrating without damping.
 void expect_stable_debris(std::int64_t steps) {
   Deck deck = pulled_bar(3, brittle(0.01, 0.02));
   deck.boundary_conditions.clear();

@@ -302,7 +302,7 @@ TEST_P(Particles, MassIsThatOfTheShape) {
   }
 }
 
-// A bar whose halves fly apart is separated by deletion; mass, momentum and energy balance.
+// A bar whose halves move apart is separated by deletion; mass, momentum and energy balance.
 TEST_P(Particles, TornBarBalancesMassMomentumAndEnergy) {
   ElasticPlastic law = yielding();
   law.failure = Failure{};

@@ -93,7 +93,7 @@ void verify_xdmf(const std::filesystem::path& path, int dumps) {
   EXPECT_GE(described, dumps - 1);
 }
 
-/// \return rows of the history, held against what was written.
+/// \return rows of the history, compared with those written.
 int verified_rows(const std::filesystem::path& path) {
   const Hdf5File file = Hdf5File::open_to_read(path);
   const std::int64_t rows = file.dimensions("/history/values").at(0);

@@ -8,9 +8,8 @@
 /// position of that point depends on what resists the couple of a side:
 ///   rigid body                    the body, at any distance
 ///   shell, beam                   the rotations of its nodes
-///   solid                         the tilt of the faces at the closest point, weighted by the alignment of
-///   their
-///                                 normals; none is preferred, so mirror images are treated alike
+///   solid                         the tilt of the faces at the closest point, weighted by alignment;
+///                                 none is preferred, so mirror images are treated alike
 ///   particle                      nothing: the point lies on it
 /// Between sides of the same kind the point divides the distance in the ratio of their radii; for a node of a
 /// solid it is the node. Two particles, and sides without rotations and faces, have no friction.

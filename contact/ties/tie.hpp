@@ -4,7 +4,7 @@
 /// The point has fixed coordinates in the face, bilinear in a quadrilateral, linear in a triangle. The
 /// distance of the node from it is constant relative to the face:
 ///
-///   on a face without rotations            x = sum w_k x_k + gap n(x_1 .. x_4), n the unit normal there;
+///   on a face without rotations          x = sum w_k x_k + gap n(x_1 .. x_4), n the unit normal there;
 ///   on a face with rotations (shells)    x = sum w_k x_k + arm, the arm rotating with sum w_k omega_k.
 ///
 /// A force on the node goes to the corners by the transpose of the derivative of this map, so that virtual

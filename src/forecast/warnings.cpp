@@ -281,7 +281,7 @@ void warn_of_missing_contact(const Deck& deck, const Model& model, const Shapes&
     if (said || !boxes_meet(shapes[a], shapes[b], -size, 1e-12 * deck.time.end, deck.time.end)) continue;
     if (boxes_meet(shapes[a], shapes[b], -size, 0, 1e-12 * deck.time.end)) continue;  // as drawn
     warnings.push_back({"parts '" + first + "' and '" + second + "'",
-                        "they move towards each other and are not in contact",
+                        "they move towards each other, but contact between them is not defined",
                         deck.contact ? "add them to contact.surfaces" : "contact: {surfaces: all}"});
   }
 }

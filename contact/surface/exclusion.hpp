@@ -12,8 +12,7 @@ namespace brio {
 
 /// The excluded faces of each slave node, ascending:
 /// - faces it belongs to, and the other sides of their elements;
-/// - for shells also the faces around it that can be reached along the shell within pi/2 of the contact
-/// thickness
+/// - for shells also the faces that can be reached along the shell within pi/2 of the contact thickness
 ///   in the reference configuration. A shell of thickness t cannot be folded to a middle radius below t/2; on
 ///   that tightest fold points an arc s < pi/2 t apart have a chord t sin(s/t) < t without touching. The rule
 ///   follows from the thickness alone, so that the result does not depend on the mesh.

@@ -5,9 +5,8 @@
 ///
 /// * Axes, strains and additions to the original: shell_geometry.hpp, shell_strain.hpp.
 /// * Stable time step and scaled rotational inertia: shell_step.hpp.
-/// * Drilling: a node has one moment of inertia about all axes, and strains depend on spins in the element's
-/// plane
-///   only: there is no stiffness against spin about the normal. Adjacent elements at an angle excite that
+/// * Drilling: a node has one moment of inertia about all axes, and strains depend only on spins in the
+///   plane: there is no stiffness against spin about the normal. Adjacent elements at an angle excite that
 ///   spin and convert it into bending, so a weak spring and a damper resist it (drilling_stiffness,
 ///   drilling_viscosity).
 

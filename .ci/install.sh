@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Installs what Brio needs to be built and tested on Debian 12, if it is missing. Needs root or sudo for that.
-# Usage: .ci/install.sh [build|test|study|paraview]...     (default: build)
+# Usage: .ci/install.sh [build|test|study|paraview|tidy]...     (default: build)
 set -euo pipefail
 
 build="g++ cmake ninja-build libeigen3-dev libhdf5-dev libyaml-cpp-dev nlohmann-json3-dev libfmt-dev libcli11-dev"
-test="libgtest-dev libgmp-dev libboost-dev clang-format clang-tidy python3 python3-jsonschema python3-yaml python3-h5py locales-all"
+test="libgtest-dev libgmp-dev libboost-dev clang clang-format python3 python3-jsonschema python3-yaml python3-h5py locales-all"
 study="gnuplot-nox"
 paraview="paraview python3-paraview xvfb xauth"
+tidy="clang-tidy"
 
 packages=""
 for group in "${@:-build}"; do
@@ -15,7 +16,8 @@ for group in "${@:-build}"; do
     test) packages+=" $build $test $study" ;;
     study) packages+=" $study" ;;
     paraview) packages+=" $paraview" ;;
-    *) echo "install.sh: unknown group '$group'; build, test, study and paraview are known" >&2; exit 2 ;;
+    tidy) packages+=" $build $tidy" ;;
+    *) echo "install.sh: unknown group '$group'; build, test, study, paraview and tidy are known" >&2; exit 2 ;;
   esac
 done
 

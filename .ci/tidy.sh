@@ -3,6 +3,7 @@
 # Usage: .ci/tidy.sh [FILE]...      (default: all but the tests)
 set -euo pipefail
 cd "$(dirname "$0")/.."
+.ci/install.sh tidy
 # A build folder of its own: headers precompiled by GCC are not read by clang.
 cmake --preset release -B build/tidy -G Ninja -DBRIO_TESTS=OFF -DBRIO_UNITY=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON > /dev/null
 files=("$@")

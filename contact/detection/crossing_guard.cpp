@@ -86,7 +86,8 @@ class Look {
   }
   static bool is_of_points(const OnePair<Kind>& one) {
     if constexpr (Pairs::first_points == 1) return false;
-    const auto &a = one.kind.first_nodes(one.a), &b = one.kind.second_nodes(one.b);
+    const auto& a = one.kind.first_nodes(one.a);
+    const auto& b = one.kind.second_nodes(one.b);
     return a.front() == a.back() || b.front() == b.back();
   }
 

@@ -180,7 +180,8 @@ BRIO_INLINE typename Kind::Pairs pack_of(const Kind& kind, const int* pairs, std
     pack.pair[lane] = pair;
     pack.a[lane] = kind.list.first(static_cast<std::size_t>(pair));
     pack.b[lane] = kind.list.second(static_cast<std::size_t>(pair));
-    const auto &first = kind.first_nodes(pack.a[lane]), &second = kind.second_nodes(pack.b[lane]);
+    const auto& first = kind.first_nodes(pack.a[lane]);
+    const auto& second = kind.second_nodes(pack.b[lane]);
     for (std::size_t k = 0; k < first.size(); ++k) pack.node[k][lane] = first[k];
     for (std::size_t k = 0; k < second.size(); ++k) pack.node[first.size() + k][lane] = second[k];
   }
@@ -262,7 +263,8 @@ struct OnePair {
       const double* row = rows + stride * static_cast<std::size_t>(node);
       return Vector3<double>{row[0], row[1], row[2]};
     };
-    const auto &first = kind.first_nodes(a), &second = kind.second_nodes(b);
+    const auto& first = kind.first_nodes(a);
+    const auto& second = kind.second_nodes(b);
     Points points;
     for (std::size_t k = 0; k < first_points; ++k) points.first[k] = at(first[k]);
     for (std::size_t k = 0; k < second_points; ++k) points.second[k] = at(second[k]);

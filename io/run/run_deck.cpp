@@ -230,10 +230,10 @@ Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>
 void make_first_step(const Deck& deck, Model& model, ThreadTeam& team) {
   update_velocities(model, deck.numerics.energy_error_limit, team);
   constexpr double most_steps = 0x1p53;
-  const double steps = deck.time.end / model.times.next;
-  if (steps > most_steps)
+  const double steps_to_end = deck.time.end / model.times.next;
+  if (steps_to_end > most_steps)
     throw DeckError((deck.time.place.empty() ? deck.file : deck.time.place) + ": 'end' is " +
-                    written(deck.time.end) + ", which takes " + written(steps) + " time steps of " +
+                    written(deck.time.end) + ", which takes " + written(steps_to_end) + " time steps of " +
                     written(model.times.next) + "; at most " + written(most_steps) +
                     " are accepted: beyond, a step no longer changes the time");
 }

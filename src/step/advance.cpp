@@ -6,6 +6,7 @@
 
 #include "contact/audit/audit.hpp"
 #include "src/motion/motion.hpp"
+#include "src/step/choose_step.hpp"
 #include "src/step/diagnosis.hpp"
 #include "src/step/driven_bodies.hpp"
 #include "src/step/laid_open.hpp"
@@ -15,9 +16,6 @@
 namespace brio {
 
 namespace {
-
-// A time step this much smaller than the first means that the mesh has collapsed.
-constexpr double collapse_ratio = 1e-5;
 
 bool has_loads(const Model& model) { return !model.loads.empty(); }
 
@@ -107,43 +105,6 @@ void add_mass(Model& model) {
   if (!model.added_mass) return;
   hand_out(*model.added_mass, model.schedule, model.sweep_results, model.blocks, model.parts, model.nodes,
            model.energy, model.momentum, model.step == 0);
-}
-
-// The last step may be longer than the others by this ratio: rounding of the time.
-constexpr double last_step_share = 1e-3;
-
-void choose_step(Model& model) {
-  StepControl& control = model.control;
-  double step = held_step(control, control.settings.step_scale * control.stable);
-  if (control.settings.step) {
-    step = *control.settings.step;
-    if (step > control.stable)
-      throw Breakdown("the constant time step " + written(step) + " exceeds the stable time step " +
-                      written(control.stable) + " of " +
-                      element_name(model, control.critical_block, control.critical_element));
-  }
-  const double largest = model.step > 0 ? control.settings.step_growth * model.times.previous : step;
-  if (model.step > 0 && std::min(step, largest) < collapse_ratio * control.first)
-    throw Breakdown("the stable time step has collapsed to " + written(step) + ", set by " +
-                    element_name(model, control.critical_block, control.critical_element) + ", at time " +
-                    written(model.times.time) + "; " + cause_of_collapse(model));
-  if (model.step == 0) control.first = step;
-  const double left = control.settings.end - model.times.time;
-  step = left > 0 ? whole_step(control, step, left) : model.times.previous;
-  if (step > largest) {
-    step = largest;
-    control.whole = 0;
-  }
-  // The remaining time is reached without a very short last step.
-  if (left > 0 && step >= (1 - last_step_share) * left) {
-    step = left;
-  } else if (left > 0 && 2 * step > (1 + last_step_share) * left) {
-    step = 0.5 * left;
-  }
-  model.times.next = step;
-  if (model.step == 0) control.least = control.largest = step;
-  if (left > 2 * step) control.least = std::min(control.least, step);
-  control.largest = std::max(control.largest, step);
 }
 
 void account_support(Model& model, const Reaction& reaction) {

@@ -20,6 +20,12 @@ struct ContactErosion {
   SurfaceChange change;        ///< by the last deletion
   std::uint64_t search = 0;    ///< number of the last search when numbers were retired
   bool keeps_numbers = false;  ///< numbers of faces are not taken over: initial overlaps are excluded by them
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(topology, search);
+  }
 };
 
 /// Prepare a scene, made from these parts, for deletions.

@@ -25,6 +25,13 @@ struct Contact {
   Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< tangential impulse on the first side
 
   bool of_edges() const { return face < 0; }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(slave, face, body, own, node, weight, normal, gap, friction_coefficient, along_meeting, impulse,
+            friction);
+  }
 };
 
 }  // namespace brio

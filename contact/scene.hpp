@@ -57,6 +57,14 @@ struct ContactStep {
 
   double normal_work() const { return 0.5 * (normal_work_before + normal_work_after); }
   double friction_work() const { return 0.5 * (friction_work_before + friction_work_after); }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(normal_work_before, normal_work_after, friction_work_before, friction_work_after, contacts,
+            active, deepest_overlap, passes, residual, searched, support_work_before, support_work_after,
+            support_impulse, support_moment, wall_impulse, wall_moment);
+  }
 };
 
 /// Sums and extremes over all steps.
@@ -123,6 +131,14 @@ struct ContactScene {
 
   ContactStep step;
   ContactTotals totals;
+
+  /// Saved and restored (src/base/state_archive.hpp); the surface only where it can change.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    if (erosion) archive(surface, excluded, *erosion, features);
+    archive(motion, pairs, proximity, guard, contacts, last_dt, walls, steps_with_hits, rounds, zones,
+            unresolved, loaded, in_contact, velocity, pushed, normal_impulse, friction_impulse, step, totals);
+  }
 };
 
 /// \throws std::invalid_argument for elements without surface.

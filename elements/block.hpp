@@ -109,6 +109,12 @@ struct Block {
     const auto corners = static_cast<std::size_t>(nodes_per_element(element));
     return connectivity[((e / width) * corners + static_cast<std::size_t>(corner)) * width + e % width];
   }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(element_count, pack_count, connectivity, state, cloud, held);
+  }
 };
 
 /// True where the law has the update that the element needs.

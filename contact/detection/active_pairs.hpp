@@ -34,6 +34,12 @@ struct PairBlocks {
   std::uint64_t restarts = 0;      ///< of the motion for which this was found
   std::vector<int> found;          ///< by ranges
   std::vector<std::size_t> count;  ///< of each range
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(block, restarts);
+  }
 };
 
 /// The active pairs, ascending: those whose predicted paths and a surplus reach their motion bounds (`wake`).

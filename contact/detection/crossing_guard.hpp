@@ -41,6 +41,12 @@ struct CrossingGuard {
   };
   std::vector<Range> range;  ///< working space of ranges of pairs, one task each
   std::uint64_t certified = 0, renewed = 0, checked = 0, found = 0;  ///< sums over steps
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(certified, renewed, checked, found);
+  }
 };
 
 /// Distance that constraints of hits leave, over the smallest edge.

@@ -42,6 +42,12 @@ struct Proximity {
   };
   std::vector<Range> range;                ///< working space of ranges of pairs, one task each
   std::vector<const FoundContact*> found;  ///< of all ranges
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(looked_at, closest_points, node_face_blocks, edge_edge_blocks);
+  }
 };
 
 /// Active pairs: those that may come within their radii in this step, by their motion bounds.

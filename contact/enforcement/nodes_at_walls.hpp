@@ -43,6 +43,12 @@ struct NodesAtWalls {
   /// \returns whether there are any
   bool find_missed(std::span<const ContactWall> walls, const Surface& surface, const FeatureMotion& motion,
                    double dt, double tolerance);
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(touch);
+  }
 };
 
 }  // namespace brio

@@ -55,6 +55,12 @@ class LoadedNodes {
   /// Of all contacts; less what was not returned before they parted.
   double taken() const { return taken_; }
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(node_, loaded_, of_step_, taken_);
+  }
+
  private:
   struct Node {
     double taken = 0;    ///< work, since the node is loaded

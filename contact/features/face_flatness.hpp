@@ -58,6 +58,12 @@ class FaceFlatness {
     return is_flat(face, radii) ? flat_thickness(features, f, flat_[f]) : 0;
   }
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(flat_, until_);
+  }
+
  private:
   /// Path of a face until which its hull surely is as thin, and until which it surely is convex.
   struct Until {

@@ -90,6 +90,13 @@ class FeatureMotion {
   Eigen::Vector3d end(int slave) const { return Eigen::Vector3d(node[index(slave)].end); }
   Eigen::Vector3d displacement(int slave) const { return end(slave) - start(slave); }
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(node, of_node, of_face, of_edge, groups, way_, driven_, joined_, limit_factor_, limit_surplus_,
+            frame_, frame_sum_, magnitude_, restarts_, known_, predicted_, exceeds_);
+  }
+
  private:
   /// Of a node, in the frame of its group.
   struct alignas(16) Way {

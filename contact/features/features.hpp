@@ -64,6 +64,13 @@ struct SurfaceFeatures {
   std::vector<double> face_radius;            ///< of each face
   Lists ring;  ///< of each slave node: those at the other ends of its sides and beams, ascending
   std::vector<int> retired, free;  ///< numbers of edges that are no more: of the last update, and of before
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(edge, all_of_faces, edge_of_face, diagonal_of_face, edge_of_round, point_of_node, face_node,
+            edge_node, edge_radius, node_radius, face_radius, ring, retired, free);
+  }
 };
 
 /// Skin of a solid, over the smallest edge of the surface: two solids are in contact at twice that distance.

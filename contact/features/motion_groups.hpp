@@ -23,6 +23,12 @@ namespace brio {
 struct PathAndAhead {
   std::vector<double> path;   ///< since the restart, until the start of this step
   std::vector<double> ahead;  ///< the path with approach_factor times the displacement of this step
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(path, ahead);
+  }
 };
 
 class MotionGroups {
@@ -59,6 +65,12 @@ class MotionGroups {
 
   /// Follow one step, of which the groups have the frames and the longest displacements.
   void advance(bool with_paths);
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(group, relation, apart, total, of_node_, member_, border_, related_, relation_of_, longest_);
+  }
 
  private:
   std::size_t cell(int a, int b) const {

@@ -40,6 +40,13 @@ struct RigidMotion {
     const Eigen::Vector3d turn = arm.cross(direction);
     return direction.cwiseProduct(direction).dot(inverse_mass) + turn.dot(inverse_inertia * turn);
   }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(centre, velocity, angular_velocity, velocity_before, angular_velocity_before, mass, inertia,
+            inverse_mass, inverse_inertia, impulse, moment);
+  }
 };
 
 /// Reaction of the supports of prescribed components to an impulse and a moment on a body.

@@ -74,6 +74,12 @@ class FeatureBoxes {
     }
   }
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(box_, is_changed_, changed_, tree_);
+  }
+
  private:
   /// What meets more queries is not held at a time: it is far more than what is paired of it.
   static constexpr std::size_t queries_at_once = 2048;

@@ -63,6 +63,14 @@ class FeaturePairs {
   std::uint64_t searches() const { return searches_; }
   const FaceFlatness& flatness() const { return flat_; }
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(node_face, edge_edge, counts, reach_, flat_, node_box_, face_box_, edge_box_, node_, face_, edge_,
+            node_leaves_, face_leaves_, edge_leaves_, changes_, changed_, searches_, most_pairs_,
+            met_at_rest_);
+  }
+
  private:
   struct Scene {
     const SurfaceFeatures& features;
@@ -108,6 +116,10 @@ class FeaturePairs {
     std::vector<int> node, face, edge, grown;
     bool before_first_search = false;
     bool empty() const { return node.empty() && face.empty() && edge.empty() && !before_first_search; }
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(node, face, edge, grown, before_first_search);
+    }
   } changes_;             ///< since the last search
   bool changed_ = false;  ///< whether this search follows a change
   /// Pairs taken out in this search, ascending: those with radii where it follows a change, else those that

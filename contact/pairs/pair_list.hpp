@@ -64,6 +64,12 @@ class PairList {
   /// Differs from what it was when a pair of the block came or went since.
   std::uint64_t version(std::size_t block) const { return version_[block]; }
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(wake, record_, vacant_, version_, changes_);
+  }
+
  private:
   static constexpr std::size_t blocks_a_task = 256;
   /// Of a block, by bit.

@@ -30,6 +30,12 @@ class SpatialOrder {
   std::size_t size() const { return size_; }
   int operator[](std::size_t place) const { return static_cast<int>(entries_[place] & 0xffffffffu); }
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(size_, entries_);
+  }
+
  private:
   void sort_by_key(std::size_t count, ThreadTeam& team);
   void refine(std::span<const Vector3<double>> positions, std::size_t begin, std::size_t end);

@@ -54,6 +54,12 @@ class NodeTree {
   std::size_t collect(const CaptureBox& box, std::span<const Branch> branches, std::size_t most,
                       std::vector<int>& places, std::uint64_t& comparisons) const;
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(order_, holds_points_, range_, blocks_, first_, bounds_);
+  }
+
  private:
   void add_level(std::span<const CaptureBox> boxes, ThreadTeam& team);
 
@@ -95,6 +101,12 @@ class TreeSearch {
   void build(const SearchNodes& nodes, ThreadTeam& team) { tree_.build(nodes, team); }
   /// ... and the pairs with the nodes as they were then.
   void find(std::span<const CaptureBox> boxes, ThreadTeam& team, CandidatePairs& pairs, SearchCounts& counts);
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(tree_);
+  }
 
  private:
   void find_in_groups(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end,

@@ -33,6 +33,12 @@ class SlaveSet {
 
   void clear() { word_.assign(word_.size(), 0); }
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(word_);
+  }
+
  private:
   static constexpr std::size_t bits = 64;
   std::vector<std::uint64_t> word_;

@@ -110,6 +110,13 @@ struct Surface {
 
   std::size_t slaves() const { return node.size(); }
   int slave(int global_node) const { return slave_of[static_cast<std::size_t>(global_node)]; }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(face, thickness, neighbor, node, slave_of, radius, of_solid, pinched, body, round, round_radius,
+            rounds, faces_of, body_count, tied);
+  }
 };
 
 /// \throws std::invalid_argument when a shell has no thickness or a node number is out of range.

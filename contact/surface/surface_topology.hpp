@@ -47,6 +47,12 @@ struct FreeNumbers {
     free.insert(free.end(), retired.begin(), retired.end());
     retired.clear();
   }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(retired, free);
+  }
 };
 
 /// Changes by a deletion. Each list without repetition, in an order that does not depend on threads.
@@ -86,6 +92,12 @@ struct SurfaceTopology {
   std::vector<int> mark;  ///< of each element, by which search for pieces it was reached last
   int last_mark = 0;
   std::uint64_t visits = 0;  ///< sides, faces and nodes looked at by deletions so far
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(side, body, debris, faces, slaves, mark, last_mark, visits);
+  }
 };
 
 /// \param surface as made from the parts; bodies that have no face at all are numbered after the others

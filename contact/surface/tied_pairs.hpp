@@ -25,6 +25,12 @@ struct TiedPairs {
     const int count = static_cast<int>(piece.size());
     return a < count && b < count && piece[static_cast<std::size_t>(a)] == piece[static_cast<std::size_t>(b)];
   }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(main_part, pairs, piece, part_of_surface);
+  }
 };
 
 }  // namespace brio

@@ -29,6 +29,12 @@ struct Tie {
   bool turning = false;                           ///< constrained to the rotations of the corners as well
 
   bool has_arm() const { return turning && !arm.isZero(0); }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(node, corner, weight, along, across, gap, arm, turning);
+  }
 };
 
 /// Tolerance beyond an edge of a face, in coordinates of the face from 0 to 1, so that nodes at a rim or over

@@ -26,6 +26,12 @@ struct TiedNode {
   int element = 0;        ///< of that part's mesh, with the main face
   int connection = 0;     ///< index in Ties::found
   bool released = false;  ///< to be released
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(tie, mass, inertia, face_part, element, connection, released);
+  }
 };
 
 /// Result of one connection.
@@ -53,6 +59,12 @@ struct Ties {
   bool empty() const { return node.empty(); }
   bool is_tied(int global_node) const {
     return !of_node.empty() && of_node[static_cast<std::size_t>(global_node)] >= 0;
+  }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(node, of_node, moved_mass, concerned, own_mass, own_inertia, step_share, released);
   }
 };
 

@@ -75,6 +75,13 @@ struct ParticleCloud {
   bool is_cut(std::size_t i) const { return searched_at[i].component[3] < 0; }
 
   std::size_t size() const { return volume.size(); }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(first, count, neighbour, pair, correction, hourglass_weight, gradient_size, force,
+            smoothing_length, next_smoothing_length, weight, residual, pair_force, searched_at);
+  }
 };
 
 /// Takes a particle out of its neighbours' lists.

@@ -40,6 +40,12 @@ struct Lists {
   /// Of loosened lists: replace one.
   void assign(int list, std::span<const int> values);
 
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(first, item, end, room);
+  }
+
  private:
   void make_room(int list, std::size_t size);
 };

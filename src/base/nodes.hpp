@@ -56,6 +56,12 @@ struct Nodes {
     return record[node].inverse_mass;
   }
   bool has_rotations() const { return !angular_velocity.empty(); }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(record, mass, angular_velocity, rotational_inertia, velocity_before, angular_velocity_before);
+  }
 };
 
 }  // namespace brio

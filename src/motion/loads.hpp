@@ -25,6 +25,12 @@ struct NodalLoad {
   std::vector<int> nodes;
   Vector force{};
   Curve factor;
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(nodes);
+  }
 };
 /// Pressure against the outward normal of quadrilateral sides; distributed to the corners by the bilinear
 /// shape functions.
@@ -33,11 +39,24 @@ struct PressureLoad {
   Curve pressure;
   int part = 0;
   std::vector<int> element;  ///< of the part's mesh, that each side belongs to
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(sides, element);
+  }
 };
 
 struct ActiveLoad {
   std::variant<GravityLoad, NodalLoad, PressureLoad> load;
   std::vector<NodeForce> applied;  ///< of the present step
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    if (auto* nodal = std::get_if<NodalLoad>(&load)) archive(*nodal);
+    if (auto* pressure = std::get_if<PressureLoad>(&load)) archive(*pressure);
+  }
 };
 
 /// Adds the forces at this time to nodes.force.

@@ -63,6 +63,12 @@ struct RigidBody {
   std::vector<WallTouch> touch;                      ///< at the wall under consideration
 
   bool is_given(int axis) const;
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(centre, attitude.coeffs(), angular_momentum, force, moment, weight);
+  }
 };
 
 struct RigidBodies {
@@ -70,6 +76,12 @@ struct RigidBodies {
   std::vector<RigidMotion> motion;  ///< of each body
 
   bool empty() const { return body.empty(); }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(body, motion);
+  }
 };
 
 /// Start with a velocity of the centre and an angular velocity.

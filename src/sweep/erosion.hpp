@@ -28,6 +28,12 @@ struct PartInModel {
   std::vector<int> element_slot;   ///< element of the part's mesh -> place in the block; -1: deleted
   int rigid = -1;                  ///< the rigid body that it is; its block is empty
   double mass = 0;                 ///< at the start
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(element_order, element_slot);
+  }
 };
 
 struct DeletedElement {
@@ -49,6 +55,13 @@ struct Erosion {
   double dropped_mass = 0;
 
   std::int64_t total_deleted() const;
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(deleted, freed, elements_of_node, deleted_count, deleted_by_cause, mass_of_deleted, dropping,
+            dropped_mass);
+  }
 };
 
 /// True if an element of any block can be deleted.

@@ -20,6 +20,12 @@ struct AddedMass {
 
   double total() const;
   double share() const { return total() / elements; }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(added);
+  }
 };
 
 /// Prepares the blocks. \throws BuildError where a part cannot have its mass scaled.

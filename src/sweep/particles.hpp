@@ -32,6 +32,12 @@ struct ParticleSearch {
   std::vector<CaptureBox> box{};
   CandidatePairs pairs{};
   SearchCounts counts{};
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(paired, counts);
+  }
 };
 
 /// Smoothing lengths of the present time step; new lists of neighbours where particles have moved, or

@@ -22,6 +22,12 @@ struct SweepTask {
 struct SweepSchedule {
   std::vector<SweepTask> tasks;
   std::vector<std::size_t> colour_first;  ///< first task of each colour, and the number of tasks at the end
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(tasks, colour_first);
+  }
 };
 
 /// Elements sorted so that contiguous chunks are slabs across the longest extent, and neighbours inside a

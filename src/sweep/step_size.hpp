@@ -20,6 +20,13 @@ struct StepControl {
   double first = 0;  ///< bound of the first time step
   double least = 0;
   double largest = 0;
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(stable, critical_block, critical_element, held, window_least, window, whole, first, least,
+            largest);
+  }
 };
 
 /// A time step that follows the stable time step through every vibration is in phase with it and adds energy

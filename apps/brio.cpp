@@ -67,6 +67,15 @@ void add_run_command(CLI::App& program, int& exit_code) {
   command->add_option("--output", options.output, "result folder; default NAME.results here");
   add_threads(command, options.threads);
   add_overrides(command, options.overrides);
+  command
+      ->add_option("--restart", options.restart,
+                   "restart file of a run that goes on; its results go on in the same folder")
+      ->type_name("FILE");
+  command
+      ->add_option("--stop-after", options.stop_after_s,
+                   "wall time after which the run is saved in NAME.restart.h5 and stops")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
   command->add_flag("--overwrite", options.overwrite,
                     "remove the results of an earlier run; default: they are moved to FOLDER.previous");
   command->add_flag("--quiet", arguments->quiet, "print errors only");
@@ -146,7 +155,7 @@ void add_info_command(CLI::App& program) {
   auto path = std::make_shared<std::filesystem::path>();
   auto verify = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand("info", "List the contents of a result");
-  command->add_option("result", *path, "result folder or .vtkhdf file")->required();
+  command->add_option("result", *path, "result folder, .vtkhdf file or restart file")->required();
   command->add_flag("--verify", *verify, "read the whole file and verify the checksums of every dump");
   command->callback([path, verify] { brio::print_info(*path, *verify); });
 }

@@ -29,9 +29,10 @@ class ProgressLine {
     if (!on_terminal_ && !finished && progress.elapsed_s - printed_ < 10) return;
     printed_ = progress.elapsed_s;
     std::string line = fmt::format(
-        "time {:.4e}  step {}  dt {:.3e}  {:5.1f} %  {}  left {}  energy error {:+.3f} %", progress.time,
-        progress.step, progress.dt, 100 * progress.time / progress.end, duration(progress.elapsed_s),
-        duration(progress.remaining_s), 100 * progress.energy_error);
+        "time {:.4e}  step {}  dt {:.3e} ({} {})  {:5.1f} %  {}  left {}  energy error {:+.3f} %",
+        progress.time, progress.step, progress.dt, progress.critical_part, progress.critical_element,
+        100 * progress.time / progress.end, duration(progress.elapsed_s), duration(progress.remaining_s),
+        100 * progress.energy_error);
     if (progress.deleted > 0) line += fmt::format("  deleted {}", progress.deleted);
     if (!progress.hourglassing.empty())
       line += fmt::format("  hourglass {:.0f} % of '{}'", std::min(100 * progress.hourglass_ratio, 999.0),
@@ -88,6 +89,7 @@ int run(RunArguments& arguments) {
     write_error("results of an earlier run were moved to {}{}\n", to.string(),
                 lost ? ", in place of those that were there" : "");
   };
+  arguments.options.notice = [](const std::string& text) { write_error("brio: {}\n", text); };
   const RunOutcome outcome = run_deck(arguments.options);
   if (!outcome.message.empty()) write_error("\nbrio: {}\n", outcome.message);
   for (const std::string& warning : outcome.summary.warnings) write_error("brio: warning: {}\n", warning);

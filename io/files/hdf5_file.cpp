@@ -201,6 +201,45 @@ std::vector<std::int64_t> Hdf5File::dimensions(const string& dataset) const {
   return {size.begin(), size.begin() + rank};
 }
 
+std::int64_t Hdf5File::rows_of(const string& table) const {
+  const std::vector<std::int64_t> size = dimensions(table);
+  if (size.empty()) throw FileError(path_, table + " is not a table");
+  return size[0];
+}
+
+std::vector<TableRows> Hdf5File::tables() const {
+  std::vector<TableRows> tables;
+  const auto visit = [](hid_t file, const char* name, const H5O_info_t* object, void* list) -> herr_t {
+    if (object->type != H5O_TYPE_DATASET) return 0;
+    const Hdf5Handle dataset(H5Dopen2(file, name, H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle space(H5Dget_space(dataset.id()), H5Sclose);
+    std::array<hsize_t, H5S_MAX_RANK> size{}, limit{};
+    const int rank = H5Sget_simple_extent_dims(space.id(), size.data(), limit.data());
+    if (rank < 0) return -1;
+    if (rank > 0 && limit[0] == H5S_UNLIMITED)
+      static_cast<std::vector<TableRows>*>(list)->push_back(
+          {string("/") + name, static_cast<std::int64_t>(size[0])});
+    return 0;
+  };
+  check(H5Ovisit2(file_.id(), H5_INDEX_NAME, H5_ITER_INC, visit, &tables, H5O_INFO_BASIC), "list the tables");
+  return tables;
+}
+
+void Hdf5File::truncate(const TableRows& table) {
+  const Hdf5Handle dataset = open_dataset(table.table);
+  const string doing = "shorten " + table.table;
+  const Hdf5Handle space = checked(H5Dget_space(dataset.id()), H5Sclose, doing);
+  std::array<hsize_t, H5S_MAX_RANK> size{};
+  check(H5Sget_simple_extent_dims(space.id(), size.data(), nullptr), doing);
+  const auto rows = static_cast<hsize_t>(table.rows);
+  if (size[0] < rows)
+    throw FileError(path_, table.table + " has " + std::to_string(size[0]) + " rows of " +
+                               std::to_string(rows) + " that it had when the run was saved");
+  if (size[0] == rows) return;
+  size[0] = rows;
+  check(H5Dset_extent(dataset.id(), size.data()), doing);
+}
+
 std::size_t Hdf5File::columns_of(const string& table, std::int64_t first, std::int64_t rows) const {
   const std::vector<std::int64_t> size = dimensions(table);
   if (size.empty() || size.size() > 2) throw FileError(path_, table + " is not a table");
@@ -241,6 +280,11 @@ std::vector<std::int64_t> Hdf5File::read_integers(const string& table, std::int6
   std::vector<std::int64_t> values(columns_of(table, first, rows) * static_cast<std::size_t>(rows));
   if (!values.empty()) read_table(table, first, rows, H5T_NATIVE_INT64, values.data());
   return values;
+}
+
+void Hdf5File::read_bytes(const string& table, std::int64_t first, std::int64_t rows, void* bytes) const {
+  if (columns_of(table, first, rows) != 1) throw FileError(path_, table + " is not a list");
+  if (rows > 0) read_table(table, first, rows, H5T_NATIVE_UCHAR, bytes);
 }
 
 std::uint64_t Hdf5File::checksum_of_rows(const string& table, std::int64_t first, std::int64_t rows) const {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/files/file_error.hpp"
+#include "io/files/table_rows.hpp"
 
 namespace brio {
 
@@ -97,8 +98,16 @@ class Hdf5File {
   std::uint64_t checksum_of_rows(const std::string& table, std::int64_t first, std::int64_t rows) const;
   /// Dimensions of a dataset; empty for a single value.
   std::vector<std::int64_t> dimensions(const std::string& dataset) const;
+  /// \throws FileError where it is no table
+  std::int64_t rows_of(const std::string& table) const;
+  /// Names and rows of all tables, in the order of their names.
+  std::vector<TableRows> tables() const;
+  /// Take back rows at the end of a table. \throws FileError where it has fewer
+  void truncate(const TableRows& table);
   /// Rows [first, first + rows) of a table, all columns, converted to double (integers up to 2^53 exactly).
   std::vector<double> read_rows(const std::string& table, std::int64_t first, std::int64_t rows) const;
+  /// Bytes of a table of H5T_STD_U8LE.
+  void read_bytes(const std::string& table, std::int64_t first, std::int64_t rows, void* bytes) const;
   std::vector<std::int64_t> read_integers(const std::string& table, std::int64_t first,
                                           std::int64_t rows) const;
 

@@ -52,6 +52,12 @@ class Descriptor {
 
 }  // namespace
 
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::rename(from, to, error);
+  if (error) throw FileError(to, "cannot rename " + from.filename().string() + ": " + error.message());
+}
+
 void remove_file(const std::filesystem::path& path) {
   if (::unlink(path.c_str()) != 0 && errno != ENOENT)
     throw FileError(path, std::string("cannot remove the file: ") + std::strerror(errno));

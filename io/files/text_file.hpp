@@ -24,6 +24,9 @@ int new_file(const std::filesystem::path& path);
 /// With those above it, where they are not there. \throws FileError
 void make_folder(const std::filesystem::path& folder);
 
+/// Replaces a file that is there. \throws FileError
+void rename_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// A file that is not there is no fault. \throws FileError
 void remove_file(const std::filesystem::path& path);
 

@@ -46,12 +46,6 @@ void must_be_result(const Hdf5File& file) {
   }
 }
 
-std::int64_t rows_of(const Hdf5File& file, const string& table) {
-  const std::vector<std::int64_t> size = file.dimensions(table);
-  if (size.empty()) throw FileError(file.path(), table + " is not a table");
-  return size[0];
-}
-
 std::int64_t number_at(const Hdf5File& file, const string& table, std::int64_t row) {
   const std::vector<std::int64_t> values = file.read_integers(table, row, 1);
   if (values.empty()) throw FileError(file.path(), table + " has no columns");
@@ -93,7 +87,7 @@ FieldInfo field_info(const Hdf5File& file, const string& where, const string& gr
 
 void read_dumps(const Hdf5File& file, ResultInfo& info) {
   const std::int64_t dumps =
-      std::min(file.read_integer_attribute("/VTKHDF/Steps", "NSteps"), rows_of(file, "/VTKHDF/Steps/Values"));
+      std::min(file.read_integer_attribute("/VTKHDF/Steps", "NSteps"), file.rows_of("/VTKHDF/Steps/Values"));
   info.times = file.read_rows("/VTKHDF/Steps/Values", 0, dumps);
   if (dumps == 0) return;
   const std::int64_t last = dumps - 1;
@@ -116,7 +110,7 @@ void read_dumps(const Hdf5File& file, ResultInfo& info) {
 
 void read_history(const Hdf5File& file, ResultInfo& info) {
   info.history_columns = file.read_texts("/history/columns");
-  info.history_rows = rows_of(file, "/history/values");
+  info.history_rows = file.rows_of("/history/values");
   if (info.history_rows > 0) info.history_last = file.read_rows("/history/values", info.history_rows - 1, 1);
   if (!info.history_last.empty() && info.history_last.size() != info.history_columns.size()) {
     throw FileError(file.path(), "/history/values and /history/columns do not belong together");
@@ -177,7 +171,7 @@ string verify_file(const std::filesystem::path& path) {
   const std::vector<string> faults = verify_checksums(file);
   if (faults.empty())
     return fmt::format("  checksums  {} dumps and {} rows of history are as they were written\n",
-                       rows_of(file, "/VTKHDF/Steps/Values"), rows_of(file, "/history/values"));
+                       file.rows_of("/VTKHDF/Steps/Values"), file.rows_of("/history/values"));
   constexpr std::size_t most = 10;
   string told = "is damaged";
   for (std::size_t i = 0; i < std::min(most, faults.size()); ++i) told += "\n  " + faults[i];

@@ -46,9 +46,15 @@ std::vector<double> ReadHistory::column(const std::string& name, const std::file
 
 ResultReader::ResultReader(std::filesystem::path file_name) : file_(std::move(file_name)) {
   const Hdf5File file = Hdf5File::open_to_read(file_);
-  const std::int64_t dumps = file.read_integer_attribute("/VTKHDF/Steps", "NSteps");
+  // The process may have been killed before the time of the last dump, which then is not complete.
+  const std::int64_t dumps =
+      std::min(file.read_integer_attribute("/VTKHDF/Steps", "NSteps"), file.rows_of(steps + "Values"));
   times_ = file.read_rows(steps + "Values", 0, dumps);
   if (times_.empty()) throw FileError(file_, "the result holds no dump");
+}
+
+std::vector<std::string> ResultReader::history_columns() const {
+  return Hdf5File::open_to_read(file_).read_texts("/history/columns");
 }
 
 std::size_t ResultReader::dump_at(double time) const {

@@ -42,6 +42,7 @@ class ResultReader {
   ReadField field(const std::string& name, std::size_t dump) const;
   ReadCells cells(std::size_t dump) const;
   ReadHistory history() const;
+  std::vector<std::string> history_columns() const;
 
  private:
   std::filesystem::path file_;

@@ -9,7 +9,6 @@
 
 #include "io/files/hdf5_file.hpp"
 #include "io/files/text_file.hpp"
-#include "io/files/utf8.hpp"
 #include "io/results/dump_checksums.hpp"
 #include "io/results/write_history.hpp"
 #include "io/results/write_summary.hpp"
@@ -17,24 +16,9 @@
 namespace brio {
 namespace {
 
-void write_record(Hdf5File& file, const RunRecord& record) {
-  file.create_group("/deck");
-  file.write_text("/deck/title", record.title);
-  file.write_text("/deck/path", as_utf8(record.deck_path));
-  file.write_text("/deck/text", record.deck_text);
-  file.write_texts("/deck/overrides", record.overrides);
-  file.write_text("/deck/version", record.version);
-  file.write_attribute("/deck", "threads", record.threads);
-}
-
 /// The data last of all: what describes them must not stand beside others.
-constexpr std::array endings{".xdmf2", ".summary.json", ".history.csv", ".vtkhdf"};
-
-void rename_file(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::error_code error;
-  std::filesystem::rename(from, to, error);
-  if (error) throw FileError(to, "cannot rename " + from.filename().string() + ": " + error.message());
-}
+constexpr std::array endings{".restart.h5",   ".restart.previous.h5", ".xdmf2",
+                             ".summary.json", ".history.csv",         ".vtkhdf"};
 
 }  // namespace
 
@@ -53,6 +37,41 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const std::string& name
   create_checksums(file);
   file.close();
   create_history_csv(current(".history.csv"), history_columns);
+}
+
+ResultWriter::ResultWriter(std::filesystem::path folder, const std::string& name, ResultSettings settings)
+    : folder_(std::move(folder)),
+      name_(name),
+      settings_(std::move(settings)),
+      lock_(std::make_shared<const FolderLock>(folder_)),
+      published_(true),
+      dumps_(settings_.compression),
+      xdmf_(name + ".vtkhdf") {}
+
+void ResultWriter::note_position() {
+  lock_->check();
+  for (const std::filesystem::path& file : {vtkhdf(), history_csv()}) sync_to_disk(file);
+  const Hdf5File file = Hdf5File::open_to_read(vtkhdf());
+  tables_ = file.tables();
+  history_bytes_ = std::filesystem::file_size(history_csv());
+}
+
+void ResultWriter::return_to_position() {
+  lock_->check();
+  {
+    Hdf5File file = Hdf5File::open_to_append(vtkhdf(), settings_.sync != Sync::never);
+    file.write_attribute("/VTKHDF/Steps", "NSteps", dumps_.dumps());
+    file.commit();
+    for (const TableRows& table : tables_) file.truncate(table);
+    file.close();
+  }
+  if (std::filesystem::file_size(history_csv()) < history_bytes_)
+    throw FileError(history_csv(), "is shorter than it was when the run was saved");
+  std::error_code error;
+  std::filesystem::resize_file(history_csv(), history_bytes_, error);
+  if (error) throw FileError(history_csv(), "cannot shorten it: " + error.message());
+  xdmf_.write(xdmf(), sync_each_time());
+  remove_file(summary());
 }
 
 std::filesystem::path ResultWriter::current(const char* ending) const {

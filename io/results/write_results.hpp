@@ -20,6 +20,8 @@
 
 #include "io/files/file_error.hpp"
 #include "io/files/folder_lock.hpp"
+#include "io/files/run_record.hpp"
+#include "io/files/table_rows.hpp"
 #include "io/results/write_vtkhdf.hpp"
 #include "io/results/write_xdmf.hpp"
 #include "src/deck/deck.hpp"
@@ -28,16 +30,6 @@
 #include "src/output/summary.hpp"
 
 namespace brio {
-
-/// What was run, kept in `/deck`: anybody can run it again from the result file.
-struct RunRecord {
-  std::string title;
-  std::string deck_path;
-  std::string deck_text;               ///< as read
-  std::vector<std::string> overrides;  ///< KEY.PATH=VALUE, in order
-  std::string version;
-  int threads = 1;
-};
 
 struct ResultSettings {
   int compression = 0;  ///< gzip level of points and fields; 0 is about ten times faster
@@ -54,6 +46,20 @@ class ResultWriter {
   /// known before anything is computed. Copies of a writer hold the folder together. \throws FileError
   ResultWriter(std::filesystem::path folder, const std::string& name, const RunRecord& record,
                const std::vector<std::string>& history_columns, ResultSettings settings = {});
+
+  /// Goes on with the results that a saved run has written to a folder: restored by `serialize`, then brought
+  /// back by `return_to_position` to where they stood when it was saved.
+  ResultWriter(std::filesystem::path folder, const std::string& name, ResultSettings settings);
+
+  /// Of what is written: all of it is on the disk. Call before the writer is saved. \throws FileError
+  void note_position();
+  /// Take back what was written after the run was saved. \throws FileError where less is there
+  void return_to_position();
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(dumps_, xdmf_, tables_, history_bytes_);
+  }
 
   /// Append a dump. \throws FileError; dumps before stay readable.
   void write(const Snapshot& snapshot);
@@ -85,6 +91,8 @@ class ResultWriter {
   bool published_ = false;
   VtkhdfWriter dumps_;
   XdmfWriter xdmf_;
+  std::vector<TableRows> tables_;    ///< of the result file, when the run was saved
+  std::uint64_t history_bytes_ = 0;  ///< of the CSV file, likewise
 };
 
 }  // namespace brio

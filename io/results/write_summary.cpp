@@ -81,6 +81,7 @@ std::string summary_json(const Summary& summary) {
             {"deck", summary.deck},
             {"status", summary.status},
             {"exit_code", summary.exit_code},
+            {"restarted_from", summary.restarted_from},
             {"steps", summary.steps},
             {"time", summary.time},
             {"dt", {{"min", summary.dt.min}, {"max", summary.dt.max}, {"last", summary.dt.last}}},

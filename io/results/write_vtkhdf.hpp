@@ -24,6 +24,11 @@ struct StoredArray {
   std::int64_t first_row = 0;
   std::int64_t rows = 0;
   std::int64_t rows_in_file = 0;  ///< of the dataset, as of this dump
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(name, dataset, storage, components, first_row, rows, rows_in_file);
+  }
 };
 
 /// All that a description of the dump in another language needs.
@@ -49,6 +54,13 @@ class VtkhdfWriter {
   /// the call.
   StoredDump append(Hdf5File& file, const Snapshot& snapshot);
 
+  /// Saved and restored (src/base/state_archive.hpp): what the next dump builds upon.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(progress_);
+  }
+  std::int64_t dumps() const { return progress_.steps; }
+
  private:
   /// What the next dump builds upon.
   struct Progress {
@@ -59,6 +71,12 @@ class VtkhdfWriter {
     std::int64_t cell_row = 0, connectivity_row = 0;
     StoredArray mixed_topology;
     std::vector<std::int64_t> fixed_point_row, fixed_cell_row;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(steps, parts, topology_version, points, cells, cell_row, connectivity_row, mixed_topology,
+              fixed_point_row, fixed_cell_row);
+    }
   };
 
   void create_layout(Hdf5File& file, const Snapshot& snapshot, const Topology& topology) const;

@@ -22,6 +22,12 @@ class XdmfWriter {
   /// the new. \throws FileError
   void write(const std::filesystem::path& path, bool sync = false) const;
 
+  /// Saved and restored (src/base/state_archive.hpp): the dumps so far.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(steps_);
+  }
+
  private:
   std::string slab(const StoredArray& array) const;
   std::string attribute(const StoredArray& array, const char* center) const;

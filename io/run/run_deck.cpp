@@ -8,11 +8,14 @@
 #include "io/deck/deck_error.hpp"
 #include "io/deck/read_deck.hpp"
 #include "io/mesh/generate_mesh.hpp"
+#include "io/restart/deck_difference.hpp"
+#include "io/restart/restart_file.hpp"
+#include "io/results/read_result.hpp"
 #include "io/results/write_results.hpp"
+#include "io/run/run_output.hpp"
 #include "io/run/scene_size.hpp"
 #include "src/build/build.hpp"
 #include "src/output/observe.hpp"
-#include "src/output/output_schedule.hpp"
 #include "src/output/run_warnings.hpp"
 #include "src/step/advance.hpp"
 #include "src/step/diagnosis.hpp"
@@ -36,7 +39,8 @@ double peak_memory_mb() {
 // Calls back now and then, and foresees the end from the speed of the last stretch.
 class ProgressReporter {
  public:
-  ProgressReporter(const RunOptions& options, double end) : options_(options), end_(end) {}
+  ProgressReporter(const RunOptions& options, double time, double end)
+      : options_(options), end_(end), time_(time) {}
 
   void report(const Model& model, bool now) {
     if (!options_.progress) return;
@@ -53,6 +57,8 @@ class ProgressReporter {
                        .end = end_,
                        .step = model.step,
                        .dt = model.times.next,
+                       .critical_part = model.parts[model.control.critical_block].name,
+                       .critical_element = model.control.critical_element,
                        .energy_error = model.energy.relative_error(),
                        .deleted = model.erosion ? model.erosion->total_deleted() : 0,
                        .hourglassing = hourglasses ? model.parts[part].name : "",
@@ -66,101 +72,8 @@ class ProgressReporter {
   double end_;
   Clock::time_point start_ = Clock::now();
   double reported_ = 0;
-  double time_ = 0;
+  double time_;
   double mean_speed_ = 0;
-};
-
-// Fields and history as they fall due; of a run that breaks down the last state that was good.
-class Output {
- public:
-  Output(const Deck& deck, Model& model, ResultWriter& writer)
-      : model_(model),
-        writer_(writer),
-        observer_(model),
-        history_(history_columns(model)),
-        field_schedule_(field_schedule(deck)),
-        history_schedule_(history_schedule(deck)) {}
-
-  /// Of a state that is good. \throws Breakdown where results cannot hold it
-  void write_what_is_due(bool last, ThreadTeam& team) {
-    const bool row_due = history_schedule_.due(model_.times.time) || last;
-    const bool fields_due = field_schedule_.due(model_.times.time) || last;
-    const bool keeps = model_.step >= next_kept_;
-    if (!row_due && !fields_due && !keeps) return;
-    if (fields_due) audit_contacts(model_, team);
-    const StageTimer timer(model_.stages, Stage::output);
-    if (fields_due) watch(model_);
-    observe_history(model_, row_);
-    if (fields_due || keeps) {
-      state_ = nullptr;  // the one before is written over
-      const Snapshot& state = observer_.observe(model_);
-      if (const std::string fault = what_results_cannot_hold(state); !fault.empty())
-        throw Breakdown(fault + " at time " + written(model_.times.time) +
-                        " is too large for the results or not a number; check units and velocities of the "
-                        "deck, else try a smaller time.step_scale");
-      state_ = &state;
-      good_ = {.energy = model_.energy,
-               .momentum = model_.momentum,
-               .times = model_.times,
-               .step = model_.step,
-               .row = row_,
-               .has_dump = fields_due};
-      next_kept_ = model_.step + least_steps_between + model_.step / share_of_steps;
-    }
-    if (row_due) {
-      history_.append(row_);
-      last_row_ = model_.times.time;
-    }
-    if (fields_due) writer_.write(*state_);
-    if (fields_due || history_.full()) writer_.write(history_);
-  }
-
-  /// After a breakdown: energy and momentum balance become those of the last good state, which is written
-  /// unless it has been.
-  void write_last_good_state() {
-    const StageTimer timer(model_.stages, Stage::output);
-    model_.energy = good_.energy;
-    model_.momentum = good_.momentum;
-    model_.times = good_.times;
-    model_.step = good_.step;
-    if (state_ == nullptr && next_kept_ == 0) return write_start();
-    if (state_ == nullptr) return;
-    // Rows are in the order of time: those since then were good as well.
-    if (!good_.has_dump) writer_.write(*state_);
-    if (last_row_ < good_.times.time) history_.append(good_.row);
-    writer_.write(history_);
-  }
-
- private:
-  // Of a run that breaks down in its first step: what the deck describes, if results can hold it.
-  void write_start() {
-    const Snapshot& start = observer_.observe(model_);
-    if (what_results_cannot_hold(start).empty()) writer_.write(start);
-  }
-
-  // A state is kept after so many steps and this share of those made: of ten thousand steps about 120.
-  static constexpr std::int64_t least_steps_between = 20, share_of_steps = 50;
-
-  /// What was true at the state that the observer holds.
-  struct GoodState {
-    EnergyBalance energy;
-    MomentumBalance momentum;
-    StepTimes times;
-    std::int64_t step = 0;
-    std::vector<double> row;
-    bool has_dump = false;  ///< written already
-  };
-
-  Model& model_;
-  ResultWriter& writer_;
-  FieldObserver observer_;
-  History history_;
-  std::vector<double> row_;
-  double last_row_ = -1;  ///< its time
-  OutputSchedule field_schedule_, history_schedule_;
-  const Snapshot* state_ = nullptr;
-  GoodState good_;
-  std::int64_t next_kept_ = 0;
 };
 
 /// \return what breaks down, empty if nothing does
@@ -174,34 +87,110 @@ std::string fault_of(const Action& action) {
   return {};
 }
 
-// From a first step that is made to the end, a failure or a stop.
-// \param fault of the first step \return why it ended early, empty if it did not.
-std::string run_to_end(const Deck& deck, const RunOptions& options, Model& model, Output& output,
-                       ThreadTeam& team, std::string fault, Summary& state) {
-  ProgressReporter progress(options, deck.time.end);
-  state.status = "finished";
-  while (true) {
-    const int signal = options.stop != nullptr ? options.stop->load() : 0;
-    const bool at_end = model.times.time >= deck.time.end;
-    if (fault.empty()) fault = fault_of([&] { output.write_what_is_due(at_end || signal != 0, team); });
-    if (!fault.empty()) {
-      state.status = "failed";
-      state.exit_code = 3;
-      output.write_last_good_state();
-      return fault;
+/// Why a run ends before its end time.
+struct Stop {
+  const char* status;
+  int exit_code;
+};
+
+/// From a first step, or a restored one, to the end, a failure or a stop.
+class Run {
+ public:
+  Run(const Deck& deck, const RunOptions& options, Model& model, RunOutput& output, ThreadTeam& team,
+      Clock::time_point start)
+      : deck_(deck), options_(options), model_(model), output_(output), team_(team), start_(start) {}
+
+  /// Where restart files go.
+  std::filesystem::path folder;
+  RunRecord record;
+  double seconds_before = 0;  ///< that the run had taken when it was saved
+
+  /// \param fault of the first step \param is_restored whether what is due at this step is written already
+  /// \return why it ended early, empty if it did not.
+  std::string go_on(std::string fault, bool is_restored, Summary& state) {
+    ProgressReporter progress(options_, model_.times.time, deck_.time.end);
+    state.status = "finished";
+    while (true) {
+      const std::optional<Stop> stop = stop_wanted();
+      const bool at_end = model_.times.time >= deck_.time.end, last = at_end || stop.has_value();
+      if (fault.empty()) fault = fault_of([&] { write(is_restored, last, stop.has_value()); });
+      if (!fault.empty()) {
+        state.status = "failed";
+        state.exit_code = 3;
+        output_.write_last_good_state();
+        return fault;
+      }
+      is_restored = false;
+      progress.report(model_, last);
+      if (at_end) return "";
+      if (stop) {
+        state.status = stop->status;
+        state.exit_code = stop->exit_code;
+        return stop->exit_code == 0 ? "" : state.status + " at time " + std::to_string(model_.times.time);
+      }
+      fault = fault_of([&] {
+        update_positions(model_, team_);
+        update_velocities(model_, deck_.numerics.energy_error_limit, team_);
+      });
     }
-    progress.report(model, at_end || signal != 0);
-    if (at_end) return "";
-    if (signal != 0) {
-      state.status = signal == SIGINT ? "interrupted" : "terminated";
-      state.exit_code = 128 + signal;
-      return state.status + " at time " + std::to_string(model.times.time);
-    }
-    fault = fault_of([&] {
-      update_positions(model, team);
-      update_velocities(model, deck.numerics.energy_error_limit, team);
-    });
   }
+  double seconds() const { return seconds_before + seconds_since(start_); }
+
+ private:
+  std::optional<Stop> stop_wanted() const {
+    const int signal = options_.stop != nullptr ? options_.stop->load() : 0;
+    if (signal != 0) return Stop{signal == SIGINT ? "interrupted" : "terminated", 128 + signal};
+    if (options_.stop_after_s && seconds_since(start_) >= *options_.stop_after_s) return Stop{"stopped", 0};
+    return {};
+  }
+
+  // A run that is saved here goes on as if it had not ended: what is written of the last state comes after.
+  void write(bool is_restored, bool last, bool stops) {
+    if (!is_restored) output_.write_what_is_due(team_);
+    const bool due = !is_restored && output_.is_save_due();
+    if (stops || (deck_.output.restart && (due || last)))
+      output_.save(folder, options_.deck.stem().string(), record, seconds());
+    if (last) output_.write_last_state(team_);
+  }
+
+  const Deck& deck_;
+  const RunOptions& options_;
+  Model& model_;
+  RunOutput& output_;
+  ThreadTeam& team_;
+  Clock::time_point start_;
+};
+
+/// The restart file, if one is given. \throws DeckError where the deck is not that of the saved run,
+/// FileError
+std::optional<RestartFile> restart_of(const RunOptions& options, const Deck& deck) {
+  if (options.restart.empty()) return {};
+  RestartFile restart = find_restart(options.restart);
+  if (options.notice && !restart.instead_of.empty())
+    options.notice(restart.instead_of + "; going on from " + restart.path.string());
+  const std::string difference = deck_difference(restart.header.record.deck_text, deck.text);
+  if (!difference.empty())
+    throw DeckError(deck.file + ": a saved run goes on with the deck that it was saved with: " + difference +
+                    " in " + restart.path.string() +
+                    "; accepted are changes of title, units, output and time.end");
+  if (restart.header.time > deck.time.end)
+    throw DeckError(deck.file + ": the run that " + restart.path.string() + " has saved is at time " +
+                    written(restart.header.time) + " already; accepted is a time.end that is not before it");
+  return restart;
+}
+
+// Rows of another table cannot be appended.
+void expect_same_columns(const std::filesystem::path& results, const std::vector<std::string>& columns,
+                         const Deck& deck) {
+  if (ResultReader(results).history_columns() == columns) return;
+  throw DeckError(deck.file + ": the history in " + results.string() +
+                  " has other columns than this run; accepted are the same output.history.probes, or "
+                  "results in another folder (--output)");
+}
+
+bool is_same_folder(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  return std::filesystem::equivalent(a.empty() ? "." : a, b.empty() ? "." : b, error);
 }
 
 }  // namespace
@@ -242,29 +231,40 @@ RunOutcome run_deck(const RunOptions& options) {
   const auto start = Clock::now();
   Model model;
   const Deck deck = load_deck(options.deck, options.overrides, options.threads, model);
+  const std::optional<RestartFile> restart = restart_of(options, deck);
   if (options.built) options.built();
   ThreadTeam team(options.threads);
-  const std::string fault = fault_of([&] { make_first_step(deck, model, team); });
+  // A first step finds what is wrong with a scene, and what a restored state does not hold.
+  const std::string fault = restart ? "" : fault_of([&] { make_first_step(deck, model, team); });
   const std::string name = options.deck.stem().string();
   RunOutcome outcome;
   outcome.folder = options.output.empty() ? std::filesystem::path(name + ".results") : options.output;
-  ResultWriter writer(
-      outcome.folder, name,
-      {.title = deck.title,
-       .deck_path = options.deck.string(),
-       .deck_text = deck.text,
-       .overrides = options.overrides,
-       .version = BRIO_VERSION,
-       .threads = options.threads},
-      history_columns(model),
-      {.sync = deck.output.sync, .overwrite = options.overwrite, .moved_aside = options.moved_aside});
+  const RunRecord record{.title = deck.title,
+                         .deck_path = options.deck.string(),
+                         .deck_text = deck.text,
+                         .overrides = options.overrides,
+                         .version = BRIO_VERSION,
+                         .threads = options.threads};
+  const ResultSettings settings{
+      .sync = deck.output.sync, .overwrite = options.overwrite, .moved_aside = options.moved_aside};
+  const std::filesystem::path results = outcome.folder / (name + ".vtkhdf");
+  const bool continues_results = restart && is_same_folder(restart->path.parent_path(), outcome.folder) &&
+                                 std::filesystem::exists(results);
+  if (continues_results) expect_same_columns(results, history_columns(model), deck);
+  ResultWriter writer = continues_results
+                            ? ResultWriter(outcome.folder, name, settings)
+                            : ResultWriter(outcome.folder, name, record, history_columns(model), settings);
   outcome.vtkhdf = writer.vtkhdf();
   outcome.xdmf = writer.xdmf();
   outcome.summary_file = writer.summary();
   outcome.initial_overlaps = model.initial_overlaps;
-  Output output(deck, model, writer);
+  RunOutput output(deck, model, writer);
+  Run run(deck, options, model, output, team, start);
+  run.folder = outcome.folder;
+  run.record = record;
+  if (restart) run.seconds_before = output.restore(*restart, continues_results);
   Summary state;
-  outcome.message = run_to_end(deck, options, model, output, team, fault, state);
+  outcome.message = run.go_on(fault, continues_results, state);
   const Impulse momentum_of_good = model.momentum.now;
 
   outcome.summary = observe_end(model);
@@ -275,9 +275,10 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.summary.deck = options.deck.string();
   outcome.summary.status = state.status;
   outcome.summary.exit_code = state.exit_code;
+  if (restart) outcome.summary.restarted_from = restart->path.string();
   outcome.summary.threads = options.threads;
   outcome.summary.peak_memory_mb = peak_memory_mb();
-  outcome.summary.wall_s.total = seconds_since(start);
+  outcome.summary.wall_s.total = run.seconds();
   outcome.summary.element_updates_per_s =
       static_cast<double>(model.element_updates) / outcome.summary.wall_s.total;
   writer.write(outcome.summary);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,8 @@ struct Progress {
   double end = 0;
   std::int64_t step = 0;
   double dt = 0;
+  std::string critical_part;         ///< whose element sets the stable time step
+  std::size_t critical_element = 0;  ///< of that part's mesh
   double energy_error = 0;
   std::int64_t deleted = 0;  ///< elements
   std::string hourglassing;  ///< part whose hourglass energy is beyond the limit most; empty: none
@@ -34,7 +37,10 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE
   std::filesystem::path output;        ///< result folder; empty: NAME.results where the program runs
   int threads = 1;
-  bool overwrite = false;  ///< whether results of an earlier run are removed, not moved aside
+  bool overwrite = false;                ///< whether results of an earlier run are removed, not moved aside
+  std::filesystem::path restart;         ///< restart file of a run that goes on; empty: one that begins
+  std::optional<double> stop_after_s{};  ///< wall time after which the run is saved and stops
+  std::function<void(const std::string&)> notice{};  ///< called with what the user should know of a restart
   std::function<void(const std::filesystem::path& to, bool lost)> moved_aside{};  ///< as of ResultSettings
   const std::atomic<int>* stop = nullptr;  ///< set to a signal's number to end the run after the present step
   std::function<void()> built;             ///< called before the first file is made

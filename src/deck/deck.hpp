@@ -396,6 +396,15 @@ struct HistoryOutput {
                  "a map of names to nodes whose displacement and velocity are written as well"));
   }
 };
+struct RestartOutput {
+  double every = 0;
+  static constexpr auto fields() {
+    return field_table(required(
+        "every", &RestartOutput::every, positive,
+        "time between restart files; the last and the one before are kept, and one is written at the "
+        "end"));
+  }
+};
 /// When results are brought from the memory of the system to the disk.
 enum class Sync { never, end, dumps };
 constexpr std::array<NamedValue<Sync>, 3> named_values(Sync) {
@@ -405,11 +414,16 @@ constexpr std::array<NamedValue<Sync>, 3> named_values(Sync) {
 struct OutputSection {
   FieldOutput fields_;
   HistoryOutput history;
+  std::optional<RestartOutput> restart;
   Sync sync = Sync::end;
   static constexpr auto fields() {
     return field_table(
         optional("fields", &OutputSection::fields_, any_number, "when fields are written"),
         optional("history", &OutputSection::history, any_number, "when energies and momenta are written"),
+        optional(
+            "restart", &OutputSection::restart, any_number,
+            "when the state of the run is saved, to go on from by --restart; a run that is terminated or "
+            "stopped saves it in any case"),
         optional("sync", &OutputSection::sync, any_number,
                  "when results are forced to the disk (fsync), so that they outlive a crash of the machine: "
                  "at the end of the run, at every dump, or never"));

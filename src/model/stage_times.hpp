@@ -28,6 +28,11 @@ struct StageTimes {
   std::array<double, stage_names.size()> seconds{};
 
   double& operator[](Stage stage) { return seconds[static_cast<std::size_t>(stage)]; }
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(seconds);
+  }
   double operator[](Stage stage) const { return seconds[static_cast<std::size_t>(stage)]; }
 };
 

@@ -153,6 +153,12 @@ void FieldObserver::take_topology(const Model& model) {
   deleted_ = deleted_so_far(model);
 }
 
+void FieldObserver::follow(const Model& model) {
+  const std::int64_t deleted_then = deleted_;
+  take_topology(model);
+  deleted_ = deleted_then;
+}
+
 void FieldObserver::fill_points(const Model& model) {
   for (std::size_t p = 0; p < node_of_point_.size(); ++p) {
     const NodeRecord& record = model.nodes.record[static_cast<std::size_t>(node_of_point_[p])];

@@ -23,6 +23,14 @@ class FieldObserver {
   /// Fields at the time of the step; call between update_velocities and update_positions.
   const Snapshot& observe(const Model& model);
 
+  /// Saved and restored (src/base/state_archive.hpp): which topology the last snapshot had.
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(snapshot_.topology_version, deleted_);
+  }
+  /// After a restored model and observer: cells as they are.
+  void follow(const Model& model);
+
  private:
   void take_topology(const Model& model);
   void fill_points(const Model& model);

@@ -79,8 +79,9 @@ struct Summary {
 
   std::string version;
   std::string deck;
-  std::string status;  ///< "finished", "interrupted", "terminated" or "failed"
+  std::string status;  ///< "finished", "stopped", "interrupted", "terminated" or "failed"
   int exit_code = 0;
+  std::string restarted_from;  ///< restart file that the run went on from; empty: it began
   std::int64_t steps = 0;
   double time = 0;
   StepSizes dt;

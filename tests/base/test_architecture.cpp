@@ -92,7 +92,7 @@ const std::vector<Rooms> rooms_of_folders{
      "elements/(solid|shell|beam|particle)/.*\\.cpp",
      ""},
     {"src", {"deck", "motion", "sweep", "model", "build", "step", "output", "forecast"}},
-    {"io", {"files", "mesh", "deck", "schema", "results", "run", "study"}},
+    {"io", {"files", "mesh", "deck", "schema", "results", "restart", "run", "study"}},
 };
 
 std::ptrdiff_t place_of(const std::string& path, const Rooms& rooms) {

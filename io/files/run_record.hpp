@@ -1,0 +1,26 @@
+#pragma once
+/// What was run, in files that a run writes.
+
+#include <string>
+#include <vector>
+
+namespace brio {
+
+class Hdf5File;
+
+/// What was run, kept in `/deck`: anybody can run it again from the result file.
+struct RunRecord {
+  std::string title;
+  std::string deck_path;
+  std::string deck_text;               ///< as read
+  std::vector<std::string> overrides;  ///< KEY.PATH=VALUE, in order
+  std::string version;
+  int threads = 1;
+};
+
+/// As the group `/deck`. \throws FileError
+void write_record(Hdf5File& file, const RunRecord& record);
+/// \throws FileError
+RunRecord read_record(const Hdf5File& file);
+
+}  // namespace brio

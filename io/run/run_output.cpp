@@ -1,0 +1,146 @@
+#include "io/run/run_output.hpp"
+
+#include <cmath>
+
+#include "src/base/breakdown.hpp"
+#include "src/model/state.hpp"
+#include "src/output/run_warnings.hpp"
+#include "src/step/advance.hpp"
+#include "src/step/diagnosis.hpp"
+
+namespace brio {
+
+namespace {
+
+OutputSchedule restart_schedule(const Deck& deck) {
+  return deck.output.restart ? OutputSchedule::every(deck.output.restart->every) : OutputSchedule::at({});
+}
+
+}  // namespace
+
+RunOutput::RunOutput(const Deck& deck, Model& model, ResultWriter& writer)
+    : model_(model),
+      writer_(writer),
+      observer_(model),
+      history_(history_columns(model)),
+      field_schedule_(field_schedule(deck)),
+      history_schedule_(history_schedule(deck)),
+      restart_schedule_(restart_schedule(deck)) {
+  restart_schedule_.due(0);  // a run that has not begun is saved in its deck
+}
+
+void RunOutput::keep(const Snapshot& state, bool has_dump) {
+  state_ = &state;
+  good_ = {.energy = model_.energy,
+           .momentum = model_.momentum,
+           .times = model_.times,
+           .step = model_.step,
+           .row = row_,
+           .has_dump = has_dump};
+}
+
+void RunOutput::write_what_is_due(ThreadTeam& team) {
+  const bool row = history_schedule_.due(model_.times.time), fields = field_schedule_.due(model_.times.time);
+  write(row, fields, team);
+}
+
+void RunOutput::write_last_state(ThreadTeam& team) {
+  write(last_row_ < model_.times.time, last_dump_ < model_.times.time, team);
+  const StageTimer timer(model_.stages, Stage::output);
+  writer_.write(history_);
+}
+
+void RunOutput::write(bool row, bool fields, ThreadTeam& team) {
+  const bool keeps = model_.step >= next_kept_;
+  if (!row && !fields && !keeps) return;
+  if (fields) audit_contacts(model_, team);
+  const StageTimer timer(model_.stages, Stage::output);
+  if (fields) watch(model_);
+  observe_history(model_, row_);
+  if (fields || keeps) {
+    state_ = nullptr;  // the one before is written over
+    const Snapshot& state = observer_.observe(model_);
+    if (const std::string fault = what_results_cannot_hold(state); !fault.empty())
+      throw Breakdown(fault + " at time " + written(model_.times.time) +
+                      " is too large for the results or not a number; check units and velocities of the "
+                      "deck, else try a smaller time.step_scale");
+    keep(state, fields);
+    next_kept_ = model_.step + least_steps_between + model_.step / share_of_steps;
+  }
+  if (row) {
+    history_.append(row_);
+    last_row_ = model_.times.time;
+  }
+  if (fields) {
+    writer_.write(*state_);
+    last_dump_ = model_.times.time;
+  }
+  if (fields || history_.full()) writer_.write(history_);
+}
+
+bool RunOutput::is_save_due() { return restart_schedule_.due(model_.times.time); }
+
+// The order in which a saved run is read.
+template <class Archive>
+void RunOutput::serialize(Archive& archive, double& seconds) {
+  archive.section(10);
+  archive(seconds, model_.stages, observer_, row_, last_row_, last_dump_, next_kept_, writer_);
+  archive.section(11);
+}
+
+void RunOutput::save(const std::filesystem::path& folder, const std::string& name, const RunRecord& record,
+                     double seconds) {
+  const StageTimer timer(model_.stages, Stage::output);
+  writer_.write(history_);
+  writer_.note_position();
+  write_restart(folder, name, {.record = record, .time = model_.times.time, .step = model_.step},
+                [&](std::ostream& out) {
+                  StateWriter archive(out);
+                  serialize(archive, seconds);
+                  save_state(model_, out);
+                });
+}
+
+double RunOutput::restore(const RestartFile& restart, bool continues_results) {
+  double seconds = 0;
+  const ResultWriter fresh = writer_;
+  read_restart(restart, [&](std::istream& in, std::uint64_t size) {
+    StateReader archive(in, size);
+    serialize(archive, seconds);
+    restore_state(model_, in, archive.left());
+  });
+  observer_.follow(model_);
+  restart_schedule_.due(model_.times.time);
+  if (!continues_results) {
+    writer_ = fresh;
+    last_row_ = last_dump_ = -1;
+    return seconds;
+  }
+  writer_.return_to_position();
+  field_schedule_.due(model_.times.time);
+  history_schedule_.due(model_.times.time);
+  keep(observer_.observe(model_), last_dump_ == model_.times.time);
+  return seconds;
+}
+
+void RunOutput::write_last_good_state() {
+  const StageTimer timer(model_.stages, Stage::output);
+  model_.energy = good_.energy;
+  model_.momentum = good_.momentum;
+  model_.times = good_.times;
+  model_.step = good_.step;
+  if (state_ == nullptr && next_kept_ == 0) return write_start();
+  if (state_ == nullptr) return;
+  // Rows are in the order of time: those since then were good as well.
+  if (!good_.has_dump) writer_.write(*state_);
+  if (last_row_ < good_.times.time) history_.append(good_.row);
+  writer_.write(history_);
+}
+
+// Of a run that breaks down in its first step: what the deck describes, if results can hold it.
+void RunOutput::write_start() {
+  const Snapshot& start = observer_.observe(model_);
+  if (what_results_cannot_hold(start).empty()) writer_.write(start);
+}
+
+}  // namespace brio

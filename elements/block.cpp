@@ -4,8 +4,6 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "elements/sweep.hpp"
-
 namespace brio {
 
 bool accepts(const Element& element, const Material& material) {
@@ -19,8 +17,12 @@ bool accepts(const Element& element, const Material& material) {
 namespace {
 
 Precision precision_of(const Element& element, Precision wanted) {
-  const auto always_double = [](const auto& kind) { return is_always_double<std::decay_t<decltype(kind)>>; };
-  return std::visit(always_double, element) ? Precision::double_precision : wanted;
+  const ElementPrecision precision = traits_of(element).precision;
+  if (precision == ElementPrecision::double_only && wanted != Precision::double_precision)
+    throw std::invalid_argument("elements '" + std::string(name_of(element)) +
+                                "' are computed in double precision only; accepted is "
+                                "numerics: {precision: double}");
+  return precision == ElementPrecision::any ? wanted : Precision::double_precision;
 }
 
 }  // namespace
@@ -55,10 +57,6 @@ Block make_block(std::string part, const Element& element, const Material& mater
     block.lost = AlignedBuffer<int>(block.pack_count * width);
   }
   return block;
-}
-
-bool can_be_scaled(const Element& element) {
-  return !std::holds_alternative<Rigid>(element) && !std::holds_alternative<Particle>(element);
 }
 
 void scale_to(double stable_step, Block& block) {

@@ -6,32 +6,26 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "elements/base/motion.hpp"
-#include "elements/beam/beam2.hpp"
 #include "elements/deletion.hpp"
-#include "elements/particle/particle.hpp"
+#include "elements/kinds.hpp"
 #include "elements/particle/particle_cloud.hpp"
-#include "elements/rigid.hpp"
-#include "elements/shell/shell4.hpp"
-#include "elements/solid/hex8.hpp"
-#include "elements/solid/hex8_full.hpp"
 #include "materials/material.hpp"
 #include "src/base/aligned.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {
 
-/// The kinds that a deck can name.
-using Element = std::variant<Hex8, Hex8Full, Shell4, Beam2, Particle, Rigid>;
-
 inline int nodes_per_element(const Element& element) {
   return std::visit([](const auto& kind) { return kind.nodes; }, element);
 }
 inline bool has_rotations(const Element& element) {
   return std::visit([](const auto& kind) { return kind.rotations; }, element);
+}
+inline const ElementTraits& traits_of(const Element& element) {
+  return std::visit([](const auto& kind) -> const ElementTraits& { return kind.traits; }, element);
 }
 inline std::string_view name_of(const Element& element) {
   return std::visit([](const auto& kind) { return kind.name; }, element);
@@ -126,9 +120,8 @@ bool accepts(const Element& element, const Material& material);
 Block make_block(std::string part, const Element& element, const Material& material, Precision precision,
                  std::span<const int> connectivity, const std::optional<Deletion>& deletion = {});
 
-/// True of elements whose mass can be scaled: all that are swept but particles, whose mass is their density.
-bool can_be_scaled(const Element& element);
-/// From now on elements of the block get mass where their stable step is below this. \pre can_be_scaled
+/// From now on elements of the block get mass where their stable step is below this.
+/// \pre traits_of(block.element).gains_mass
 void scale_to(double stable_step, Block& block);
 
 /// Energy that an element has received. \pre block.loses_elements

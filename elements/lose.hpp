@@ -63,7 +63,7 @@ BRIO_INLINE LostLanes<Real> lost_lanes(const Kind& kind, const Law& law, const D
   if (deletion.minimum_step) lost = lost | ((stable_step < T(*deletion.minimum_step)) & (stable_step > zero));
   if constexpr (can_fail<Law>) {
     int stations = 1;
-    if constexpr (requires { kind.stations(); }) stations = kind.stations();
+    if constexpr (Kind::kernel_traits.stations) stations = kind.stations();
     const int points = kind.points() / stations;
     T failed = zero;
     for (int station = 0; station < stations; ++station)
@@ -74,7 +74,7 @@ BRIO_INLINE LostLanes<Real> lost_lanes(const Kind& kind, const Law& law, const D
     lanes.by_damage = failed >= T(law.failure->failed_points - rounding);
     lost = lost | lanes.by_damage;
   }
-  if constexpr (requires { point->history.equivalent_plastic_strain; }) {
+  if constexpr (Law::traits.equivalent_plastic_strain) {
     if (deletion.plastic_strain) {
       const T strain = mean_over_points<T>(
           kind.points(), point, [](const auto& history) { return history.equivalent_plastic_strain; });
@@ -82,7 +82,7 @@ BRIO_INLINE LostLanes<Real> lost_lanes(const Kind& kind, const Law& law, const D
       lost = lost | lanes.by_plastic_strain;
     }
   }
-  if constexpr (Kind::nodes == 8) {
+  if constexpr (Kind::traits.cell == hexahedron_cell) {
     if (deletion.corner_inverted) lost = lost | (smallest_corner(motion.position) < zero);
     if (deletion.volume_ratio) {
       const T volume = mean_gradient(modes(motion.position)).volume;
@@ -109,35 +109,8 @@ void list_lost(const LostLanes<Real>& lost, int count, std::size_t first_of_chun
   }
 }
 
-/// Subtracts the forces of deleted lanes and their half of the work of the step. Of an inverted element the
-/// increments of this step are unknown and left out.
-template <class Kind, Floating Real>
-BRIO_INLINE void take_back(LaneMask<Real> lost, const MotionOf<Kind, Lanes<Real>>& motion, double step,
-                           ForcesOf<Kind, Lanes<Real>>& forces, Increment<Lanes<Real>>& increment) {
-  using T = Lanes<Real>;
-  const T zero(0.0);
-  T power = zero;
-  for (int corner = 0; corner < Kind::nodes; ++corner)
-    for (int i = 0; i < 3; ++i) {
-      T& force = forces.force[i][corner];
-      power += force * (motion.velocity[i][corner] - motion.velocity[i][0]);
-      force = where(lost, zero, force);
-      if constexpr (Kind::rotations) {
-        T& moment = forces.moment[i][corner];
-        power += moment * motion.angular_velocity[i][corner];
-        moment = where(lost, zero, moment);
-      }
-    }
-  const auto broken = lost & (increment.stable_step <= zero);
-  const T internal = increment.internal_energy - where(lost, (0.5 * step) * power, zero);
-  increment.internal_energy = where(broken, zero, internal);
-  increment.hourglass_energy = where(broken, zero, increment.hourglass_energy);
-  increment.viscous_energy = where(broken, zero, increment.viscous_energy);
-  increment.stable_step = where(lost, T(HUGE_VAL), increment.stable_step);
-}
-
-/// Adds to the energies of the elements of a pack: `held` has internal energies of all lanes, then hourglass
-/// energies.
+/// Adds to the energies that the elements of a pack have received: `held` has internal energies of all
+/// lanes, then hourglass energies.
 template <Floating Real>
 BRIO_INLINE void hold(const Increment<Lanes<Real>>& increment, double* held) {
   constexpr int groups = lane_count<Real> / 8;

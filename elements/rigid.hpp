@@ -5,14 +5,19 @@
 #include <optional>
 #include <string_view>
 
+#include "elements/base/element_kind.hpp"
 #include "src/base/fields.hpp"
 
 namespace brio {
+
+struct Block;
 
 struct Rigid {
   static constexpr std::string_view name = "rigid";
   static constexpr int nodes = 0;  ///< as many as the mesh gives its elements
   static constexpr bool rotations = false;
+  static constexpr ElementTraits traits{.cell = hexahedron_cell,
+                                        .gains_mass = false};  // cells as in its mesh
   template <class Law>
   static constexpr bool accepts = true;  // of a material model only the density is used
 
@@ -20,6 +25,8 @@ struct Rigid {
   std::optional<double> mass;
   std::optional<std::array<double, 6>> inertia;
   std::optional<std::array<double, 3>> centre;
+
+  double contact_thickness() const { return thickness.value_or(0); }
 
   static constexpr auto fields() {
     return field_table(
@@ -42,5 +49,7 @@ struct Rigid {
     return xx > 0 && minor > 0 && determinant > 0 ? "" : "the inertia is not positive definite";
   }
 };
+
+inline void choose_kernel(const Rigid&, Block&) {}  // nothing is swept
 
 }  // namespace brio

@@ -4,11 +4,14 @@
 #include <string_view>
 
 #include "materials/elastic_constants.hpp"
+#include "materials/material_law.hpp"
 
 namespace brio {
 
 struct Elastic {
   static constexpr std::string_view name = "elastic";
+  using Settings = Elastic;
+  static constexpr MaterialTraits traits{.update = true, .update_plane_stress = true, .update_fibre = true};
   double density = 0;
   double youngs_modulus = 0;
   double poissons_ratio = 0;

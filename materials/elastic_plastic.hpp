@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "materials/failure.hpp"
+#include "materials/material_law.hpp"
 #include "materials/plastic_flow.hpp"
 
 namespace brio {
@@ -18,6 +18,16 @@ struct ElasticPlastic {
   bool is_reduced() const { return hardening_mix == 0; }
 
   static constexpr std::string_view name = "elastic_plastic";
+  using Settings = ElasticPlastic;
+  static constexpr MaterialTraits traits{.update = true,
+                                         .update_plane_stress = true,
+                                         .update_fibre = true,
+                                         .equivalent_plastic_strain = true,
+                                         .back_stress = true,
+                                         .hardening = true,
+                                         .failure = true,
+                                         .is_reduced = true,
+                                         .fault = true};
   double density = 0;
   double youngs_modulus = 0;
   double poissons_ratio = 0;
@@ -78,7 +88,11 @@ struct ElasticPlastic {
 };
 
 struct IsotropicElasticPlastic : ElasticPlastic {
-  using Settings = ElasticPlastic;
+  static constexpr MaterialTraits traits = [] {
+    MaterialTraits isotropic = ElasticPlastic::traits;
+    isotropic.back_stress = false;
+    return isotropic;
+  }();
 
   template <class T>
   struct History {

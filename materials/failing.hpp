@@ -17,25 +17,20 @@
 #include "materials/failure.hpp"
 #include "materials/hosford_coulomb_fracture.hpp"
 #include "materials/johnson_cook_fracture.hpp"
+#include "materials/material_law.hpp"
 #include "materials/principal_stress.hpp"
 #include "materials/stress_state.hpp"
 
 namespace brio {
 
-template <class Law>
-struct DeckLaw {
-  using Type = Law;
-};
-template <class Law>
-requires requires { typename Law::Settings; }
-struct DeckLaw<Law> {
-  using Type = typename Law::Settings;
-};
-
-/// \tparam Law has `failure`, and a history with `equivalent_plastic_strain`.
+/// \tparam Law with traits.failure
 template <class Law>
 struct Failing : Law {
-  using Settings = typename DeckLaw<Law>::Type;
+  static constexpr MaterialTraits traits = [] {
+    MaterialTraits failing = Law::traits;
+    failing.has_failed = true;
+    return failing;
+  }();
 
   template <class T>
   struct History : Law::template History<T> {
@@ -168,7 +163,7 @@ struct Failing : Law {
     const double least_stress = 1e-9 * this->youngs_modulus;
     if (f.hosford_coulomb) return hosford_coulomb_damage(*f.hosford_coulomb, stress, flow, least_stress);
     T rate_logarithm(0.0), homologous_temperature(0.0);
-    if constexpr (requires { Law::rate_logarithm(flow); }) {
+    if constexpr (Law::traits.rate_logarithm) {
       if (f.johnson_cook->d4 != 0) rate_logarithm = Law::rate_logarithm(flow);
       if (f.johnson_cook->d5 != 0) homologous_temperature = Law::homologous_temperature(history);
     }
@@ -189,12 +184,6 @@ struct Failing : Law {
     const T ratio = where(sheared, (2.0 / 3.0) * largest / where(sheared, deviatoric, T(1.0)), T(0.0));
     return square(square(ratio));
   }
-};
-
-/// Laws that can lose a point.
-template <class Law>
-inline constexpr bool can_fail = requires(const Law& law, const typename Law::template History<double>& h) {
-  law.has_failed(h);
 };
 
 }  // namespace brio

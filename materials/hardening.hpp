@@ -13,8 +13,8 @@
 /// on which elastic unloading by plastic flow takes the effective stress: the solution of the consistency
 /// condition of a radial return; its stress is NaN if none is found. The line starts on or above the curve,
 /// but for the last digits; stiffness > 0. Everything that flows (solids, shells, fibres) is written on these
-/// three. Plane stress is quick for curves that say more of their shape (plane_stress_flow.hpp): `static
-/// constexpr bool is_straight = true`, or
+/// three. `static constexpr HardeningShape shape` says how much more plane stress may ask of the curve
+/// (plane_stress_flow.hpp): nothing of one that is straight or any; of one that has tangents also
 ///
 ///     HardeningPoint<T> along(HardeningPoint<T> near, T distance) const;        // cheaper than at()
 ///     T curvature(HardeningPoint<T>) const;                                     // second derivative
@@ -25,6 +25,12 @@
 #include "src/base/lanes.hpp"
 
 namespace brio {
+
+enum class HardeningShape {
+  any,
+  straight,
+  has_tangents  ///< with the members above
+};
 
 template <class T>
 struct HardeningPoint {
@@ -71,7 +77,7 @@ BRIO_INLINE auto point_of(const Hardening& hardening, const History& history) {
 struct LinearHardening {
   double yield_stress;
   double modulus;  ///< d(yield stress)/dp >= 0
-  static constexpr bool is_straight = true;
+  static constexpr HardeningShape shape = HardeningShape::straight;
 
   double initial_yield_stress() const { return yield_stress; }
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string_view>
 
-#include "materials/failure.hpp"
+#include "materials/material_law.hpp"
 #include "materials/plastic_flow.hpp"
 #include "materials/power_hardening.hpp"
 #include "src/base/lane_math.hpp"
@@ -55,6 +55,7 @@ struct ThermalSoftening {
 /// step. hardening.hpp says what it provides.
 template <class T>
 struct JohnsonCookHardening {
+  static constexpr HardeningShape shape = HardeningShape::any;
   double initial, constant, exponent, rate_constant;
   double rate_step;  ///< reference rate times the step
   T base;
@@ -119,6 +120,16 @@ struct JohnsonCookHardening {
 
 struct JohnsonCook {
   static constexpr std::string_view name = "johnson_cook";
+  using Settings = JohnsonCook;
+  static constexpr MaterialTraits traits{.update = true,
+                                         .update_plane_stress = true,
+                                         .update_fibre = true,
+                                         .equivalent_plastic_strain = true,
+                                         .hardening = true,
+                                         .time_step = true,
+                                         .rate_logarithm = true,
+                                         .failure = true,
+                                         .fault = true};
   double density = 0;
   double youngs_modulus = 0;
   double poissons_ratio = 0;

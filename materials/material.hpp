@@ -1,32 +1,25 @@
 #pragma once
-/// The laws that a deck can name.
+/// What is asked of a material, whatever its law.
 
-#include <variant>
+#include <type_traits>
 
-#include "materials/elastic.hpp"
-#include "materials/elastic_plastic.hpp"
-#include "materials/johnson_cook.hpp"
-#include "materials/neo_hookean.hpp"
-#include "materials/power_law_hardening.hpp"
+#include "materials/laws.hpp"
 
 namespace brio {
 
-using Material = std::variant<Elastic, ElasticPlastic, PowerLawHardening, JohnsonCook, NeoHookean>;
+/// Traits of the law.
+inline MaterialTraits traits_of(const Material& material) {
+  return std::visit([](const auto& law) { return std::decay_t<decltype(law)>::traits; }, material);
+}
 
 inline bool has_plastic_strain(const Material& material) {
-  return std::visit(
-      []<class Law>(const Law&) {
-        return requires(const typename Law::template History<double>& history) {
-          history.equivalent_plastic_strain;
-        };
-      },
-      material);
+  return traits_of(material).equivalent_plastic_strain;
 }
 
 inline bool has_failure(const Material& material) {
   return std::visit(
-      [](const auto& law) {
-        if constexpr (requires { law.failure; }) {
+      []<class Law>(const Law& law) {
+        if constexpr (Law::traits.failure) {
           return law.failure.has_value();
         } else {
           return false;

@@ -7,12 +7,15 @@
 #include <string_view>
 
 #include "materials/elastic_constants.hpp"
+#include "materials/material_law.hpp"
 #include "src/base/lane_math.hpp"
 
 namespace brio {
 
 struct NeoHookean {
   static constexpr std::string_view name = "neo_hookean";
+  using Settings = NeoHookean;
+  static constexpr MaterialTraits traits{.update_from_stretch = true};
   double density = 0;
   double youngs_modulus = 0;
   double poissons_ratio = 0;

@@ -135,15 +135,10 @@ BRIO_INLINE T first_step_to(T target, const typename PlaneStressFlow<T>::Series&
 
 /// Where hardening is straight as far as plane stress needs it.
 template <class Hardening>
-inline constexpr bool is_straight = requires {
-  requires Hardening::is_straight;
-};
+inline constexpr bool is_straight = Hardening::shape == HardeningShape::straight;
 /// Where its tangents serve.
-template <class Hardening, class T>
-inline constexpr bool has_tangents = requires(const Hardening& hardening, const HardeningPoint<T>& point,
-                                              T strain) {
-  hardening.along(point, strain);
-};
+template <class Hardening>
+inline constexpr bool has_tangents = Hardening::shape == HardeningShape::has_tangents;
 
 /// Flow along tangents of the hardening curve. \param yields lanes that flow at all. \return whether all of
 /// them have come to the root.
@@ -284,7 +279,7 @@ BRIO_INLINE PlaneStressEnd<T> flow_in_plane_stress(const PlaneStressFlow<T>& flo
   PlaneStressEnd<T> end;
   if constexpr (is_straight<Hardening>) {
     if (flow_along_tangents(flow, hardening, start, yields, end)) return end;
-  } else if constexpr (has_tangents<Hardening, T>) {
+  } else if constexpr (has_tangents<Hardening>) {
     if (all(hardening.is_concave_from(start) | !yields) &&
         flow_along_tangents(flow, hardening, start, yields, end))
       return end;

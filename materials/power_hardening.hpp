@@ -26,6 +26,7 @@ struct PowerHardening {
   double constant;       ///< >= 0, stress
   double exponent;       ///< in (0, 1]
   double luders_strain;  ///< >= 0
+  static constexpr HardeningShape shape = HardeningShape::has_tangents;
 
   double initial_yield_stress() const { return yield_stress; }
 

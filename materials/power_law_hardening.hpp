@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "materials/failure.hpp"
+#include "materials/material_law.hpp"
 #include "materials/plastic_flow.hpp"
 #include "materials/power_hardening.hpp"
 
@@ -12,6 +12,14 @@ namespace brio {
 
 struct PowerLawHardening {
   static constexpr std::string_view name = "power_law_hardening";
+  using Settings = PowerLawHardening;
+  static constexpr MaterialTraits traits{.update = true,
+                                         .update_plane_stress = true,
+                                         .update_fibre = true,
+                                         .equivalent_plastic_strain = true,
+                                         .hardening = true,
+                                         .failure = true,
+                                         .fault = true};
   double density = 0;
   double youngs_modulus = 0;
   double poissons_ratio = 0;

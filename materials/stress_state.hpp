@@ -1,23 +1,6 @@
 #pragma once
-/// What elements and materials exchange.
-///
-/// A material model is a plain struct: parameters with their `fields()`, `template <class T> struct History`,
-/// and pointwise updates on a number-like `T` (lanes.hpp). It provides
-///
-///     template <class T> void update(const SymmetricTensor<T>& strain_increment, SymmetricTensor<T>& stress,
-///                                    History<T>& history) const;                       // solids
-///     template <class T> void update_plane_stress(const ShellTensor<T>& strain_increment, double
-///     shear_factor,
-///                                    ShellTensor<T>& stress, History<T>& history,
-///                                    T& thickness_strain_increment) const;              // shells
-///     template <class T> void update_fibre(const FibreTensor<T>& strain_increment, FibreTensor<T>& stress,
-///                                    History<T>& history) const;                       // beams
-///     template <class T> ElasticModuli<T> moduli(const History<T>& history) const;     // current tangent,
-///     upper bound
-///
-/// Stress and strain increments are on axes that turn with the material (unrotated), so a law never sees a
-/// rotation. A law that lacks one of the updates does not pair with elements that need it: the deck reader
-/// says so. A law on total stretch provides `update_from_stretch` instead of `update` (see neo_hookean.hpp).
+/// What elements and materials exchange: stress, strain increments and moduli. The contract of a law is in
+/// material_law.hpp.
 
 #include "src/base/tensor.hpp"
 

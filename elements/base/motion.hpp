@@ -1,6 +1,8 @@
 #pragma once
 /// What an element kernel sees: positions and velocities of its nodes, and what it hands back.
 
+#include <type_traits>
+
 #include "materials/stress_state.hpp"
 
 namespace brio {
@@ -57,10 +59,19 @@ struct ElementSample {
 };
 
 template <class Element, class T>
-using MotionOf = std::conditional_t<Element::rotations, RotatingNodalMotion<T, Element::nodes>,
-                                    NodalMotion<T, Element::nodes>>;
+using NodalMotionOf = std::conditional_t<Element::rotations, RotatingNodalMotion<T, Element::nodes>,
+                                         NodalMotion<T, Element::nodes>>;
+
+/// What a kernel reads and hands back. Kinds that see more than their own nodes specialize it.
 template <class Element, class T>
-using ForcesOf = std::conditional_t<Element::rotations, RotatingNodalForces<T, Element::nodes>,
+struct SeenByKernel {
+  using Motion = NodalMotionOf<Element, T>;
+  using Forces = std::conditional_t<Element::rotations, RotatingNodalForces<T, Element::nodes>,
                                     NodalForces<T, Element::nodes>>;
+};
+template <class Element, class T>
+using MotionOf = typename SeenByKernel<Element, T>::Motion;
+template <class Element, class T>
+using ForcesOf = typename SeenByKernel<Element, T>::Forces;
 
 }  // namespace brio

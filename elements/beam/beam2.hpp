@@ -6,17 +6,11 @@
 #include <optional>
 #include <string_view>
 
+#include "elements/base/element_kind.hpp"
 #include "elements/beam/beam_section.hpp"
-#include "materials/stress_state.hpp"
 #include "src/base/fields.hpp"
 
 namespace brio {
-
-template <class Law, class T = double>
-concept FibreLaw = requires(const Law& law, const FibreTensor<T>& strain, FibreTensor<T>& stress,
-                            typename Law::template History<T>& history) {
-  law.update_fibre(strain, stress, history);
-};
 
 enum class BeamFormulation {
   beam,
@@ -29,15 +23,20 @@ constexpr std::array<NamedValue<BeamFormulation>, 3> named_values(BeamFormulatio
            {"cable", BeamFormulation::cable}}};
 }
 
+struct Block;
+
 struct Beam2 {
   static constexpr std::string_view name = "beam2";
   static constexpr int nodes = 2;
   static constexpr bool rotations = true;
-  /// Strains come from differences of positions and triads since the start: rounded to float, these would do
-  /// work in every step and heat the beam.
-  static constexpr bool always_double = true;
+  /// In double: strains come from differences of positions and triads since the start: rounded to float,
+  /// these would do work in every step and heat the beam.
+  static constexpr ElementTraits traits{.cell = line_cell,
+                                        .summary_key = "beam2",
+                                        .precision = ElementPrecision::always_double,
+                                        .has_radius = true};
   template <class Law>
-  static constexpr bool accepts = FibreLaw<Law>;
+  static constexpr bool accepts = Law::traits.update_fibre;
 
   BeamSection section;
   BeamFormulation formulation = BeamFormulation::beam;
@@ -72,6 +71,8 @@ struct Beam2 {
 
   constexpr bool bends() const { return formulation == BeamFormulation::beam; }
 
+  double contact_thickness() const { return 2 * contact_radius.value_or(fibres_of(section).radius); }
+
   /// With the fibres of its section.
   Beam2 prepared() const {
     Beam2 ready = *this;
@@ -79,5 +80,8 @@ struct Beam2 {
     return ready;
   }
 };
+
+/// Sets block.kernel.
+void choose_kernel(const Beam2& element, Block& block);
 
 }  // namespace brio

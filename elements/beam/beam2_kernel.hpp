@@ -25,16 +25,17 @@ namespace brio {
 
 struct Beam2Kernel : Beam2 {
   using Settings = Beam2;
-  static constexpr bool fetches_points_ahead = true;
-  static constexpr std::string_view shape_rule =
-      "has no length, or lies along the orientation of its section";
+  static constexpr KernelTraits kernel_traits{
+      .fetches_points_ahead = true,
+      .stations = true,
+      .shape_rule = "has no length, or lies along the orientation of its section"};
 
   static constexpr int most_points = 2 * most_fibres;
   /// Gauss points along the axis.
   int stations() const { return bends() ? 2 : 1; }
   int points() const { return bends() ? 2 * fibres->count : 1; }
   /// Length of beam that a point stands for.
-  double point_length(double volume) const { return volume / (fibres->area * stations()); }
+  double point_size(double volume) const { return volume / (fibres->area * stations()); }
 
   template <class T, class Law>
   struct Header {
@@ -131,7 +132,7 @@ struct Beam2Kernel : Beam2 {
       const double share =
           bends() ? 0.5 * fibres->fibre[static_cast<std::size_t>(p % fibres->count)].share : 1.0;
       mean = mean + share * point[p].stress;
-      if constexpr (requires { point[p].history.equivalent_plastic_strain; })
+      if constexpr (Law::traits.equivalent_plastic_strain)
         out.equivalent_plastic_strain =
             std::max(out.equivalent_plastic_strain, point[p].history.equivalent_plastic_strain);
     }

@@ -92,52 +92,6 @@ void take_back_particles(LaneMask<double> lost, double step, ParticleForces<Numb
   increment.stable_step = where(lost, Number(HUGE_VAL), increment.stable_step);
 }
 
-template <class Law>
-SweepResult sweep_particles(Block& block, Chunk chunk, Nodes& nodes, double step) {
-  using Layout = PackLayout<ParticleKernel, Law, double>;
-  const auto kernel = kernel_of<ParticleKernel>(block.element);
-  const Law law = law_of<Law>(block.material, step);
-  ParticleCloud& cloud = *block.cloud;
-  LaneSum<double> internal_energy, hourglass_energy, viscous_energy;
-  SweepResult result;
-  result.stable_step = HUGE_VAL;
-  NeighbourSums sums;
-  for (std::size_t done = 0; done < chunk.element_count; done += width) {
-    const std::size_t pack = chunk.first_pack + done / width;
-    const int* node = block.connectivity.data() + pack * width;
-    const int count = static_cast<int>(std::min<std::size_t>(width, chunk.element_count - done));
-    if (cloud.is_eulerian()) {
-      sum_over_neighbours_now(cloud, nodes, node, count, step, sums);
-    } else {
-      sum_over_neighbours(cloud, nodes, node, count, sums);
-    }
-    ParticleForces<Number> forces;
-    auto& header = Layout::header(block, pack);
-    auto* point = Layout::points(block, pack);
-    Increment<Number> increment = kernel.force(motion_of(sums), Number(step), law, header, point, forces);
-    if (block.loses_elements) {
-      const LostLanes<double> lost =
-          lost_lanes<ParticleKernel, Law, double>(kernel, law, block.deletion, header, point,
-                                                  MotionOf<ParticleKernel, Number>{}, increment.stable_step);
-      if (any(lost.any)) {
-        take_back_particles(lost.any, step, forces, increment);
-        list_lost<double>(lost, count, chunk.first_pack * width, pack * width, block, result);
-      }
-      hold<double>(increment, block.held.data() + pack * 2 * width);
-    }
-    publish(cloud, node, count, forces);
-    if (cloud.is_eulerian()) publish_now(cloud, kernel, node, count, header.volume, forces);
-    internal_energy.add(increment.internal_energy, count);
-    hourglass_energy.add(increment.hourglass_energy, count);
-    viscous_energy.add(increment.viscous_energy, count);
-    note_stable_step<double>(increment.stable_step, pack, count, result);
-  }
-  result.internal_energy = internal_energy.sum();
-  result.hourglass_energy = hourglass_energy.sum();
-  result.viscous_energy = viscous_energy.sum();
-  return result;
-}
-
 double exchange_pair_forces(Block& block, Chunk chunk, Nodes& nodes, double step) {
   ParticleCloud& cloud = *block.cloud;
   const int* node = block.connectivity.data() + chunk.first_pack * width;
@@ -150,100 +104,64 @@ double exchange_pair_forces(Block& block, Chunk chunk, Nodes& nodes, double step
   return 0;
 }
 
-template <class Law>
-void initialize_particles(Block& block, Nodes& nodes) {
-  using Layout = PackLayout<ParticleKernel, Law, double>;
-  const Law law = law_of<Law>(block.material);
-  const auto kernel = kernel_of<ParticleKernel>(block.element);
-  ParticleCloud& cloud = *block.cloud;
-  ElasticModuli<Number> moduli{};
-  for (std::size_t pack = 0; pack < block.pack_count; ++pack) {
-    const int* node = block.connectivity.data() + pack * width;
-    auto& header = Layout::header(block, pack);
-    auto* point = Layout::points(block, pack);
-    Number hourglass_weight;
-    for (int lane = 0; lane < width; ++lane) {
-      const auto i = static_cast<std::size_t>(node[lane] - cloud.first_node);
-      header.volume.set(lane, cloud.volume[i]);
-      hourglass_weight.set(lane, cloud.hourglass_weight[i]);
-    }
-    header.mass = Number(law.density) * header.volume;
-    start(*point);
-    if constexpr (requires { law.start(point->history, header.mass); }) {
-      Number spacing;
-      for (int lane = 0; lane < width; ++lane) spacing.set(lane, edge_of_cube(header.volume[lane]));
-      law.start(point->history, spacing);
-    }
-    moduli = law.moduli(point->history);
-    header.stiffness_at_start = moduli.first_lame + 2.0 * moduli.shear;
-    header.hourglass_stiffness =
-        kernel.residual_stiffness(law, moduli, *point, header.volume, hourglass_weight);
-    for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count;
-         ++lane)
-      nodes.mass[static_cast<std::size_t>(node[lane])] += header.mass[lane];
-  }
-  const ElasticModuli<double> at_start{moduli.first_lame[0], moduli.shear[0]};
-  cloud.frequency_squared = highest_frequency_squared(
-      cloud, nodes, at_start, kernel.stiffness_share() * ParticleKernel::youngs_modulus(at_start));
-}
-
-template <class Law>
-ElementSample sample_particle(const Block& block, const Nodes&, std::size_t e) {
-  ParticleKernel::Header<double, Law> header;
-  ParticleKernel::Point<double, Law> point;
-  const std::byte* pack = block.state.data() + (e / width) * block.pack_bytes;
-  const int lane = static_cast<int>(e % width);
-  copy_lane<decltype(header), double>(pack, lane, &header);
-  copy_lane<decltype(point), double>(pack + sizeof(typename PackLayout<ParticleKernel, Law, double>::Header),
-                                     lane, &point);
-  ElementSample sample =
-      kernel_of<ParticleKernel>(block.element).sample(law_of<Law>(block.material), header, &point);
-  if constexpr (can_fail<Law>) sample.damage = point.history.damage;
-  return sample;
-}
-
-struct ParticleKernels {
-  template <class Law>
-  static void set(Block& block) {
-    block.pack_bytes = PackLayout<ParticleKernel, Law, double>::bytes({});
-    block.kernel = {sweep_particles<Law>,
-                    initialize_particles<Law>,
-                    sample_particle<Law>,
-                    mass_of_element<ParticleKernel, Law, double>,
-                    nullptr,
-                    exchange_pair_forces};
-    block.loses_elements = can_fail<Law> || block.deletion.names_a_criterion();
-  }
-};
-
 }  // namespace
 
+/// Between the particles of a chunk and their neighbours: sums over pairs, and what pairs need to exert
+/// forces, which is the second part of the sweep.
+template <>
+class NodeExchange<ParticleKernel, double> {
+ public:
+  NodeExchange(Block& block, Nodes& nodes, double step)
+      : settings_(std::get<Particle>(block.element)), cloud_(*block.cloud), nodes_(nodes), step_(step) {}
+
+  void gather_start(const int* node, ParticleMotion<Number>& motion) const {
+    for (int lane = 0; lane < width; ++lane) {
+      const auto i = static_cast<std::size_t>(node[lane] - cloud_.first_node);
+      motion.volume.set(lane, cloud_.volume[i]);
+      motion.hourglass_weight.set(lane, cloud_.hourglass_weight[i]);
+    }
+  }
+  /// \param history of a particle at the start, where all are alike
+  template <class Law, class History>
+  void finish_start(const ParticleKernel& kernel, const Law& law, const History& history) const {
+    const ElasticModuli<Number> moduli = law.moduli(history);
+    const ElasticModuli<double> at_start{moduli.first_lame[0], moduli.shear[0]};
+    cloud_.frequency_squared = highest_frequency_squared(
+        cloud_, nodes_, at_start, kernel.stiffness_share() * ParticleKernel::youngs_modulus(at_start));
+  }
+  double volume(const int* node, int lane, double, double) const {
+    return cloud_.volume[static_cast<std::size_t>(node[lane] - cloud_.first_node)];
+  }
+
+  void gather(const int* node, int count, ParticleMotion<Number>& motion) {
+    if (cloud_.is_eulerian()) {
+      sum_over_neighbours_now(cloud_, nodes_, node, count, step_, sums_);
+    } else {
+      sum_over_neighbours(cloud_, nodes_, node, count, sums_);
+    }
+    motion = motion_of(sums_);
+  }
+  void take_back(LaneMask<double> lost, const ParticleMotion<Number>&, ParticleForces<Number>& forces,
+                 Increment<Number>& increment) const {
+    take_back_particles(lost, step_, forces, increment);
+  }
+  template <class Header>
+  void scatter(const int* node, int count, const Header& header, const ParticleForces<Number>& forces) const {
+    publish(cloud_, node, count, forces);
+    if (cloud_.is_eulerian()) publish_now(cloud_, settings_, node, count, header.volume, forces);
+  }
+
+ private:
+  const Particle& settings_;
+  ParticleCloud& cloud_;
+  Nodes& nodes_;
+  double step_;
+  NeighbourSums sums_;
+};
+
 void choose_kernel(const Particle&, Block& block) {
-  if (block.precision != Precision::double_precision)
-    throw std::invalid_argument(
-        "particles are computed in double precision only; accepted is "
-        "numerics: {precision: double}");
-  std::visit(
-      [&](const auto& law) {
-        using Law = std::decay_t<decltype(law)>;
-        const auto set = [&]<class Chosen>(std::type_identity<Chosen>) {
-          if constexpr (requires { law.failure; }) {
-            if (law.failure) {
-              ParticleKernels::set<Failing<Chosen>>(block);
-              return;
-            }
-          }
-          ParticleKernels::set<Chosen>(block);
-        };
-        if constexpr (requires { typename Law::Reduced; }) {
-          if (law.is_reduced()) {
-            set(std::type_identity<typename Law::Reduced>{});
-            return;
-          }
-        }
-        set(std::type_identity<Law>{});
-      },
-      block.material);
+  choose_kernel_of<ParticleKernel>(block);
+  block.kernel.exchange = exchange_pair_forces;
 }
 
 }  // namespace brio

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "elements/base/element_kind.hpp"
 #include "elements/solid/solid.hpp"
 #include "src/base/fields.hpp"
 
@@ -19,10 +20,19 @@ constexpr std::array<NamedValue<ParticleFrame>, 2> named_values(ParticleFrame) {
   return {{{"total_lagrangian", ParticleFrame::total_lagrangian}, {"eulerian", ParticleFrame::eulerian}}};
 }
 
+struct Block;
+
 struct Particle {
   static constexpr std::string_view name = "particle";
   static constexpr int nodes = 1;
   static constexpr bool rotations = false;
+  /// Their mass is their density, which is not to be scaled.
+  static constexpr ElementTraits traits{.cell = vertex_cell,
+                                        .summary_key = "particle",
+                                        .precision = ElementPrecision::double_only,
+                                        .gains_mass = false,
+                                        .has_radius = true,
+                                        .has_density = true};
   template <class Law>
   static constexpr bool accepts = is_solid_law<Law>;
 
@@ -72,10 +82,16 @@ struct Particle {
     return "";
   }
 
+  /// A particle touches as its share of the lattice does, whose volume the mesh gives.
+  double contact_thickness() const { return 0; }
+
   constexpr bool is_eulerian() const { return kernel == ParticleFrame::eulerian; }
   constexpr double smoothing() const { return smoothing_length.value_or(is_eulerian() ? 1.5 : 1.1); }
   constexpr double stiffness_share() const { return is_eulerian() ? 0 : hourglass_stiffness.value_or(0.1); }
   constexpr double viscosity_share() const { return is_eulerian() ? hourglass_viscosity.value_or(0.3) : 0; }
 };
+
+/// Sets block.kernel.
+void choose_kernel(const Particle& element, Block& block);
 
 }  // namespace brio

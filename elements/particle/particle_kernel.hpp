@@ -90,10 +90,19 @@ struct ParticleForces {
   T power;  ///< of the forces that the particle's own energy exerts
 };
 
+struct ParticleKernel;
+template <class T>
+struct SeenByKernel<ParticleKernel, T> {
+  using Motion = ParticleMotion<T>;
+  using Forces = ParticleForces<T>;
+};
+
 struct ParticleKernel : Particle {
   using Settings = Particle;
+  static constexpr KernelTraits kernel_traits{};
   static constexpr int most_points = 1;
   static constexpr int points() { return 1; }
+  static double point_size(double volume) { return edge_of_cube(volume); }
 
   template <class T, class Law>
   struct Header {
@@ -149,6 +158,20 @@ struct ParticleKernel : Particle {
   BRIO_INLINE T residual_stiffness(const Law& law, const ElasticModuli<T>& moduli, const Point<T, Law>& point,
                                    T volume, T weight) const {
     return stiffness_share() * secant_modulus(law, youngs_modulus(moduli), point.history) * volume * weight;
+  }
+
+  /// \param motion of it the volume and the weight against residual motions
+  template <class T, class Law>
+  NodalMass<T> initialize(const ParticleMotion<T>& motion, const Law& law, Header<T, Law>& header,
+                          Point<T, Law>* point) const {
+    header.volume = motion.volume;
+    header.mass = T(law.density) * header.volume;
+    start(*point);
+    const ElasticModuli<T> moduli = law.moduli(point->history);
+    header.stiffness_at_start = moduli.first_lame + 2.0 * moduli.shear;
+    header.hourglass_stiffness =
+        residual_stiffness(law, moduli, *point, header.volume, motion.hourglass_weight);
+    return {header.mass, T(0.0)};
   }
 
   template <class T, class Law>
@@ -225,7 +248,8 @@ struct ParticleKernel : Particle {
   }
 
   template <class Law>
-  ElementSample sample(const Law&, const Header<double, Law>& header, const Point<double, Law>* point) const {
+  ElementSample sample(const NodalMotion<double, 1>&, const Law&, const Header<double, Law>& header,
+                       const Point<double, Law>* point) const {
     return {.stress = fixed_stress(*point),
             .equivalent_plastic_strain = equivalent_plastic_strain_of(*point),
             .internal_energy = header.internal_energy,

@@ -1,39 +1,23 @@
 #pragma once
-/// Belytschko-Tsay shell (Belytschko, Lin & Tsay 1984): four nodes, co-rotational axes at the centre, one
-/// integration point in the plane, velocity strains at 1 to 9 points through the thickness. A repeated fourth
-/// node makes it a triangle.
-///
-/// * Axes, strains and additions to the original: shell_geometry.hpp, shell_strain.hpp.
-/// * Stable time step and scaled rotational inertia: shell_step.hpp.
-/// * Drilling: a node has one moment of inertia about all axes, and strains depend only on spins in the
-///   plane: there is no stiffness against spin about the normal. Adjacent elements at an angle excite that
-///   spin and convert it into bending, so a weak spring and a damper resist it (drilling_stiffness,
-///   drilling_viscosity).
+/// Four-node shell: what a deck says of it. Its mathematics is in shell4_kernel.hpp.
 
-#include <cmath>
 #include <string_view>
 
-#include "elements/base/changing_spring.hpp"
-#include "elements/shell/shell_step.hpp"
-#include "elements/shell/shell_strain.hpp"
+#include "elements/base/element_kind.hpp"
 #include "elements/shell/through_thickness.hpp"
-#include "src/base/fetch_ahead.hpp"
 
 namespace brio {
 
-template <class Law, class T = double>
-concept ShellLaw = requires(const Law& law, const ShellTensor<T>& strain, ShellTensor<T>& stress,
-                            typename Law::template History<T>& history, T& thickness_strain) {
-  law.update_plane_stress(strain, 1.0, stress, history, thickness_strain);
-};
+struct Block;
 
 struct Shell4 {
   static constexpr std::string_view name = "shell4";
   static constexpr int nodes = 4;
   static constexpr bool rotations = true;
-  static constexpr bool fetches_points_ahead = true;
+  static constexpr ElementTraits traits{
+      .cell = quadrilateral_cell, .summary_key = "shell4", .has_thickness = true};
   template <class Law>
-  static constexpr bool accepts = ShellLaw<Law>;
+  static constexpr bool accepts = Law::traits.update_plane_stress;
 
   double thickness = 0;
   int thickness_points = 5;
@@ -46,6 +30,9 @@ struct Shell4 {
   double drilling_stiffness = 0.001;
   double drilling_viscosity = 1;
   double linear_bulk_viscosity = 0.06;
+
+  double contact_thickness() const { return thickness; }
+  const ThicknessRule& rule() const { return thickness_rule(quadrature, thickness_points); }
 
   static constexpr auto fields() {
     return field_table(
@@ -73,305 +60,9 @@ struct Shell4 {
         optional("linear_bulk_viscosity", &Shell4::linear_bulk_viscosity, fraction,
                  "linear membrane viscosity b1, fraction of critical damping of the highest mode, -"));
   }
-
-  static constexpr int most_points = most_thickness_points;
-  int points() const { return thickness_points; }
-  const ThicknessRule& rule() const { return thickness_rule(quadrature, thickness_points); }
-
-  template <class T, class Law>
-  struct Header {
-    T mass;
-    T thickness;
-    T inverse_gyration;  ///< 1 / r^2: nodal mass over nodal rotational inertia
-    T internal_energy;
-    T viscous_force;  ///< per length, of the last step
-    ReferenceShape<T> reference;
-    T hourglass[3];  ///< strains of the elastic hourglass control (changing_spring.hpp)
-    T rotation[2];
-    T drilling;                                 ///< angle about the normal
-    HourglassStiffness<T> hourglass_stiffness;  ///< of the last step
-    T drilling_stiffness;
-    T viscous_drilling;  ///< moment of the last step
-  };
-  template <class T, class Law>
-  struct Point {
-    ShellTensor<T> stress;
-    [[no_unique_address]] typename Law::template History<T> history;
-  };
-
-  template <class T, class Law>
-  NodalMass<T> initialize(const RotatingNodalMotion<T, 4>& motion, const Law& law, Header<T, Law>& header,
-                          Point<T, Law>* point) const {
-    const ShellGeometry<T> g = initial_shell_geometry(motion.position);
-    const auto moduli = plane_stress_moduli(law.template moduli<T>(point[0].history));
-    header.thickness = T(thickness);
-    header.reference = reference_shape(g);
-    const T gyration = gyration_square(g, moduli, shear_factor, header.thickness, rule().second_moment());
-    header.inverse_gyration = 1.0 / gyration;
-    header.mass = law.density * header.thickness * g.area;
-    header.hourglass_stiffness =
-        brio::hourglass_stiffness(g, moduli, shear_factor, header.thickness, hourglass_stiffness);
-    if (drilling_stiffness > 0)
-      header.drilling_stiffness = drill_stiffness(frequency_square(g, moduli, header), header);
-    // A triangle's smallest corner is zero but for round-off.
-    header.mass = where((smallest_corner(g) > T(-1e-6)) & g.is_valid, header.mass, 0.0);
-    const T share = 0.25 * header.mass;
-    return {share, share * gyration};
-  }
-
-  /// Rotational inertia over mass.
-  template <class Header>
-  double gyration_of(const Header& header) const {
-    return 1 / header.inverse_gyration;
-  }
-
-  template <class T, class Law>
-  BRIO_INLINE Increment<T> force(const RotatingNodalMotion<T, 4>& motion, T step, const Law& law,
-                                 Header<T, Law>& header, Point<T, Law>* point,
-                                 RotatingNodalForces<T, 4>& nodal) const {
-    const ShellGeometry<T> g = shell_geometry(motion.position, header.reference);
-    const ShellRates<T> rates = shell_rates(motion, g, step, warping_projection);
-    Increment<T> increment;
-    ShellRates<T> result = stress_resultants(g, rates, step, law, header, point, increment);
-
-    const auto moduli = plane_stress_moduli(law.template moduli<T>(point[0].history));
-    T frequency = frequency_square(g, moduli, header);
-    T drill = T(0.0);
-    if (drilling_stiffness > 0) {
-      drill = drill_stiffness(frequency, header);
-      frequency += drilling_frequency_square(g, drill, header);
-    }
-    const T undamped = 2.0 / sqrt(frequency);
-    T damping = T(linear_bulk_viscosity);
-    if (hourglass_viscosity > 0)
-      damping += hourglass_viscosity * (1.0 + 0.5 * (square(g.skew[0]) + square(g.skew[1])));
-    if (drilling_stiffness > 0) damping += drilling_damping(g, header);
-    increment.stable_step = where(g.is_valid, undamped * damped_share(damping), 0.0);
-
-    // Viscosity as if the stiffness of equal stretch in both directions, E' (1 + nu) / 2, acted for b1 stable
-    // steps.
-    const T stretching = rates.membrane[0] + rates.membrane[1];
-    const T viscous_force = (0.5 * linear_bulk_viscosity) * (header.thickness * undamped) *
-                            (moduli.stretch * (1.0 + moduli.ratio)) * stretching;
-    result.membrane[0] += viscous_force;
-    result.membrane[1] += viscous_force;
-    const T middle_area = g.area * (1.0 - 0.5 * step * stretching);
-    increment.viscous_energy =
-        (0.5 * middle_area * step) * ((header.viscous_force + viscous_force) * stretching);
-    header.viscous_force = viscous_force;
-
-    resist_hourglass(g, moduli, rates, step, undamped, header, result, increment);
-    if (drilling_stiffness > 0) resist_drilling(drill, rates, step, header, result, increment);
-    shell_forces(g, result, warping_projection, nodal);
-    return increment;
-  }
-
-  template <class Law>
-  ElementSample sample(const RotatingNodalMotion<double, 4>& motion, const Law&,
-                       const Header<double, Law>& header, const Point<double, Law>* point) const {
-    const ShellGeometry<double> g = shell_geometry(motion.position, header.reference);
-    ShellTensor<double> mean{};
-    ElementSample out;
-    for (int p = 0; p < thickness_points; ++p) {
-      const double weight = rule().weight[static_cast<std::size_t>(p)];
-      const ShellTensor<double>& stress = point[p].stress;
-      mean = {mean.xx + weight * stress.xx, mean.yy + weight * stress.yy, mean.xy + weight * stress.xy,
-              mean.yz + weight * stress.yz, mean.xz + weight * stress.xz};
-      if constexpr (requires { point[p].history.equivalent_plastic_strain; })
-        out.equivalent_plastic_strain =
-            std::max(out.equivalent_plastic_strain, point[p].history.equivalent_plastic_strain);
-    }
-    const double local[3][3] = {
-        {mean.xx, mean.xy, mean.xz}, {mean.xy, mean.yy, mean.yz}, {mean.xz, mean.yz, 0}};
-    const Vector3<double> axes[3] = {g.axis[0], g.axis[1], g.normal};
-    Tensor<double> global{};
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) {
-        const double u[3] = {axes[a].x, axes[a].y, axes[a].z};
-        const double v[3] = {axes[b].x, axes[b].y, axes[b].z};
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j) global(i, j) += local[a][b] * u[i] * v[j];
-      }
-    out.stress = symmetric_part(global);
-    out.internal_energy = header.internal_energy;
-    out.thickness = header.thickness;
-    return out;
-  }
-
- private:
-  /// Angle, in radians, at which resistance to drilling yields.
-  static constexpr double drilling_limit = 0.01;
-
-  /// Update of stress at all points; forces and moments per length, new thickness, work.
-  template <class T, class Law>
-  BRIO_INLINE ShellRates<T> stress_resultants(const ShellGeometry<T>& g, const ShellRates<T>& rates, T step,
-                                              const Law& law, Header<T, Law>& header, Point<T, Law>* point,
-                                              Increment<T>& increment) const {
-    const ThicknessRule& quadrature_rule = rule();
-    const T old_thickness = header.thickness;
-    T strain[3], bend[3];
-    for (int c = 0; c < 3; ++c) strain[c] = step * rates.membrane[c];
-    for (int c = 0; c < 3; ++c) bend[c] = (step * old_thickness) * rates.curvature[c];
-    const T half_shear[2] = {0.5 * step * rates.shear[0], 0.5 * step * rates.shear[1]};
-    T force[3] = {T(0.0), T(0.0), T(0.0)};
-    T moment[3] = {T(0.0), T(0.0), T(0.0)};
-    T shear[2] = {T(0.0), T(0.0)};
-    T thickness_strain = T(0.0);
-    T work = T(0.0);
-    const std::size_t pack_bytes =
-        sizeof(Header<T, Law>) + static_cast<std::size_t>(thickness_points) * sizeof(Point<T, Law>);
-    for (int p = 0; p < thickness_points; ++p) {
-      const T place(quadrature_rule.place[static_cast<std::size_t>(p)]);
-      const T weight(quadrature_rule.weight[static_cast<std::size_t>(p)]);
-      const ShellTensor<T> strain_increment{strain[0] + place * bend[0], strain[1] + place * bend[1],
-                                            strain[2] + place * bend[2], half_shear[1], half_shear[0]};
-      const ShellTensor<T> before = point[p].stress;
-      ShellTensor<T> stress = before;
-      T through = T(0.0);
-      law.update_plane_stress(strain_increment, shear_factor, stress, point[p].history, through);
-      point[p].stress = stress;
-      fetch_ahead(reinterpret_cast<std::uintptr_t>(point + p) + pack_bytes, sizeof(Point<T, Law>));
-      thickness_strain += weight * through;
-      const T normal_work =
-          (before.xx + stress.xx) * strain_increment.xx + (before.yy + stress.yy) * strain_increment.yy;
-      const T shear_work = (before.xy + stress.xy) * strain_increment.xy +
-                           (before.yz + stress.yz) * strain_increment.yz +
-                           (before.xz + stress.xz) * strain_increment.xz;
-      work += weight * (0.5 * normal_work + shear_work);
-      const T lever = weight * place;
-      force[0] += weight * stress.xx;
-      force[1] += weight * stress.yy;
-      force[2] += weight * stress.xy;
-      moment[0] += lever * stress.xx;
-      moment[1] += lever * stress.yy;
-      moment[2] += lever * stress.xy;
-      shear[0] += weight * stress.xz;
-      shear[1] += weight * stress.yz;
-    }
-    // Halves of the changes of thickness and area over the step lead to the volume in its middle.
-    const T half_strain = 0.5 * thickness_strain;
-    T middle_thickness = old_thickness;
-    if (thickness_update) {
-      header.thickness = old_thickness * (1.0 + thickness_strain + half_strain * thickness_strain);
-      middle_thickness = old_thickness * (1.0 + half_strain);
-    }
-    const T middle_area = g.area * (1.0 - 0.5 * (strain[0] + strain[1]));
-    increment.internal_energy = (middle_area * middle_thickness) * work;
-    header.internal_energy += increment.internal_energy;
-    const T h = header.thickness;
-    const T h_squared = square(h);
-    return {{h * force[0], h * force[1], h * force[2]},
-            {h_squared * moment[0], h_squared * moment[1], h_squared * moment[2]},
-            {h * shear[0], h * shear[1]},
-            {},
-            {},
-            T(0.0)};
-  }
-
-  /// Upper bound of the highest frequency squared, without resistance to drilling.
-  template <class T, class Law>
-  BRIO_INLINE T frequency_square(const ShellGeometry<T>& g, const PlaneStressModuli<T>& moduli,
-                                 const Header<T, Law>& header) const {
-    return highest_frequency_square(g, moduli, shear_factor, rule().second_moment(), header.mass,
-                                    header.thickness, header.inverse_gyration, hourglass_stiffness,
-                                    warping_projection);
-  }
-
-  /// Moment per spin about the normal.
-  template <class T, class Law>
-  BRIO_INLINE T drill_stiffness(T frequency_squared, const Header<T, Law>& header) const {
-    return drilling_stiffness * frequency_squared * header.mass / header.inverse_gyration;
-  }
-
-  /// What resistance to drilling adds to the largest square of a frequency: its only mode is all four nodes'
-  /// spin against that of the material.
-  template <class T, class Law>
-  static BRIO_INLINE T drilling_frequency_square(const ShellGeometry<T>& g, T drill,
-                                                 const Header<T, Law>& header) {
-    return (drill / header.mass) * (header.inverse_gyration + 1.25 * gradient_square(g));
-  }
-
-  /// What damping of drilling adds to the ratio of damping. Strain meets the part of the mode that is the
-  /// material's spin, a share t = s r^2 of that of the nodes. For a mode p joined with strain by the root of
-  /// t p, all together is below the larger of (strain + 5/4 t p) and 5 p; 5 p is below 1 where the spring is
-  /// weak.
-  template <class T, class Law>
-  BRIO_INLINE T drilling_damping(const ShellGeometry<T>& g, const Header<T, Law>& header) const {
-    const double ratio = drilling_viscosity * std::sqrt(drilling_stiffness);
-    const T share = gradient_square(g) / header.inverse_gyration;
-    const bool is_weak = 5 * (drilling_stiffness + 2 * ratio) <= 1;
-    return is_weak ? (1.25 * ratio) * share : ratio * (1.0 + share);
-  }
-
-  /// Nodal spin about the normal bends no element that is flat, and nothing else would resist it; but moments
-  /// of elements that are tilted against each other drive it, and turn it into what bends. (After Hughes &
-  /// Brezzi 1989: a weak spring between the spin of the nodes and that of the material. One for the mean of
-  /// the nodes, as one point of integration gives: nodes spin unequally where a warped surface bends, and one
-  /// for each would lock it. It yields at a hundredth of a radian, so that it does not resist where the
-  /// corners of folds shear in their plane. Moments are not those of a potential in that spin: it swings up
-  /// in strips of short elements that are bent strongly, unless damped.)
-  template <class T, class Law>
-  BRIO_INLINE void resist_drilling(T drill, const ShellRates<T>& rates, T step, Header<T, Law>& header,
-                                   ShellRates<T>& result, Increment<T>& increment) const {
-    const SpringChange<T> change = spring_change(header.drilling_stiffness, drill);
-    header.drilling_stiffness = drill;
-    const T before = change.carried * header.drilling;
-    const T growth = (step * change.growth) * rates.drilling;
-    header.drilling = min(max(before + growth, -drilling_limit), drilling_limit);
-    increment.hourglass_energy += (0.5 * drill) * growth * (before + header.drilling);
-    const T elastic = drill * header.drilling;
-    const T damper = (2 * drilling_viscosity) * sqrt(drill * header.mass / header.inverse_gyration);
-    const T most = drilling_limit * drill;
-    result.drilling = min(max(elastic + damper * rates.drilling, -most), most);
-    const T viscous = result.drilling - elastic;
-    increment.viscous_energy += (0.5 * step) * rates.drilling * (header.viscous_drilling + viscous);
-    header.viscous_drilling = viscous;
-  }
-
-  /// Elastic and viscous hourglass forces (Belytschko, Ong, Liu & Kennedy 1984).
-  /// They stay elastic when the material yields: reduced with its stress, as those of bricks are, they let
-  /// the elements in the folds of a can collapse into slivers.
-  template <class T, class Law>
-  BRIO_INLINE void resist_hourglass(const ShellGeometry<T>& g, const PlaneStressModuli<T>& moduli,
-                                    const ShellRates<T>& rates, T step, T undamped_step,
-                                    Header<T, Law>& header, ShellRates<T>& result,
-                                    Increment<T>& increment) const {
-    const HourglassStiffness<T> stiffness =
-        brio::hourglass_stiffness(g, moduli, shear_factor, header.thickness, hourglass_stiffness);
-    const HourglassStiffness<T> old = header.hourglass_stiffness;
-    header.hourglass_stiffness = stiffness;
-    const SpringChange<T> in_plane = spring_change(old.membrane, stiffness.membrane);
-    const SpringChange<T> bow = spring_change(old.normal, stiffness.normal);
-    const SpringChange<T> turning = spring_change(old.rotation, stiffness.rotation);
-    T work = T(0.0);
-    const auto force = [step, &work](T& strain, const SpringChange<T>& change, T rate, T end_stiffness) {
-      const T before = change.carried * strain;
-      const T growth = (step * change.growth) * rate;
-      strain = before + growth;
-      work += end_stiffness * ((before + strain) * growth);
-      return end_stiffness * strain;
-    };
-    for (int c = 0; c < 2; ++c) {
-      result.hourglass[c] = force(header.hourglass[c], in_plane, rates.hourglass[c], stiffness.membrane);
-      result.rotation[c] = force(header.rotation[c], turning, rates.rotation[c], stiffness.rotation);
-    }
-    result.hourglass[2] = force(header.hourglass[2], bow, rates.hourglass[2], stiffness.normal);
-    increment.hourglass_energy = 0.5 * work;
-    if (hourglass_viscosity > 0) {
-      const T damper = hourglass_viscosity * header.mass / (4.0 * undamped_step);
-      const T rotation_damper = damper / header.inverse_gyration;
-      T power = T(0.0);
-      for (int c = 0; c < 3; ++c) {
-        result.hourglass[c] += damper * rates.hourglass[c];
-        power += damper * square(rates.hourglass[c]);
-      }
-      for (int c = 0; c < 2; ++c) {
-        result.rotation[c] += rotation_damper * rates.rotation[c];
-        power += rotation_damper * square(rates.rotation[c]);
-      }
-      increment.viscous_energy += step * power;
-    }
-  }
 };
+
+/// Sets block.kernel.
+void choose_kernel(const Shell4& element, Block& block);
 
 }  // namespace brio

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "elements/base/element_kind.hpp"
 #include "elements/solid/objective_rate.hpp"
 #include "elements/solid/solid.hpp"
 #include "src/base/fields.hpp"
@@ -12,10 +13,13 @@ namespace brio {
 /// Above this, hourglass modes would set the stable time step.
 inline constexpr Range hourglass_stiffness_range{.lower = 0, .upper = 0.15};
 
+struct Block;
+
 struct Hex8 {
   static constexpr std::string_view name = "hex8";
   static constexpr int nodes = 8;
   static constexpr bool rotations = false;
+  static constexpr ElementTraits traits{.cell = hexahedron_cell, .summary_key = "hex8"};
   template <class Law>
   static constexpr bool accepts = is_solid_law<Law>;
 
@@ -24,6 +28,8 @@ struct Hex8 {
   double hourglass_viscosity = 0;
   double linear_bulk_viscosity = 0.06;
   double quadratic_bulk_viscosity = 1.2;
+
+  double contact_thickness() const { return 0; }
 
   static constexpr auto fields() {
     return field_table(optional("objective_rate", &Hex8::objective_rate, any_number, "objective stress rate"),
@@ -38,5 +44,8 @@ struct Hex8 {
                                 "quadratic bulk viscosity b2, for shocks, in compression only, -"));
   }
 };
+
+/// Sets block.kernel.
+void choose_kernel(const Hex8& element, Block& block);
 
 }  // namespace brio

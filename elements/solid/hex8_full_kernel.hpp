@@ -72,10 +72,10 @@ inline constexpr double point_volume = 1.0 / 512.0;
 template <ObjectiveRate rate>
 struct Hex8FullKernel : Hex8Full {
   using Settings = Hex8Full;
-  static constexpr bool uses_differences = true;
+  static constexpr KernelTraits kernel_traits{.uses_differences = true, .fetches_points_ahead = true};
   static constexpr int most_points = hexahedron_points;
-  static constexpr bool fetches_points_ahead = true;
   static constexpr int points() { return hexahedron_points; }
+  static double point_size(double volume) { return std::cbrt(volume / hexahedron_points); }
   template <class Law>
   static constexpr bool accepts = RateLaw<Law> || (rate == ObjectiveRate::green_naghdi && StretchLaw<Law>);
 

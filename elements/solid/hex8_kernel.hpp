@@ -18,9 +18,10 @@ namespace brio {
 template <ObjectiveRate rate>
 struct Hex8Kernel : Hex8 {
   using Settings = Hex8;
-  static constexpr bool uses_differences = true;
+  static constexpr KernelTraits kernel_traits{.uses_differences = true};
   static constexpr int most_points = 1;
   static constexpr int points() { return 1; }
+  static double point_size(double volume) { return std::cbrt(volume); }
   static constexpr bool is_unrotated = rate == ObjectiveRate::green_naghdi;
   template <class Law>
   static constexpr bool accepts = RateLaw<Law> || (is_unrotated && StretchLaw<Law>);

@@ -4,28 +4,19 @@
 
 #include "elements/base/motion.hpp"
 #include "elements/solid/objective_rate.hpp"
-#include "materials/stress_state.hpp"
+#include "materials/material_law.hpp"
 
 namespace brio {
 
 /// A material model in rate form, on strain increments.
 template <class Law>
-concept RateLaw = requires(const Law& law, const SymmetricTensor<double>& strain_increment,
-                           SymmetricTensor<double>& stress, typename Law::template History<double>& history) {
-  law.update(strain_increment, stress, history);
-};
+concept RateLaw = Law::traits.update;
 /// A material model on total stretch: Cauchy stress on material axes from the right stretch.
 template <class Law>
-concept StretchLaw = requires(const Law& law, const SymmetricTensor<double>& stretch,
-                              SymmetricTensor<double>& stress,
-                              typename Law::template History<double>& history) {
-  law.update_from_stretch(stretch, stress, history);
-};
+concept StretchLaw = Law::traits.update_from_stretch;
 /// A material model with a yield stress (plastic_flow.hpp).
 template <class Law>
-inline constexpr bool has_yield_stress = requires(const Law& law) {
-  law.hardening();
-};
+inline constexpr bool has_yield_stress = Law::traits.hardening;
 template <class Law>
 inline constexpr bool is_solid_law = RateLaw<Law> || StretchLaw<Law>;
 
@@ -83,7 +74,7 @@ BRIO_INLINE PointStep<T> update(const Law& law, const Tensor<T>& n, SolidPoint<T
   } else {
     axes = turn_with_spin(n);
     point.stress = turned(axes.end, point.stress);
-    if constexpr (requires { point.history.back_stress; })
+    if constexpr (Law::traits.back_stress)
       point.history.back_stress = turned(axes.end, point.history.back_stress);
   }
   PointStep<T> step{T(0.0), point.stress, T(0.0)};
@@ -118,7 +109,7 @@ SymmetricTensor<double> fixed_stress(const SolidPoint<double, Law, rate>& point)
 
 template <class Law, ObjectiveRate rate>
 double equivalent_plastic_strain_of(const SolidPoint<double, Law, rate>& point) {
-  if constexpr (requires { point.history.equivalent_plastic_strain; }) {
+  if constexpr (Law::traits.equivalent_plastic_strain) {
     return point.history.equivalent_plastic_strain;
   } else {
     return 0.0;

@@ -53,7 +53,7 @@ AddedMass make_mass_scaling(const TimeSection& time, const Deck& deck, std::span
           mass.settings.place);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Block& block = blocks[parts[p].block];
-    if (!can_be_scaled(block.element)) continue;
+    if (!traits_of(block.element).gains_mass) continue;
     if (block.deletion.volume_ratio)
       throw BuildError("deletion.volume_ratio of part '" + parts[p].name +
                            "' is judged by mass and does not go with time.mass_scaling",

@@ -20,7 +20,7 @@ struct Point {
   typename Law::template History<double> history{};
 
   explicit Point(const Law& running, double size = 1) : law(running) {
-    if constexpr (requires { law.start(history, size); }) law.start(history, size);
+    if constexpr (can_fail<Law>) law.start(history, size);
   }
   void strain(const SymmetricTensor<double>& increment) { law.update(increment, stress, history); }
   bool failed() const { return law.has_failed(history); }

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "elements/shell/shell4.hpp"
+#include "elements/shell/shell4_kernel.hpp"
 #include "tests/elements/steel.hpp"
 
 namespace brio {
@@ -15,17 +15,17 @@ using Points4 = std::array<Eigen::Vector3d, 4>;
 
 template <class Law = Elastic>
 struct SingleShell {
-  Shell4 shell;
+  Shell4Kernel shell;
   Law law;
-  Shell4::Header<double, Law> header{};
-  std::vector<Shell4::Point<double, Law>> points;
+  Shell4Kernel::Header<double, Law> header{};
+  std::vector<Shell4Kernel::Point<double, Law>> points;
   NodalMass<double> mass{};
   Increment<double> increment{};
   RotatingNodalForces<double, 4> nodal{};
   Points4 position;
 
   SingleShell(const Shell4& element, const Law& material, const Points4& x)
-      : shell(element), law(material), points(static_cast<std::size_t>(element.points())), position(x) {
+      : shell{element}, law(material), points(static_cast<std::size_t>(shell.points())), position(x) {
     mass = shell.initialize(motion(x, {}, {}), law, header, points.data());
   }
 

@@ -96,7 +96,7 @@ EnergyAccount brick_balance(const Law& law, const Cycle& cycle, double squeeze, 
   return account;
 }
 
-double stored_in(const Shell4::Header<double, Elastic>& header) {
+double stored_in(const Shell4Kernel::Header<double, Elastic>& header) {
   const HourglassStiffness<double>& k = header.hourglass_stiffness;
   const auto pair = [](const double(&c)[2]) { return c[0] * c[0] + c[1] * c[1]; };
   const double in_plane[2] = {header.hourglass[0], header.hourglass[1]};

@@ -243,9 +243,15 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
         motion.angular_velocity[i][corner] = nodes.angular_velocity[node].component[i];
     }
   }
-  ElementSample sample = kind.sample(motion, law_of<Law>(block.material), header, points.data());
-  if constexpr (can_fail<Law>)
-    for (std::size_t p = 0; p < count; ++p) sample.damage = std::max(sample.damage, points[p].history.damage);
+  const Law law = law_of<Law>(block.material);
+  ElementSample sample = kind.sample(motion, law, header, points.data());
+  static_assert(history_names<Law>.size() <= ElementSample::most_named);
+  sample.history_names = history_names<Law>;
+  if constexpr (Law::traits.named_history) {
+    std::size_t next = 0;
+    Law::named_history()(
+        [&](const auto& row) { sample.history[next++] = history_value(law, row, points.data(), count); });
+  }
   return sample;
 }
 

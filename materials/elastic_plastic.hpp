@@ -27,6 +27,7 @@ struct ElasticPlastic {
                                          .hardening = true,
                                          .failure = true,
                                          .is_reduced = true,
+                                         .named_history = true,
                                          .fault = true};
   double density = 0;
   double youngs_modulus = 0;
@@ -56,6 +57,10 @@ struct ElasticPlastic {
     T equivalent_plastic_strain;
     SymmetricTensor<T> back_stress;  ///< deviatoric
   };
+
+  static constexpr auto named_history() {
+    return field_table(largest("equivalent_plastic_strain", &History<double>::equivalent_plastic_strain));
+  }
 
   ElasticConstants elastic() const { return {youngs_modulus, poissons_ratio}; }
   LinearHardening hardening() const { return {yield_stress, (1 - hardening_mix) * hardening_modulus}; }
@@ -98,6 +103,10 @@ struct IsotropicElasticPlastic : ElasticPlastic {
   struct History {
     T equivalent_plastic_strain;
   };
+
+  static constexpr auto named_history() {
+    return field_table(largest("equivalent_plastic_strain", &History<double>::equivalent_plastic_strain));
+  }
 
   template <class T>
   ElasticModuli<T> moduli(const History<T>&) const {

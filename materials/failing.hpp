@@ -28,7 +28,7 @@ template <class Law>
 struct Failing : Law {
   static constexpr MaterialTraits traits = [] {
     MaterialTraits failing = Law::traits;
-    failing.has_failed = true;
+    failing.has_failed = failing.named_history = true;
     return failing;
   }();
 
@@ -38,6 +38,14 @@ struct Failing : Law {
     T measure;         ///< tearing parameter or D; 0 where the deck names a strain
     T opening_strain;  ///< at which damage is 1
   };
+
+  /// Those of the law, and damage.
+  static constexpr auto named_history() {
+    return [](const auto& take) {
+      if constexpr (Law::traits.named_history) Law::named_history()(take);
+      take(largest("damage", &History<double>::damage));
+    };
+  }
 
   template <class T>
   ElasticModuli<T> moduli(const History<T>& history) const {

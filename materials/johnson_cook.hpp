@@ -129,6 +129,7 @@ struct JohnsonCook {
                                          .time_step = true,
                                          .rate_logarithm = true,
                                          .failure = true,
+                                         .named_history = true,
                                          .fault = true};
   double density = 0;
   double youngs_modulus = 0;
@@ -172,6 +173,15 @@ struct JohnsonCook {
     T equivalent_plastic_strain;
     T temperature_rise;
   };
+
+  static constexpr auto named_history() {
+    return field_table(largest("equivalent_plastic_strain", &History<double>::equivalent_plastic_strain),
+                       largest("temperature", &JohnsonCook::temperature));
+  }
+  /// Degree; 0 without `thermal`, where none is known.
+  double temperature(const History<double>& history) const {
+    return thermal ? thermal->start() + history.temperature_rise : 0;
+  }
 
   ElasticConstants elastic() const { return {youngs_modulus, poissons_ratio}; }
   /// At the reference rate and temperature.

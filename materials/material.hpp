@@ -1,7 +1,9 @@
 #pragma once
 /// What is asked of a material, whatever its law.
 
+#include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "materials/laws.hpp"
 
@@ -24,6 +26,18 @@ inline bool has_failure(const Material& material) {
         } else {
           return false;
         }
+      },
+      material);
+}
+
+/// Names that the history of the law has, and so the cells of its elements.
+inline std::vector<std::string_view> history_names_of(const Material& material) {
+  return std::visit(
+      []<class Law>(const Law& law) {
+        std::vector<std::string_view> names(history_names<Law>.begin(), history_names<Law>.end());
+        if constexpr (Law::traits.failure)
+          if (law.failure) names.emplace_back("damage");
+        return names;
       },
       material);
 }

@@ -38,6 +38,7 @@
 #include <variant>
 
 #include "materials/failure.hpp"
+#include "materials/named_history.hpp"
 #include "materials/stress_state.hpp"
 
 namespace brio {
@@ -66,6 +67,8 @@ struct MaterialTraits {
   bool has_failed = false;
   /// The type `Reduced`, a law of less state that runs in place of this one where is_reduced().
   bool is_reduced = false;
+  /// named_history(): what of the history has a name and can be written as a field (named_history.hpp).
+  bool named_history = false;
   /// fault(): what is wrong with the parameters taken together; empty where nothing is.
   bool fault = false;
 
@@ -137,6 +140,10 @@ concept is_reduced = requires(const Law& law) {
   { law.is_reduced() } -> std::same_as<bool>;
 };
 template <class Law>
+concept named_history = requires {
+  Law::named_history();
+};
+template <class Law>
 concept fault = requires(const Law& law) {
   { law.fault() } -> std::convertible_to<std::string_view>;
 };
@@ -169,6 +176,7 @@ inline constexpr MaterialTraits optional_members{
     .failure = has::failure<Law>,
     .has_failed = has::has_failed<Law>,
     .is_reduced = has::is_reduced<Law>,
+    .named_history = has::named_history<Law>,
     .fault = has::fault<Law>};
 
 /// A law has an update; one that hardens or fails has a plastic strain to do it by.
@@ -215,6 +223,8 @@ struct CheckedLaw {
                 "disagree");
   static_assert(traits.is_reduced == has::is_reduced<Law>,
                 "traits.is_reduced, the type Reduced and is_reduced() disagree");
+  static_assert(traits.named_history == has::named_history<Law>,
+                "traits.named_history and static named_history() disagree");
   static_assert(traits.fault == has::fault<Law>, "traits.fault and fault() disagree");
   static_assert(make_sense(traits),
                 "a law needs one of the updates; one that hardens or fails needs equivalent_plastic_strain");

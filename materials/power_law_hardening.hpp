@@ -19,6 +19,7 @@ struct PowerLawHardening {
                                          .equivalent_plastic_strain = true,
                                          .hardening = true,
                                          .failure = true,
+                                         .named_history = true,
                                          .fault = true};
   double density = 0;
   double youngs_modulus = 0;
@@ -52,6 +53,10 @@ struct PowerLawHardening {
     T equivalent_plastic_strain;
     T plastic_strain_rest{};  ///< below the last digit of the former (hardening.hpp)
   };
+
+  static constexpr auto named_history() {
+    return field_table(largest("equivalent_plastic_strain", &History<double>::equivalent_plastic_strain));
+  }
 
   ElasticConstants elastic() const { return {youngs_modulus, poissons_ratio}; }
   PowerHardening hardening() const {

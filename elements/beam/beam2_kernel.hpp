@@ -132,9 +132,6 @@ struct Beam2Kernel : Beam2 {
       const double share =
           bends() ? 0.5 * fibres->fibre[static_cast<std::size_t>(p % fibres->count)].share : 1.0;
       mean = mean + share * point[p].stress;
-      if constexpr (Law::traits.equivalent_plastic_strain)
-        out.equivalent_plastic_strain =
-            std::max(out.equivalent_plastic_strain, point[p].history.equivalent_plastic_strain);
     }
     const Vector3<double> chord = chord_of(motion);
     Vector3<double> x = (1 / std::sqrt(dot(chord, chord))) * chord;

@@ -251,7 +251,6 @@ struct ParticleKernel : Particle {
   ElementSample sample(const NodalMotion<double, 1>&, const Law&, const Header<double, Law>& header,
                        const Point<double, Law>* point) const {
     return {.stress = fixed_stress(*point),
-            .equivalent_plastic_strain = equivalent_plastic_strain_of(*point),
             .internal_energy = header.internal_energy,
             .radius = 0.5 * edge_of_cube(header.volume),
             .density = header.mass / header.volume};

@@ -126,9 +126,6 @@ struct Shell4Kernel : Shell4 {
       const ShellTensor<double>& stress = point[p].stress;
       mean = {mean.xx + weight * stress.xx, mean.yy + weight * stress.yy, mean.xy + weight * stress.xy,
               mean.yz + weight * stress.yz, mean.xz + weight * stress.xz};
-      if constexpr (Law::traits.equivalent_plastic_strain)
-        out.equivalent_plastic_strain =
-            std::max(out.equivalent_plastic_strain, point[p].history.equivalent_plastic_strain);
     }
     const double local[3][3] = {
         {mean.xx, mean.xy, mean.xz}, {mean.xy, mean.yy, mean.yz}, {mean.xz, mean.yz, 0}};

@@ -183,11 +183,8 @@ struct Hex8FullKernel : Hex8Full {
                        const Point<double, Law>* point) const {
     ElementSample result{.internal_energy = header.internal_energy};
     result.stress = isotropic(0.0);
-    for (int p = 0; p < hexahedron_points; ++p) {
+    for (int p = 0; p < hexahedron_points; ++p)
       result.stress = result.stress + (1.0 / hexahedron_points) * fixed_stress(point[p]);
-      result.equivalent_plastic_strain =
-          max(result.equivalent_plastic_strain, equivalent_plastic_strain_of(point[p]));
-    }
     return result;
   }
 

@@ -169,9 +169,7 @@ struct Hex8Kernel : Hex8 {
   template <class Law>
   ElementSample sample(const NodalMotion<double, 8>&, const Law&, const Header<double, Law>& header,
                        const Point<double, Law>* point) const {
-    return {.stress = fixed_stress(*point),
-            .equivalent_plastic_strain = equivalent_plastic_strain_of(*point),
-            .internal_energy = header.internal_energy};
+    return {.stress = fixed_stress(*point), .internal_energy = header.internal_energy};
   }
 };
 

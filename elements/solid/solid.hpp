@@ -107,15 +107,6 @@ SymmetricTensor<double> fixed_stress(const SolidPoint<double, Law, rate>& point)
   }
 }
 
-template <class Law, ObjectiveRate rate>
-double equivalent_plastic_strain_of(const SolidPoint<double, Law, rate>& point) {
-  if constexpr (Law::traits.equivalent_plastic_strain) {
-    return point.history.equivalent_plastic_strain;
-  } else {
-    return 0.0;
-  }
-}
-
 /// The volume of a step: exact at its end, from the affine part of the motion at its middle. Where either is
 /// not positive the element has inverted; the numbers are then replaced by harmless ones.
 template <class T>

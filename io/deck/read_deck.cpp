@@ -16,6 +16,22 @@ void check_precision(const Deck& deck, const YamlNode& root) {
                       "part '" + part.name + "' is of particles, which are computed in double only");
 }
 
+/// Names that no material of a part knows would be fields of zeros.
+void check_history_fields(const Deck& deck, const YamlNode& root) {
+  if (deck.output.fields_.history.empty()) return;
+  std::vector<std::string_view> known;
+  for (const auto& [name, material] : deck.materials)
+    for (const std::string_view word : history_names_of(material))
+      if (std::ranges::find(known, word) == known.end()) known.push_back(word);
+  const YamlNode& list = *root.find("output")->value->find("fields")->value->find("history")->value;
+  for (std::size_t i = 0; i < deck.output.fields_.history.size(); ++i) {
+    const std::string& name = deck.output.fields_.history[i];
+    if (std::ranges::find(known, name) != known.end()) continue;
+    throw DeckError(list.items[i]->place,
+                    "no material has a history '" + name + "'; " + accepted_words(name, known));
+  }
+}
+
 }  // namespace
 
 Deck read_deck(const std::string& path, const std::vector<std::string>& overrides) {
@@ -41,6 +57,7 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
         "'parts' is empty; at least one part is expected, such as {cube: {mesh: ..., element: ..., "
         "material: ...}}");
   check_precision(deck, *root);
+  check_history_fields(deck, *root);
   deck.text = overrides.empty() && root == as_said ? text : write_yaml(*root);
   return deck;
 }

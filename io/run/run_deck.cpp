@@ -179,13 +179,16 @@ std::optional<RestartFile> restart_of(const RunOptions& options, const Deck& dec
   return restart;
 }
 
-// Rows of another table cannot be appended.
-void expect_same_columns(const std::filesystem::path& results, const std::vector<std::string>& columns,
-                         const Deck& deck) {
-  if (ResultReader(results).history_columns() == columns) return;
-  throw DeckError(deck.file + ": the history in " + results.string() +
-                  " has other columns than this run; accepted are the same output.history.probes, or "
-                  "results in another folder (--output)");
+// Rows of other tables cannot be appended.
+void expect_same_columns(const std::filesystem::path& results, const RestartFile& restart,
+                         const std::vector<std::string>& columns, const Deck& deck) {
+  const Deck saved = parse_deck(restart.header.record.deck_text, restart.path.string());
+  if (ResultReader(results).history_columns() == columns &&
+      saved.output.fields_.history == deck.output.fields_.history)
+    return;
+  throw DeckError(deck.file + ": history or fields in " + results.string() +
+                  " have other columns than this run; accepted are the same output.history.probes and "
+                  "output.fields.history, or results in another folder (--output)");
 }
 
 bool is_same_folder(const std::filesystem::path& a, const std::filesystem::path& b) {
@@ -250,7 +253,7 @@ RunOutcome run_deck(const RunOptions& options) {
   const std::filesystem::path results = outcome.folder / (name + ".vtkhdf");
   const bool continues_results = restart && is_same_folder(restart->path.parent_path(), outcome.folder) &&
                                  std::filesystem::exists(results);
-  if (continues_results) expect_same_columns(results, history_columns(model), deck);
+  if (continues_results) expect_same_columns(results, *restart, history_columns(model), deck);
   ResultWriter writer = continues_results
                             ? ResultWriter(outcome.folder, name, settings)
                             : ResultWriter(outcome.folder, name, record, history_columns(model), settings);

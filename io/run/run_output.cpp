@@ -21,7 +21,7 @@ OutputSchedule restart_schedule(const Deck& deck) {
 RunOutput::RunOutput(const Deck& deck, Model& model, ResultWriter& writer)
     : model_(model),
       writer_(writer),
-      observer_(model),
+      observer_(model, deck.output.fields_.history),
       history_(history_columns(model)),
       field_schedule_(field_schedule(deck)),
       history_schedule_(history_schedule(deck)),

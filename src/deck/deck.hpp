@@ -364,10 +364,15 @@ struct TimeSection {
 struct FieldOutput {
   std::optional<double> every;
   std::vector<double> times;
+  std::vector<std::string> history;
   static constexpr auto fields() {
-    return field_table(optional("every", &FieldOutput::every, positive,
-                                "time between dumps; default: a twentieth of the end time"),
-                       optional("times", &FieldOutput::times, non_negative, "times of dumps instead"));
+    return field_table(
+        optional("every", &FieldOutput::every, positive,
+                 "time between dumps; default: a twentieth of the end time"),
+        optional("times", &FieldOutput::times, non_negative, "times of dumps instead"),
+        optional("history", &FieldOutput::history, any_number,
+                 "what of the history of the materials is written besides, each as a field of cells: a list "
+                 "of names, such as temperature; 0 in materials that do not know it"));
   }
   std::string_view fault() const {
     return every && !times.empty() ? "both 'every' and 'times' are given; one of them is accepted" : "";

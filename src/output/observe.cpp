@@ -98,7 +98,8 @@ std::vector<std::int64_t> points_of_nodes(const Model& model) {
 
 }  // namespace
 
-FieldObserver::FieldObserver(const Model& model) : point_of_node_(points_of_nodes(model)) {
+FieldObserver::FieldObserver(const Model& model, std::span<const std::string> history)
+    : point_of_node_(points_of_nodes(model)) {
   node_of_point_.resize(model.nodes.size() -
                         static_cast<std::size_t>(std::ranges::count(point_of_node_, std::int64_t{-1})));
   for (std::size_t node = 0; node < point_of_node_.size(); ++node)
@@ -112,14 +113,20 @@ FieldObserver::FieldObserver(const Model& model) : point_of_node_(points_of_node
   snapshot_.cell_fields = {field("stress", 6, 0), field("equivalent_plastic_strain", 1, 0),
                            field("part", 1, 0, Storage::integer, true),
                            field("element_id", 1, 0, Storage::integer, true)};
-  const auto add_cell_field = [&](const char* name) {
+  const auto add_cell_field = [&](const std::string& name) {
     snapshot_.cell_fields.push_back(field(name, 1, 0));
     return snapshot_.cell_fields.size() - 1;
   };
   if (has_shells(model)) thickness_ = add_cell_field("thickness");
   if (has<Beam2>(model) || has<Particle>(model)) radius_ = add_cell_field("radius");
   if (has<Particle>(model)) density_ = add_cell_field("density");
-  if (can_be_damaged(model)) damage_ = add_cell_field("damage");
+  history_ = {1};
+  const auto add_history = [&](const std::string& name) {
+    const auto is_there = [&](std::size_t k) { return snapshot_.cell_fields[k].name == name; };
+    if (std::ranges::none_of(history_, is_there)) history_.push_back(add_cell_field(name));
+  };
+  if (can_be_damaged(model)) add_history("damage");
+  for (const std::string& name : history) add_history(name);
   take_topology(model);
   fill_points(model);
   reference_ = snapshot_.points;
@@ -192,13 +199,15 @@ void FieldObserver::fill_cells(const Model& model) {
       double* stress = &snapshot_.cell_fields[0].values[6 * cell];
       const SymmetricTensor<double>& s = sample.stress;
       for (double component : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) *stress++ = component;
-      snapshot_.cell_fields[1].values[cell] = sample.equivalent_plastic_strain;
       snapshot_.cell_fields[2].values[cell] = static_cast<double>(p);
       snapshot_.cell_fields[3].values[cell] = static_cast<double>(e);
       if (thickness_) snapshot_.cell_fields[*thickness_].values[cell] = sample.thickness;
       if (radius_) snapshot_.cell_fields[*radius_].values[cell] = sample.radius;
       if (density_) snapshot_.cell_fields[*density_].values[cell] = sample.density;
-      if (damage_) snapshot_.cell_fields[*damage_].values[cell] = sample.damage;
+      for (const std::size_t k : history_) {
+        FieldArray& named = snapshot_.cell_fields[k];
+        named.values[cell] = sample.named(named.name);
+      }
       ++cell;
     }
   }

@@ -18,7 +18,8 @@ namespace brio {
 class FieldObserver {
  public:
   /// Stores the present positions as the reference of displacements.
-  explicit FieldObserver(const Model& model);
+  /// \param history names of the histories of material models that become fields of cells
+  explicit FieldObserver(const Model& model, std::span<const std::string> history = {});
 
   /// Fields at the time of the step; call between update_velocities and update_positions.
   const Snapshot& observe(const Model& model);
@@ -40,9 +41,9 @@ class FieldObserver {
   Snapshot snapshot_;
   std::vector<int> node_of_point_;
   std::vector<std::int64_t> point_of_node_;
-  std::int64_t deleted_ = 0;  ///< elements, when the topology was taken
-  std::optional<std::size_t> thickness_, radius_, density_,
-      damage_;  ///< places of these among the cell fields
+  std::int64_t deleted_ = 0;                                 ///< elements, when the topology was taken
+  std::optional<std::size_t> thickness_, radius_, density_;  ///< places of these among the cell fields
+  std::vector<std::size_t> history_;                         ///< of those that are history of a material
   std::vector<double> reference_;
 };
 

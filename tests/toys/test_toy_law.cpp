@@ -71,6 +71,19 @@ TEST(ToyLaw, RelaxesByTheTimeStepThatTheSweepTellsIt) {
   }
 }
 
+TEST(ToyLaw, NamesItsHistoryWhichElementsKnowNothingOf) {
+  EXPECT_EQ(history_names_of(rubber()), (std::vector<std::string_view>{"dissipation", "temperature_rise"}));
+  for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
+    HeldCube cube(rubber(), precision);
+    for (int k = 1; k <= 400; ++k) cube.sweep();
+    // What is left of the elastic energy 2 G e^2 per volume is nothing; backward Euler loses a little of it.
+    const double energy = 0.5 * 1e6 / 2.6 * 1e-6;
+    EXPECT_NEAR(cube.sample().named("dissipation"), energy, 0.1 * energy);
+    EXPECT_DOUBLE_EQ(cube.sample().named("temperature_rise"), 1e-6 * cube.sample().named("dissipation"));
+    EXPECT_EQ(cube.sample().named("equivalent_plastic_strain"), 0);
+  }
+}
+
 TEST(ToyLaw, IsTheElasticOneWhereNothingRelaxes) {
   ToyMaxwell stiff = rubber();
   stiff.relaxation_time = 1e30;

@@ -12,7 +12,7 @@ namespace brio {
 struct ToyMaxwell {
   static constexpr std::string_view name = "toy_maxwell";
   using Settings = ToyMaxwell;
-  static constexpr MaterialTraits traits{.update = true, .time_step = true};
+  static constexpr MaterialTraits traits{.update = true, .time_step = true, .named_history = true};
   double density = 0;
   double youngs_modulus = 0;
   double poissons_ratio = 0;
@@ -31,6 +31,12 @@ struct ToyMaxwell {
   struct History {
     T dissipation;  ///< energy per volume that has become heat
   };
+  static constexpr auto named_history() {
+    return field_table(mean("dissipation", &History<double>::dissipation),
+                       largest("temperature_rise", &ToyMaxwell::temperature_rise));
+  }
+  /// Degree, of a heat capacity of 1e6 per volume.
+  double temperature_rise(const History<double>& history) const { return 1e-6 * history.dissipation; }
 
   ElasticConstants elastic() const { return {youngs_modulus, poissons_ratio}; }
 

@@ -64,6 +64,11 @@ struct SingleBeam {
     f << force(0), force(1), moment(0), moment(1);
     return f;
   }
+  double plastic_strain() const {
+    double most = 0;
+    for (const auto& point : points) most = std::max(most, point.history.equivalent_plastic_strain);
+    return most;
+  }
   ElementSample sample() const { return beam.sample(motion({none(), none()}), law, header, points.data()); }
 };
 

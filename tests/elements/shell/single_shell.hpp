@@ -54,6 +54,11 @@ struct SingleShell {
   }
   Eigen::Vector3d force(int n) const { return {nodal.force[0][n], nodal.force[1][n], nodal.force[2][n]}; }
   Eigen::Vector3d moment(int n) const { return {nodal.moment[0][n], nodal.moment[1][n], nodal.moment[2][n]}; }
+  double plastic_strain() const {
+    double most = 0;
+    for (const auto& point : points) most = std::max(most, point.history.equivalent_plastic_strain);
+    return most;
+  }
   ElementSample sample() const {
     return shell.sample(motion(position, none(), none()), law, header, points.data());
   }

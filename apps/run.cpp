@@ -63,7 +63,7 @@ void print_outcome(const RunOutcome& outcome) {
       "error {:+.3f} %\n",
       energy.kinetic, energy.internal, energy.hourglass, energy.viscous, energy.contact, energy.friction,
       100 * energy.error_relative);
-  const std::int64_t deleted = summary.deleted.hex8 + summary.deleted.shell4 + summary.deleted.beam2;
+  const std::int64_t deleted = summary.deleted.total();
   if (deleted > 0)
     write_out("deleted: {} elements, energy {:.4g}; free nodes: mass {:.4g} retained, {:.4g} removed\n",
               deleted, energy.deleted, summary.mass.debris, summary.mass.deleted);

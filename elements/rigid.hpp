@@ -16,8 +16,8 @@ struct Rigid {
   static constexpr std::string_view name = "rigid";
   static constexpr int nodes = 0;  ///< as many as the mesh gives its elements
   static constexpr bool rotations = false;
-  static constexpr ElementTraits traits{.cell = hexahedron_cell,
-                                        .gains_mass = false};  // cells as in its mesh
+  static constexpr ElementTraits traits{
+      .cell = hexahedron_cell, .gains_mass = false, .shares_nodes = false};  // cells as in its mesh
   template <class Law>
   static constexpr bool accepts = true;  // of a material model only the density is used
 

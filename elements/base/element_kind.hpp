@@ -35,8 +35,11 @@
 /// it can be read back as plain doubles. A kernel that sees more than its own nodes specializes SeenByKernel
 /// (motion.hpp) and NodeExchange (elements/node_exchange.hpp).
 
+#include <algorithm>
 #include <concepts>
 #include <string_view>
+#include <variant>
+#include <vector>
 
 #include "elements/base/motion.hpp"
 #include "materials/material_law.hpp"
@@ -59,6 +62,8 @@ struct ElementTraits {
   ElementPrecision precision = ElementPrecision::any;
   /// Elements can be given mass for a longer stable time step.
   bool gains_mass = true;
+  /// Nodes can be those of other parts as well.
+  bool shares_nodes = true;
   // What its samples tell beside stress and energy.
   bool has_thickness = false;
   bool has_radius = false;
@@ -153,5 +158,14 @@ struct CheckedKind {
 };
 template <class... Kind>
 using ElementList = std::variant<typename CheckedKind<Kind>::Type...>;
+
+/// Keys of the summary, each once, in the order of the kinds. \param kinds any value of the list
+template <class... Kind>
+std::vector<std::string_view> summary_keys(const std::variant<Kind...>&) {
+  std::vector<std::string_view> keys;
+  for (const std::string_view key : {Kind::traits.summary_key...})
+    if (!key.empty() && std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+  return keys;
+}
 
 }  // namespace brio

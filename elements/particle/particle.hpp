@@ -31,6 +31,7 @@ struct Particle {
                                         .summary_key = "particle",
                                         .precision = ElementPrecision::double_only,
                                         .gains_mass = false,
+                                        .shares_nodes = false,
                                         .has_radius = true,
                                         .has_density = true};
   template <class Law>

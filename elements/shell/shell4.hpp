@@ -31,6 +31,14 @@ struct Shell4 {
   double drilling_viscosity = 1;
   double linear_bulk_viscosity = 0.06;
 
+  constexpr std::string_view fault() const {
+    if (quadrature == ThicknessQuadrature::lobatto && thickness_points == 2)  // the surfaces
+      return "two Lobatto points make bending three times as stiff; accepted are 3 to 9 thickness_points "
+             "with "
+             "quadrature: lobatto, or quadrature: gauss";
+    return "";
+  }
+
   double contact_thickness() const { return thickness; }
   const ThicknessRule& rule() const { return thickness_rule(quadrature, thickness_points); }
 

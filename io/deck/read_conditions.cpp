@@ -186,7 +186,7 @@ void read_connection(const YamlNode& node, const Slot& slot, Merge& merge) {
   const YamlNode& parts = *node.find("merge")->value;
   for (std::size_t i = 0; i < parts.items.size(); ++i) {
     const Part& part = slot.known.part(*parts.items[i], merge.parts[i]);
-    if (std::holds_alternative<Rigid>(part.element) || std::holds_alternative<Particle>(part.element))
+    if (!traits_of(part.element).shares_nodes)
       throw DeckError(parts.items[i]->place,
                       "part '" + part.name + "' is of elements '" + std::string(name_of(part.element)) +
                           "', which share no nodes; accepted are parts of solids, shells and beams");
@@ -213,7 +213,7 @@ void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) 
   refuse_rigid(slave, tied);
   const Part& main_surface = slot.known.part(*names.items[1], tie.names[1]);
   refuse_rigid(*names.items[1], main_surface);
-  if (nodes_per_element(main_surface.element) < 4)
+  if (!has_faces(traits_of(main_surface.element).cell))
     throw DeckError(names.items[1]->place,
                     "part '" + main_surface.name + "' is of elements '" +
                         std::string(name_of(main_surface.element)) +

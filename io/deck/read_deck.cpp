@@ -11,7 +11,7 @@ namespace {
 void check_precision(const Deck& deck, const YamlNode& root) {
   if (deck.numerics.precision == Precision::double_precision) return;
   for (const Part& part : deck.parts)
-    if (std::holds_alternative<Particle>(part.element))
+    if (traits_of(part.element).precision == ElementPrecision::double_only)
       throw DeckError(root.find("numerics")->value->find("precision")->value->place,
                       "part '" + part.name + "' is of particles, which are computed in double only");
 }

@@ -49,21 +49,12 @@ void check_deletion(const YamlEntry& entry, const Part& part, const Material& ma
                                      "' has none; a plastic one is accepted");
   for (const auto& [named, criterion] : {std::pair{part.deletion->volume_ratio.has_value(), "volume_ratio"},
                                          std::pair{part.deletion->corner_inverted, "corner_inverted"}})
-    if (named && nodes_per_element(part.element) != 8)
+    if (named && traits_of(part.element).cell != hexahedron_cell)
       throw DeckError(entry.place, "deletion by " + std::string(criterion) + " of elements '" +
                                        std::string(name_of(part.element)) + "'; hexahedra are accepted");
   if (part.deletion->debris_radius && part.deletion->free_nodes == FreeNodes::drop)
     throw DeckError(entry.place,
                     "debris_radius of nodes that are removed; it is accepted with free_nodes: keep");
-}
-
-// Two Lobatto points are the surfaces: bending would be three times as stiff.
-void check_rule(const Shell4& shell, const Place& place) {
-  if (shell.quadrature == ThicknessQuadrature::lobatto && shell.thickness_points == 2)
-    throw DeckError(
-        place,
-        "two Lobatto points make bending three times as stiff; accepted are 3 to 9 thickness_points "
-        "with quadrature: lobatto, or quadrature: gauss");
 }
 
 }  // namespace
@@ -105,7 +96,6 @@ void read_value(const YamlNode& node, const Slot& slot, Part& part) {
     return;
   }
   if (nodes_per_element(part.element) != nodes_per_element(part.mesh)) refuse_element(part, place);
-  if (const auto* shell = std::get_if<Shell4>(&part.element)) check_rule(*shell, place);
   if (part.deletion) check_deletion(*node.find("deletion"), part, material);
   if (!accepts(part.element, material))
     throw DeckError(place, "the element '" + kind + "' cannot use the material model '" +

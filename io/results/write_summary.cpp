@@ -9,11 +9,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json counts(const Summary::ElementCounts& elements) {
-  return {{"hex8", elements.hex8},
-          {"shell4", elements.shell4},
-          {"beam2", elements.beam2},
-          {"particle", elements.particle}};
+Json counts(const ElementCounts& elements) {
+  Json counts;
+  for (const auto& [key, count] : elements.by_key()) counts[std::string(key)] = count;
+  return counts;
 }
 
 Json energies(const Summary::Energies& energy) {

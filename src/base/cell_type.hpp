@@ -17,4 +17,7 @@ constexpr CellType cell_with(int corners) {
   return corners == 2 ? line_cell : vertex_cell;
 }
 
+/// Cells that contact and ties can touch on a side.
+constexpr bool has_faces(CellType cell) { return cell == quadrilateral_cell || cell == hexahedron_cell; }
+
 }  // namespace brio

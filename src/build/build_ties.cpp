@@ -43,12 +43,13 @@ MainSurface main_surface_of(std::size_t p, const Deck& deck, std::span<const Mes
   surface.name = deck.parts[p].name;
   surface.nodes_per_element = meshes[p].nodes_per_element;
   surface.connectivity = connectivity[p];
-  const auto* shell = std::get_if<Shell4>(&deck.parts[p].element);
-  if (shell != nullptr) surface.thickness.assign(meshes[p].element_count(), shell->thickness);
+  const Element& element = deck.parts[p].element;
+  const double thickness = std::visit([](const auto& kind) { return kind.contact_thickness(); }, element);
+  if (thickness > 0) surface.thickness.assign(meshes[p].element_count(), thickness);
   return {.part = p,
           .surface = make_surface(std::span(&surface, 1), model.nodes.size()),
-          .half_thickness = shell != nullptr ? 0.5 * shell->thickness : 0,
-          .turning = shell != nullptr};
+          .half_thickness = 0.5 * thickness,
+          .turning = has_rotations(element)};
 }
 
 CandidatePairs find_near(const MainSurface& main_surface, std::span<const int> slaves, double tolerance,

@@ -26,24 +26,17 @@ double mean_edge(const Mesh& mesh) {
   return sum / static_cast<double>(mesh.connectivity.size());
 }
 
-double thickness_of(const Element& element) {
-  if (const auto* shell = std::get_if<Shell4>(&element)) return shell->thickness;
-  if (const auto* rigid = std::get_if<Rigid>(&element)) return rigid->thickness.value_or(0);
-  if (const auto* beam = std::get_if<Beam2>(&element))
-    return 2 * beam->contact_radius.value_or(fibres_of(beam->section).radius);
-  return 0;
-}
-
 }  // namespace
 
 std::vector<double> contact_thickness(const Part& part, const Mesh& mesh) {
-  if (mesh.nodes_per_element == 8) return {};
+  if (cell_with(mesh.nodes_per_element) == hexahedron_cell) return {};
   if (!mesh.volume.empty()) {
     std::vector<double> edges;
     for (const double volume : mesh.volume) edges.push_back(edge_of_cube(volume));
     return edges;
   }
-  const double thickness = thickness_of(part.element), edge = mean_edge(mesh);
+  const auto thickness_of = [](const auto& element) { return element.contact_thickness(); };
+  const double thickness = std::visit(thickness_of, part.element), edge = mean_edge(mesh);
   if (thickness > largest_thickness * edge) {
     std::ostringstream fault;
     fault << "contact: part '" << part.name << "' is " << thickness << " thick, " << thickness / edge

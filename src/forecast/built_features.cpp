@@ -198,16 +198,16 @@ std::vector<BuiltFeature> built_features(const Deck& deck, Model&& model) {
 }
 
 std::vector<std::string> features_not_built(const Model& model) {
-  const auto lacks = [&](int corners) {
+  const auto lacks = [&](CellType cell) {
     return std::none_of(model.blocks.begin(), model.blocks.end(), [&](const Block& block) {
-      return !std::holds_alternative<Rigid>(block.element) && nodes_per_element(block.element) == corners;
+      return !std::holds_alternative<Rigid>(block.element) && traits_of(block.element).cell == cell;
     });
   };
   const std::vector<std::pair<const char*, bool>> all{
-      {"hexahedra", lacks(8)},
-      {"shells", lacks(4)},
-      {"beams", lacks(2)},
-      {"particles", lacks(1)},
+      {"hexahedra", lacks(hexahedron_cell)},
+      {"shells", lacks(quadrilateral_cell)},
+      {"beams", lacks(line_cell)},
+      {"particles", lacks(vertex_cell)},
       {"rigid bodies", model.rigid.empty()},
       {"merged nodes", model.merged.empty()},
       {"ties", model.ties.empty()},

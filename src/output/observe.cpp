@@ -15,30 +15,10 @@ FieldArray field(std::string name, int components, std::size_t count,
           storage, fixed};
 }
 
-bool is_shell(const Element& element) { return has_rotations(element) && nodes_per_element(element) == 4; }
-
-template <class Kind>
-bool has(const Model& model) {
+/// Whether any kind of element has that trait.
+bool any_has(const Model& model, bool ElementTraits::*trait) {
   return std::any_of(model.blocks.begin(), model.blocks.end(),
-                     [](const Block& block) { return std::holds_alternative<Kind>(block.element); });
-}
-
-CellType cell_of(int corners) {
-  if (corners == 8) return hexahedron_cell;
-  if (corners == 4) return quadrilateral_cell;
-  return corners == 2 ? line_cell : vertex_cell;
-}
-
-std::int64_t& count_of(const Element& element, Summary::ElementCounts& counts) {
-  const int corners = nodes_per_element(element);
-  if (corners == 8) return counts.hex8;
-  if (corners == 4) return counts.shell4;
-  return corners == 2 ? counts.beam2 : counts.particle;
-}
-
-bool has_shells(const Model& model) {
-  return std::any_of(model.blocks.begin(), model.blocks.end(),
-                     [](const Block& block) { return is_shell(block.element); });
+                     [&](const Block& block) { return traits_of(block.element).*trait; });
 }
 
 // Mean velocity of a part: momentum over mass.
@@ -117,9 +97,9 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> hi
     snapshot_.cell_fields.push_back(field(name, 1, 0));
     return snapshot_.cell_fields.size() - 1;
   };
-  if (has_shells(model)) thickness_ = add_cell_field("thickness");
-  if (has<Beam2>(model) || has<Particle>(model)) radius_ = add_cell_field("radius");
-  if (has<Particle>(model)) density_ = add_cell_field("density");
+  if (any_has(model, &ElementTraits::has_thickness)) thickness_ = add_cell_field("thickness");
+  if (any_has(model, &ElementTraits::has_radius)) radius_ = add_cell_field("radius");
+  if (any_has(model, &ElementTraits::has_density)) density_ = add_cell_field("density");
   history_ = {1};
   const auto add_history = [&](const std::string& name) {
     const auto is_there = [&](std::size_t k) { return snapshot_.cell_fields[k].name == name; };
@@ -141,9 +121,10 @@ void FieldObserver::take_topology(const Model& model) {
     const RigidBody* rigid =
         part.rigid >= 0 ? &model.rigid.body[static_cast<std::size_t>(part.rigid)] : nullptr;
     const int corners = rigid != nullptr ? rigid->nodes_per_element : nodes_per_element(block.element);
+    const CellType cell = rigid != nullptr ? cell_with(corners) : traits_of(block.element).cell;
     for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
       if (part.element_slot[e] < 0 && rigid == nullptr) continue;
-      topology.cell_type.push_back(cell_of(corners));
+      topology.cell_type.push_back(cell);
       topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
       for (int corner = 0; corner < corners; ++corner) {
         const std::size_t entry = e * static_cast<std::size_t>(corners) + static_cast<std::size_t>(corner);
@@ -367,9 +348,9 @@ Summary observe_end(Model& model) {
       rigid_mass += part.mass;
       continue;
     }
-    const Element& element = model.blocks[part.block].element;
-    count_of(element, summary.elements) += static_cast<std::int64_t>(part.element_slot.size());
-    if (model.erosion) count_of(element, summary.deleted) += model.erosion->deleted_count[part.block];
+    const std::string_view kind = traits_of(model.blocks[part.block].element).summary_key;
+    summary.elements[kind] += static_cast<std::int64_t>(part.element_slot.size());
+    if (model.erosion) summary.deleted[kind] += model.erosion->deleted_count[part.block];
   }
   summary.mass.intact = summary.mass.start;
   if (model.added_mass) summary.mass.intact += model.added_mass->total();

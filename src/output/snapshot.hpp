@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "src/base/cell_type.hpp"
+
 namespace brio {
 
 /// How the numbers of a field are kept in the file. Stress, velocity and the like lose nothing that a picture
@@ -23,14 +25,6 @@ struct FieldArray {
   /// True of what cannot change while the topology stays as it is (part, element number): written only with a
   /// new topology. Means nothing for a field of the whole scene.
   bool fixed_by_topology = false;
-};
-
-/// Cell types by their VTK numbers, the only ones that elements need.
-enum CellType : unsigned char {
-  vertex_cell = 1,
-  line_cell = 3,
-  quadrilateral_cell = 9,
-  hexahedron_cell = 12
 };
 
 /// Cells over the points of a snapshot.

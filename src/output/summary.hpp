@@ -2,21 +2,47 @@
 /// The end state of a run in figures, for scripts. The names are a contract: they may grow in number, not
 /// change.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "elements/deletion.hpp"
+#include "elements/kinds.hpp"
 
 namespace brio {
 
+/// Elements by the summary key of their kind, in the order of the kinds.
+class ElementCounts {
+ public:
+  ElementCounts() {
+    for (const std::string_view key : summary_keys(Element{})) by_key_.emplace_back(key, 0);
+  }
+  /// \pre key of a kind
+  std::int64_t& operator[](std::string_view key) {
+    return std::ranges::find(by_key_, key, &Count::first)->second;
+  }
+  std::int64_t operator[](std::string_view key) const {
+    return std::ranges::find(by_key_, key, &Count::first)->second;
+  }
+  std::int64_t total() const {
+    std::int64_t sum = 0;
+    for (const Count& count : by_key_) sum += count.second;
+    return sum;
+  }
+  using Count = std::pair<std::string_view, std::int64_t>;
+  const std::vector<Count>& by_key() const { return by_key_; }
+
+ private:
+  std::vector<Count> by_key_;
+};
+
 struct Summary {
-  struct ElementCounts {
-    std::int64_t hex8 = 0, shell4 = 0, beam2 = 0, particle = 0;
-  };
   struct StepSizes {
     double min = 0, max = 0, last = 0;
   };

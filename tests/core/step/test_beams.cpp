@@ -188,9 +188,9 @@ TEST(Beams, ResultsShowThemAsLinesWithTheirRadius) {
   EXPECT_EQ(radius.name, "radius");
   EXPECT_EQ(radius.values, (std::vector<double>{0.03, 0.03, 0.03, 0.03, 0}));
   const Summary summary = observe_end(model);
-  EXPECT_EQ(summary.elements.beam2, 4);
-  EXPECT_EQ(summary.elements.hex8, 1);
-  EXPECT_EQ(summary.elements.shell4, 0);
+  EXPECT_EQ(summary.elements["beam2"], 4);
+  EXPECT_EQ(summary.elements["hex8"], 1);
+  EXPECT_EQ(summary.elements["shell4"], 0);
 }
 
 TEST(Beams, AreHitUnlessTheDeckExcludesThem) {

@@ -163,8 +163,8 @@ TEST(Erosion, MassMomentumAndEnergyOfATornBlockAreKept) {
     EXPECT_LT(model.momentum.linear_imbalance(), 1e-12);
     EXPECT_LT(model.momentum.angular_imbalance(), 1e-12);
     const Summary summary = observe_end(model);
-    EXPECT_EQ(summary.elements.hex8, 729 + 27);
-    EXPECT_EQ(summary.deleted.hex8, static_cast<std::int64_t>(outcome.deaths.size()));
+    EXPECT_EQ(summary.elements["hex8"], 729 + 27);
+    EXPECT_EQ(summary.deleted["hex8"], static_cast<std::int64_t>(outcome.deaths.size()));
     EXPECT_NEAR(summary.mass.intact + summary.mass.debris + summary.mass.deleted, summary.mass.start,
                 1e-12 * mass);
     EXPECT_EQ(summary.mass.deleted > 0, free_nodes == FreeNodes::drop);

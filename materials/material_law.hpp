@@ -1,27 +1,27 @@
 #pragma once
-/// What a constitutive law provides, checked by the compiler.
+/// What a material model (constitutive law) provides, checked by the compiler.
 ///
 /// A law is a plain struct: the parameters that a deck sets, a history of lanes T, and updates at one
-/// material point on a number-like T (lanes.hpp). Every law has
+/// integration point on a number-like T (lanes.hpp). Every law has
 ///
-///     static constexpr std::string_view name;                     // its word in a deck
-///     using Settings = ...;                                       // the struct that a deck sets: mostly
-///     itself static constexpr MaterialTraits traits;                     // which of the optional members it
-///     has static constexpr auto fields();                             // entries of a deck
-///     (src/base/fields.hpp) double density;                                             // mass per
-///     reference volume template <class T> struct History;                          // of numbers T alone;
-///     starts as zero template <class T> ElasticModuli<T> moduli(const History<T>&) const;
-///         // tangent of the present state, from above: it bounds wave speeds and so the stable time step
+///     static constexpr std::string_view name;          // its word in a deck
+///     using Settings = ...;                            // the struct that a deck sets, as a rule itself
+///     static constexpr MaterialTraits traits;          // which of the optional members it has
+///     static constexpr auto fields();                  // entries of a deck (src/base/fields.hpp)
+///     double density;                                  // mass per reference volume
+///     template <class T> struct History;               // of numbers T alone; starts as zero
+///     template <class T> ElasticModuli<T> moduli(const History<T>&) const;
 ///
+/// where the moduli are the tangent of the present state, from above (they bound wave speeds and so the
+/// stable time step),
 /// and at least one of the updates, by which it pairs with elements:
 ///
 ///     template <class T> void update(const SymmetricTensor<T>& strain_increment,
 ///                                    SymmetricTensor<T>& stress, History<T>&) const;          // solids
 ///     template <class T> void update_from_stretch(const SymmetricTensor<T>& stretch,
 ///                                    SymmetricTensor<T>& stress, History<T>&) const;          // or this
-///     template <class T> void update_plane_stress(const ShellTensor<T>& strain_increment, double
-///     shear_factor,
-///                                    ShellTensor<T>& stress, History<T>&,
+///     template <class T> void update_plane_stress(const ShellTensor<T>& strain_increment,
+///                                    double shear_factor, ShellTensor<T>& stress, History<T>&,
 ///                                    T& thickness_strain_increment) const;                    // shells
 ///     template <class T> void update_fibre(const FibreTensor<T>& strain_increment, FibreTensor<T>& stress,
 ///                                    History<T>&) const;                                      // beams

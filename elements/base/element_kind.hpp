@@ -22,9 +22,10 @@
 ///     int points() const;                         // material points of an element, up to most_points
 ///     double point_size(double volume) const;     // edge of what a point stands for, of an element's volume
 ///     template <class T, class Law> struct Header;    // state of an element: T mass and more
-///     template <class T, class Law> struct Point;     // of a material point: Law::History<T> history and
-///     more NodalMass<T> initialize(const MotionOf<E, T>&, const Law&, Header<T, Law>&, Point<T, Law>*)
-///     const; Increment<T> force(const MotionOf<E, T>&, T step, const Law&, Header<T, Law>&, Point<T, Law>*,
+///     template <class T, class Law> struct Point;     // of an integration point: Law::History<T> and more
+///     NodalMass<T> initialize(const MotionOf<E, T>&, const Law&, Header<T, Law>&,
+///                             Point<T, Law>*) const;
+///     Increment<T> force(const MotionOf<E, T>&, T step, const Law&, Header<T, Law>&, Point<T, Law>*,
 ///                        ForcesOf<E, T>&) const;
 ///     ElementSample sample(const NodalMotionOf<E, double>&, const Law&, const Header<double, Law>&,
 ///                          const Point<double, Law>*) const;

@@ -1,5 +1,5 @@
 #pragma once
-/// Four-node shell: what a deck says of it. Its mathematics is in shell4_kernel.hpp.
+/// Belytschko-Tsay shell: settings of the deck. Equations: shell4_kernel.hpp.
 
 #include <string_view>
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Four-node shell of Belytschko, Lin & Tsay (1984): co-rotational axes at the centre, one point in the
-/// plane, velocity strains at 1 to 9 points through the thickness. A repeated fourth node makes it a
-/// triangle.
+/// Belytschko-Tsay shell (Belytschko, Lin & Tsay 1984): four nodes, co-rotational axes at the centre, one
+/// integration point in the plane, velocity strains at 1 to 9 points through the thickness. A repeated fourth
+/// node makes it a triangle.
 ///
 /// * Axes, strains and what was added to the original: shell_geometry.hpp, shell_strain.hpp.
 /// * Stable step and scaled rotational inertia: shell_step.hpp.

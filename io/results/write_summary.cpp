@@ -80,7 +80,6 @@ std::string summary_json(const Summary& summary) {
             {"deck", summary.deck},
             {"status", summary.status},
             {"exit_code", summary.exit_code},
-            {"restarted_from", summary.restarted_from},
             {"steps", summary.steps},
             {"time", summary.time},
             {"dt", {{"min", summary.dt.min}, {"max", summary.dt.max}, {"last", summary.dt.last}}},
@@ -102,6 +101,7 @@ std::string summary_json(const Summary& summary) {
             {"threads", summary.threads},
             {"active_features", summary.active_features},
             {"warnings", summary.warnings}};
+  if (!summary.restarted_from.empty()) json["restarted_from"] = summary.restarted_from;
   if (summary.contact.audits) json["crossings"] = summary.contact.audits->crossings;
   if (summary.ties) json["ties"] = {{"nodes", summary.ties->nodes}, {"released", summary.ties->released}};
   if (summary.mass_scaling)

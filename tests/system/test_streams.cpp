@@ -163,7 +163,7 @@ TEST_F(Refused, MemoryThatIsNotThereBeforeItIsTaken) {
         brio(std::string(command) + " cube.yaml --set parts.cube.mesh.box.elements=[200,200,200]",
              "ulimit -v 2000000; ");
     EXPECT_EQ(ending.exit_code, 2);
-    EXPECT_NE(ending.faults.find("cube.yaml:5:3: the scene wants about "), std::string::npos)
+    EXPECT_NE(ending.faults.find("cube.yaml:5:3: the scene needs about "), std::string::npos)
         << ending.faults;
     EXPECT_NE(ending.faults.find(" MB are available"), std::string::npos) << ending.faults;
   }

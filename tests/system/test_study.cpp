@@ -146,7 +146,8 @@ TEST_F(ProgramStudy, KeepsWhatFailedInTheTable) {
   const Ending again = brio("study bars.yaml");
   EXPECT_EQ(again.exit_code, 3);
   EXPECT_EQ(again.faults, "") << "what failed is remembered";
-  EXPECT_NE(ending.output.find("ended with 3: brio: the constant step"), std::string::npos) << ending.output;
+  EXPECT_NE(ending.output.find("ended with 3: brio: the constant time step"), std::string::npos)
+      << ending.output;
 }
 
 TEST_F(ProgramStudy, FaultsNameThePlaceBeforeAnythingRuns) {

@@ -400,7 +400,7 @@ TEST(Ties, OfOneNodeToTwoFacesAreRefused) {
   Deck deck = two_boxes({2, 2, 2}, {3, 3, 3});
   deck.connections.push_back(tied("fine.zmin", "coarse"));
   EXPECT_EQ(fault_of(deck).substr(0, 50), "deck.yaml:3:5: a node of 'fine.zmin' at (-0.5, -0.");
-  EXPECT_NE(fault_of(deck).find("is tied to 'coarse' already; accepted is one tie a node"),
+  EXPECT_NE(fault_of(deck).find("is tied to 'coarse' already; one tie is accepted per node"),
             std::string::npos);
 }
 

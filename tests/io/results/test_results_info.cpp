@@ -28,8 +28,10 @@ Summary summary() {
   s.time = 3e-3;
   s.dt = {1e-7, 3e-7, 2e-7};
   s.nodes = 27;
-  s.elements = {4, 2, 1, 1};
-  s.deleted = {1, 0, 0, 0};
+  s.elements["hex8"] = 4;
+  s.elements["shell4"] = 2;
+  s.elements["beam2"] = s.elements["particle"] = 1;
+  s.deleted["hex8"] = 1;
   s.energy.kinetic = 12.5;
   s.energy.error_relative = 1e-4;
   s.momentum.linear = {1, 2, 3};

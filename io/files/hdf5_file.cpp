@@ -225,6 +225,13 @@ std::vector<TableRows> Hdf5File::tables() const {
   return tables;
 }
 
+void Hdf5File::expect_rows(const TableRows& table) const {
+  const std::int64_t rows = rows_of(table.table);
+  if (rows < table.rows)
+    throw FileError(path_, table.table + " has " + std::to_string(rows) + " rows of " +
+                               std::to_string(table.rows) + " that it had when the run was saved");
+}
+
 void Hdf5File::truncate(const TableRows& table) {
   const Hdf5Handle dataset = open_dataset(table.table);
   const string doing = "shorten " + table.table;
@@ -232,9 +239,7 @@ void Hdf5File::truncate(const TableRows& table) {
   std::array<hsize_t, H5S_MAX_RANK> size{};
   check(H5Sget_simple_extent_dims(space.id(), size.data(), nullptr), doing);
   const auto rows = static_cast<hsize_t>(table.rows);
-  if (size[0] < rows)
-    throw FileError(path_, table.table + " has " + std::to_string(size[0]) + " rows of " +
-                               std::to_string(rows) + " that it had when the run was saved");
+  assert(rows <= size[0]);
   if (size[0] == rows) return;
   size[0] = rows;
   check(H5Dset_extent(dataset.id(), size.data()), doing);

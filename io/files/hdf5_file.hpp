@@ -102,7 +102,9 @@ class Hdf5File {
   std::int64_t rows_of(const std::string& table) const;
   /// Names and rows of all tables, in the order of their names.
   std::vector<TableRows> tables() const;
-  /// Take back rows at the end of a table. \throws FileError where it has fewer
+  /// \throws FileError where the table has fewer
+  void expect_rows(const TableRows& table) const;
+  /// Take back rows at the end of a table. \pre expect_rows
   void truncate(const TableRows& table);
   /// Rows [first, first + rows) of a table, all columns, converted to double (integers up to 2^53 exactly).
   std::vector<double> read_rows(const std::string& table, std::int64_t first, std::int64_t rows) const;

@@ -15,6 +15,14 @@ void write_record(Hdf5File& file, const RunRecord& record) {
   file.write_attribute("/deck", "threads", record.threads);
 }
 
+std::string texts_of(const RunRecord& record) {
+  std::string all;
+  for (const std::string* text : {&record.title, &record.deck_path, &record.deck_text, &record.version})
+    all.append(*text).push_back('\0');
+  for (const std::string& change : record.overrides) all.append(change).push_back('\0');
+  return all;
+}
+
 RunRecord read_record(const Hdf5File& file) {
   return {.title = file.read_text("/deck/title"),
           .deck_path = file.read_text("/deck/path"),

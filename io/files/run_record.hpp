@@ -18,6 +18,9 @@ struct RunRecord {
   int threads = 1;
 };
 
+/// Its texts, each followed by a NUL: what checksums of a record are of.
+std::string texts_of(const RunRecord& record);
+
 /// As the group `/deck`. \throws FileError
 void write_record(Hdf5File& file, const RunRecord& record);
 /// \throws FileError

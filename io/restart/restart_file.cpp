@@ -111,9 +111,7 @@ std::int64_t program_checksum() {
 }
 
 std::int64_t header_checksum(const RestartHeader& header, const std::vector<std::int64_t>& blocks) {
-  std::string text = header.record.title + '\0' + header.record.deck_path + '\0' + header.record.deck_text +
-                     '\0' + header.record.version + '\0';
-  for (const std::string& setting : header.record.overrides) text += setting + '\0';
+  std::string text = texts_of(header.record);
   text.append(reinterpret_cast<const char*>(&header.time), sizeof header.time);
   text.append(reinterpret_cast<const char*>(&header.step), sizeof header.step);
   text.append(reinterpret_cast<const char*>(blocks.data()), blocks.size() * sizeof(std::int64_t));
@@ -174,7 +172,9 @@ void write_restart(const std::filesystem::path& folder, const std::string& name,
   file.write_attribute("/state", "time", std::bit_cast<std::int64_t>(header.time));
   file.write_attribute("/state", "step", header.step);
   file.write_attribute("/state", "program", program_checksum());
-  file.write_attribute("/state", "checksum", header_checksum(header, blocks_of(file)));
+  // Of the record as it is stored: a path need not be UTF-8.
+  const RestartHeader stored{.record = read_record(file), .time = header.time, .step = header.step};
+  file.write_attribute("/state", "checksum", header_checksum(stored, blocks_of(file)));
   file.close();
   sync_to_disk(partial);
   if (std::filesystem::exists(path)) rename_file(path, previous_of(path));

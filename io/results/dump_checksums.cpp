@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "io/files/checksum.hpp"
+#include "io/files/run_record.hpp"
 
 namespace brio {
 namespace {
@@ -25,10 +26,7 @@ constexpr hsize_t chunk_rows = 256;
 std::int64_t as_stored(std::uint64_t sum) { return std::bit_cast<std::int64_t>(sum); }
 
 std::int64_t checksum_of_deck(const Hdf5File& file) {
-  string all;
-  for (const char* name : {"title", "path", "text", "version"})
-    all.append(file.read_text(string("/deck/") + name)).push_back('\0');
-  for (const string& change : file.read_texts("/deck/overrides")) all.append(change).push_back('\0');
+  const string all = texts_of(read_record(file));
   return as_stored(checksum(all.data(), all.size()));
 }
 

@@ -58,15 +58,16 @@ void ResultWriter::note_position() {
 
 void ResultWriter::return_to_position() {
   lock_->check();
+  if (std::filesystem::file_size(history_csv()) < history_bytes_)
+    throw FileError(history_csv(), "is shorter than it was when the run was saved");
   {
     Hdf5File file = Hdf5File::open_to_append(vtkhdf(), settings_.sync != Sync::never);
+    for (const TableRows& table : tables_) file.expect_rows(table);
     file.write_attribute("/VTKHDF/Steps", "NSteps", dumps_.dumps());
     file.commit();
     for (const TableRows& table : tables_) file.truncate(table);
     file.close();
   }
-  if (std::filesystem::file_size(history_csv()) < history_bytes_)
-    throw FileError(history_csv(), "is shorter than it was when the run was saved");
   std::error_code error;
   std::filesystem::resize_file(history_csv(), history_bytes_, error);
   if (error) throw FileError(history_csv(), "cannot shorten it: " + error.message());

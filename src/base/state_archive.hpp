@@ -34,14 +34,17 @@ struct StateError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Whether the bytes of an object are its value: numbers, enumerations, and structs and Eigen's fixed-size
-/// vectors and matrices made of them.
+/// Eigen's vectors and matrices of fixed size.
+template <class T>
+concept FixedSizeMatrix = requires {
+  typename std::integral_constant<int, T::SizeAtCompileTime>;
+}
+&&(T::SizeAtCompileTime > 0);
+
+/// Whether the bytes of an object are its value: numbers, enumerations, structs of these, and matrices.
 template <class T>
 inline constexpr bool is_plain_state =
-    (std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>) || requires {
-  requires T::SizeAtCompileTime >
-  0;
-};
+    (std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>) || FixedSizeMatrix<T>;
 
 /// Dispatch shared by both directions. \tparam Direction has `bytes(void*, n)`, `count(n)`, which returns
 /// the number of items, and `is_reader`.

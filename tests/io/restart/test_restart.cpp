@@ -231,6 +231,17 @@ TEST_F(Restart, MayGoOnLonger) {
   EXPECT_LT(std::abs(longer.summary.energy.error_relative), 1e-3);
 }
 
+TEST_F(Restart, OfADeckInAFolderWhoseNameIsNotUtf8) {
+  RunOptions options;
+  fs::create_directory(folder / "d\xff");
+  options.deck = folder / "d\xff" / "bar.yaml";
+  options.output = folder / "results";
+  options.stop_after_s = 1e-9;
+  std::ofstream(options.deck) << deck_text;
+  run_deck(options);
+  EXPECT_EQ(verify_restart(file("results", restart_ending)).step, 0);
+}
+
 TEST(DeckDifference, IsOfWhatIsComputed) {
   EXPECT_EQ(deck_difference("{time: {end: 1}, a: [1, 2.0]}", "{time: {end: 2}, a: [1.0, 2], title: x}"), "");
   EXPECT_EQ(deck_difference("{a: {b: [1, 2]}}", "{a: {b: [1, 3]}}"), "a.b.1 is '3', and was '2'");

@@ -201,42 +201,6 @@ void ConstraintRows::append(const ConstraintRows& other) {
   matrix.insert(matrix.end(), other.matrix.begin(), other.matrix.end());
 }
 
-void concatenate(std::span<const ConstraintRows> pieces, ConstraintRows& all, ThreadTeam& team) {
-  std::size_t total[4] = {};
-  for (const ConstraintRows& piece : pieces) {
-    total[0] += piece.row.size();
-    total[1] += piece.translation.size();
-    total[2] += piece.rotation.size();
-    total[3] += piece.matrix.size();
-  }
-  all.row.resize(total[0]);
-  all.translation.resize(total[1]);
-  all.rotation.resize(total[2]);
-  all.matrix.resize(total[3]);
-  team.for_each(pieces.size(), [&](std::size_t p) {
-    std::size_t at[4] = {};
-    for (std::size_t q = 0; q < p; ++q) {
-      at[0] += pieces[q].row.size();
-      at[1] += pieces[q].translation.size();
-      at[2] += pieces[q].rotation.size();
-      at[3] += pieces[q].matrix.size();
-    }
-    const ConstraintRows& piece = pieces[p];
-    for (std::size_t i = 0; i < piece.row.size(); ++i) {
-      ConstraintRow& copy = all.row[at[0] + i] = piece.row[i];
-      shift(copy.translation, at[1]);
-      shift(copy.rotation, at[2]);
-      shift(copy.matrix, at[3]);
-    }
-    std::copy(piece.translation.begin(), piece.translation.end(),
-              all.translation.begin() + static_cast<std::ptrdiff_t>(at[1]));
-    std::copy(piece.rotation.begin(), piece.rotation.end(),
-              all.rotation.begin() + static_cast<std::ptrdiff_t>(at[2]));
-    std::copy(piece.matrix.begin(), piece.matrix.end(),
-              all.matrix.begin() + static_cast<std::ptrdiff_t>(at[3]));
-  });
-}
-
 double RowMap::inverse_mass(const Vector& direction, std::span<const VelocityBlock> blocks) const {
   double sum = 0;
   spread(direction, [&](int block, const Vector& impulse) {

@@ -117,9 +117,6 @@ struct ConstraintRows {
   void add_solid_face(const FaceFoot& foot, double height, double sign);
 };
 
-/// Rows of all pieces in their order; the pieces are copied in parallel.
-void concatenate(std::span<const ConstraintRows> pieces, ConstraintRows& all, ThreadTeam& team);
-
 /// The entries of one row as a map.
 class RowMap {
  public:

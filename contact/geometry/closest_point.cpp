@@ -106,11 +106,4 @@ ClosestPoint closest_point_on_quad(const Vector3d& node, const FaceVertices& ver
   return closest;
 }
 
-double signed_gap(const ClosestPoint& closest, const Vector3d& normal) {
-  const double distance = std::sqrt(closest.squared_distance);
-  return closest.separation.dot(normal) < 0 ? -distance : distance;
-}
-
-double normal_gap(const ClosestPoint& closest) { return closest.separation.dot(closest.normal); }
-
 }  // namespace brio

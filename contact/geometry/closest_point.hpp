@@ -53,14 +53,6 @@ ClosestPoint closest_point_on_quad(const Eigen::Vector3d& node, const FaceVertic
 /// Whether the fourth vertex repeats the third.
 inline bool is_triangle(const FaceVertices& vertices) { return vertices[3] == vertices[2]; }
 
-/// Signed gap of a node: its distance with the sign of the side on which it lies, judged by the normal (or
-/// pseudo-normal) of the feature the closest point is on. Positive outside, negative behind.
-double signed_gap(const ClosestPoint& closest, const Eigen::Vector3d& normal);
-
-/// Gap along the normal of the sub-triangle: (node - point) . normal. Zero or nearly so beyond an edge in the
-/// plane.
-double normal_gap(const ClosestPoint& closest);
-
 /// Length without overflow or underflow of squares. Eigen's stableNorm sums in an order that depends on the
 /// address of the vector: its last bit differs from run to run.
 double safe_length(const Eigen::Vector3d& vector);

@@ -27,11 +27,4 @@ BRIO_INLINE SegmentFoot<T> segment_foot(const Vector3<T>& from_first, const Vect
   return foot;
 }
 
-template <class T>
-BRIO_INLINE SegmentFoot<T> closest_on_segment(const Vector3<T>& node, const Vector3<T>& first,
-                                              const Vector3<T>& second) {
-  const Vector3<T> along = second - first;
-  return segment_foot(node - first, node - second, along, inverse_or_zero(dot(along, along)));
-}
-
 }  // namespace brio

@@ -96,13 +96,4 @@ BRIO_INLINE StepSeparation<T> separation(const Vector3<T>& d, const Vector3<T>& 
   return separation<T, 1, 4>(d, {node_start}, {node_end}, face_start, face_end);
 }
 
-/// Whether a wing (a neighbouring vertex seen from a foot on the feature) lies on the side that d points to,
-/// or less than `tolerance` (sine of an angle) on the other: the feature is then no local maximum of height
-/// along d.
-template <class T>
-BRIO_INLINE MaskOf<T> looks_away(const Vector3<T>& wing_from_foot, const Vector3<T>& d, double tolerance) {
-  const T lengths = sqrt(dot(wing_from_foot, wing_from_foot) * dot(d, d));
-  return dot(wing_from_foot, d) >= T(-tolerance) * lengths;
-}
-
 }  // namespace brio

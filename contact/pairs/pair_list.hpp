@@ -42,10 +42,6 @@ class PairList {
   int second(std::size_t pair) const { return record_[pair].second; }
   Spacing spacing(std::size_t pair) const { return record_[pair].spacing; }
   bool has_radii(std::size_t pair) const { return spacing(pair) == Spacing::radii; }
-  Eigen::Vector3d direction_of(std::size_t pair) const {
-    const auto& d = record_[pair].direction;
-    return {d[0], d[1], d[2]};
-  }
   void set_direction(std::size_t pair, double x, double y, double z) {
     record_[pair].direction = {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
   }

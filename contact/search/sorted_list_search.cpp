@@ -7,18 +7,6 @@
 
 namespace brio {
 
-namespace {}  // namespace
-
-double comparisons_by_pairs(int bodies, int nodes_per_body) {
-  const double both = 2.0 * nodes_per_body;
-  return static_cast<double>(bodies) * bodies * both * std::log2(both);
-}
-
-double comparisons_of_global_search(int bodies, int nodes_per_body) {
-  const double all = static_cast<double>(bodies) * nodes_per_body;
-  return all * std::log2(all);
-}
-
 /// The order of the last search is nearly that of this one; std::sort starts from it instead of from an
 /// arbitrary one.
 void SortedListSearch::sort(const SearchNodes& nodes, int axis) {

@@ -14,10 +14,6 @@
 
 namespace brio {
 
-/// Comparisons as the paper estimates them: every body searched against every other, and all at once.
-double comparisons_by_pairs(int bodies, int nodes_per_body);
-double comparisons_of_global_search(int bodies, int nodes_per_body);
-
 class SortedListSearch {
  public:
   /// Replace `pairs` by all (box, node) pairs with the node inside the box, and add the work to `counts`. The

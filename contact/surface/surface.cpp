@@ -54,7 +54,7 @@ void collect_faces(std::span<const SurfacePart> parts, std::size_t node_count, S
   std::vector<Face> sides;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const SurfacePart& part = parts[p];
-    if (part.nodes_per_element != 8) continue;
+    if (!part.solid()) continue;
     for (std::size_t e = 0; e < part.connectivity.size() / 8; ++e)
       for (int side = 0; side < sides_of_hexahedron; ++side) {
         Face face{.node = {},

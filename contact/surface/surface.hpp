@@ -25,6 +25,7 @@ struct SurfacePart {
   int rigid = -1;                     ///< the rigid body that all of its nodes belong to
   double debris_radius = 0;           ///< contact radius of its free nodes; 0: no contact
 
+  bool solid() const { return nodes_per_element == 8; }
   bool shell() const { return nodes_per_element == 4; }
   bool round() const { return nodes_per_element <= 2; }
 };

@@ -46,7 +46,7 @@ void number_elements(std::span<const SurfacePart> parts, SurfaceTopology& topolo
 template <class Visit>
 void for_sides_of_hexahedra(const SurfaceTopology& topology, const Visit& visit) {
   for (const TopologyPart& part : topology.part) {
-    if (part.nodes_per_element != 8) continue;
+    if (!part.solid()) continue;
     const int sides = static_cast<int>(part.connectivity.size()) / 8 * sides_of_hexahedron;
     std::array<int, 4> nodes{};
     for (int side = part.first_side; side < part.first_side + sides; ++side)
@@ -119,7 +119,7 @@ void find_hexahedra_under_shells(std::size_t node_count, SurfaceTopology& topolo
     if (part.shell())
       for (int node : part.connectivity) of_shell[static_cast<std::size_t>(node)] = 1;
   for (const TopologyPart& part : topology.part) {
-    if (part.nodes_per_element != 8) continue;
+    if (!part.solid()) continue;
     for (std::size_t i = 0; i < part.connectivity.size(); ++i)
       if (of_shell[static_cast<std::size_t>(part.connectivity[i])] != 0)
         topology.under_shells.emplace_back(part.connectivity[i],

@@ -33,6 +33,7 @@ struct TopologyPart {
   int first_side = 0;
   int first_round = 0;  ///< its first in Surface::round
 
+  bool solid() const { return nodes_per_element == 8; }
   bool shell() const { return nodes_per_element == 4; }
   bool round() const { return nodes_per_element <= 2; }
   int sides() const { return round() ? 0 : shell() ? 1 : 6; }

@@ -155,14 +155,5 @@ TEST(Separation, LanesGiveTheBitsOfPlainNumbers) {
   }
 }
 
-TEST(Separation, AWingLooksAwayOnTheSideOfTheDirection) {
-  const Vector3<double> d{0, 0, 2};
-  EXPECT_TRUE(looks_away(Vector3<double>{1, 2, 0.5}, d, 0));
-  EXPECT_TRUE(looks_away(Vector3<double>{1, 2, 0}, d, 0));
-  EXPECT_FALSE(looks_away(Vector3<double>{3, 4, -0.06}, d, 0.01));
-  EXPECT_TRUE(looks_away(Vector3<double>{3, 4, -0.04}, d, 0.01));
-  EXPECT_TRUE(looks_away(Vector3<double>{0, 0, 0}, d, 0.01));
-}
-
 }  // namespace
 }  // namespace brio

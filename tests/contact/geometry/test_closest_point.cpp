@@ -75,15 +75,6 @@ TEST(ClosestPoint, SeamsAndTheCentroidBelongToTheInterior) {
   EXPECT_EQ(closest_point_on_quad({0.25, 0.25, 1}, unit_square).feature, Feature::interior);
 }
 
-TEST(ClosestPoint, TheGapHasTheSignOfTheSide) {
-  const ClosestPoint above = closest_point_on_quad({0.5, -3, 4}, unit_square);
-  EXPECT_DOUBLE_EQ(signed_gap(above, {0, 0, 1}), 5);
-  EXPECT_DOUBLE_EQ(normal_gap(above), 4);
-  const ClosestPoint below = closest_point_on_quad({0.5, 0.25, -2}, unit_square);
-  EXPECT_DOUBLE_EQ(signed_gap(below, {0, 0, 1}), -2);
-  EXPECT_DOUBLE_EQ(normal_gap(below), -2);
-}
-
 FaceVertices random_face(Random& random) {
   FaceVertices face;
   const double flat = random.coin() ? 1 : random.power_of_ten(-9, 0);

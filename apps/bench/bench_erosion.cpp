@@ -16,6 +16,7 @@
 
 #include "src/build/build.hpp"
 #include "src/step/advance.hpp"
+#include "src/step/sweep_stage.hpp"
 
 namespace {
 
@@ -128,12 +129,11 @@ int main(int argc, char** argv) {
     const double elements = stage(Stage::elements);
     const double contact = stage(Stage::contact) + stage(Stage::contact_search);
     const double start = seconds();
-    update_velocities(model, 1, team);
-    update_positions(model, team);
+    run(model, 1, team, [once = true](Model&) mutable { return std::exchange(once, false); });
     const double stepped = seconds();
     give_up(model, places);
     const double chosen = seconds();
-    erode_elements(model, team);
+    model.energy += erode_elements(model, team);
     const double end = seconds();
     for (Sums* s : {&sums, &total}) {
       s->step += end - chosen + stepped - start;

@@ -54,10 +54,10 @@ std::optional<TimedRun> run_to_end(Model& model, int threads, double budget_s, F
   try {
     ThreadTeam team(threads);
     update_velocities(model, HUGE_VAL, team);
-    TimedRun run;
-    continue_run(run, model, HUGE_VAL, budget_s, team);
-    if (run.reached_end) return run;
-    forecast.coarse_run_fault = run.breakdown;
+    TimedRun timed;
+    continue_run(timed, model, HUGE_VAL, budget_s, team);
+    if (timed.reached_end) return timed;
+    forecast.coarse_run_fault = timed.breakdown;
   } catch (const Breakdown& fault) {
     forecast.coarse_run_fault = fault.what();
   }

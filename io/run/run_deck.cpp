@@ -109,34 +109,34 @@ class Run {
   /// \return why it ended early, empty if it did not.
   std::string go_on(std::string fault, bool is_restored, Summary& state) {
     ProgressReporter progress(options_, model_.times.time, deck_.time.end);
-    state.status = "finished";
-    while (true) {
-      const std::optional<Stop> stop = stop_wanted();
-      const bool at_end = model_.times.time >= deck_.time.end, last = at_end || stop.has_value();
-      if (fault.empty()) fault = fault_of([&] { write(is_restored, last, stop.has_value()); });
-      if (!fault.empty()) {
-        state.status = "failed";
-        state.exit_code = 3;
-        output_.write_last_good_state();
-        return fault;
-      }
+    std::optional<Stop> stop;
+    const auto observe = [&](Model&) {
+      stop = stop_wanted();
+      const bool last = is_at_end() || stop.has_value();
+      write(is_restored, last, stop.has_value());
       is_restored = false;
       progress.report(model_, last);
-      if (at_end) return "";
-      if (stop) {
-        state.status = stop->status;
-        state.exit_code = stop->exit_code;
-        return stop->exit_code == 0 ? "" : state.status + " at time " + std::to_string(model_.times.time);
-      }
-      fault = fault_of([&] {
-        update_positions(model_, team_);
-        update_velocities(model_, deck_.numerics.energy_error_limit, team_);
-      });
+      return !stop;
+    };
+    if (fault.empty())
+      fault = fault_of([&] { run(model_, deck_.numerics.energy_error_limit, team_, observe); });
+    if (!fault.empty()) {
+      state.status = "failed";
+      state.exit_code = 3;
+      output_.write_last_good_state();
+      return fault;
     }
+    state.status = "finished";
+    if (!stop || is_at_end()) return "";
+    state.status = stop->status;
+    state.exit_code = stop->exit_code;
+    return stop->exit_code == 0 ? "" : state.status + " at time " + std::to_string(model_.times.time);
   }
   double seconds() const { return seconds_before + seconds_since(start_); }
 
  private:
+  bool is_at_end() const { return model_.times.time >= deck_.time.end; }
+
   std::optional<Stop> stop_wanted() const {
     const int signal = options_.stop != nullptr ? options_.stop->load() : 0;
     if (signal != 0) return Stop{signal == SIGINT ? "interrupted" : "terminated", 128 + signal};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <utility>
 
 #include "src/step/advance.hpp"
 
@@ -31,31 +32,35 @@ double TimedRun::waiting() const {
   return own > 0 ? std::max(1.0, wall_seconds / own) : 1;
 }
 
-void continue_run(TimedRun& run, Model& model, double energy_error_limit, double budget_s, ThreadTeam& team) {
+void continue_run(TimedRun& timed, Model& model, double energy_error_limit, double budget_s,
+                  ThreadTeam& team) {
   const double end = model.control.settings.end;
   const double start = wall_now();
   const double begin = work_clock(team.size());
   double last = begin;
-  run.time = model.times.time;
-  run.reached_end = run.time >= end;
-  bool goes_on = true;  // at least one step
-  while (goes_on && !run.reached_end && run.breakdown.empty()) {
-    const double size = model.times.next;
-    update_positions(model, team);
-    try {
-      update_velocities(model, energy_error_limit, team);
-    } catch (const Breakdown& breakdown) {
-      run.breakdown = breakdown.what();
-    }
+  TimedStep step{model.times.time, model.times.next, 0, 0};
+  const auto note = [&](double now) {
+    step.seconds = now - last;
+    step.deleted = model.erosion ? model.erosion->total_deleted() : 0;
+    timed.steps.push_back(step);
+    last = now;
+  };
+  bool is_entry = true;
+  const auto observe = [&](Model& now) {
     const double time = work_clock(team.size());
-    const std::int64_t deleted = model.erosion ? model.erosion->total_deleted() : 0;
-    run.steps.push_back({run.time, size, time - last, deleted});
-    last = time;
-    run.time = model.times.time;
-    run.reached_end = run.breakdown.empty() && run.time >= end;
-    goes_on = time - begin < budget_s;
+    if (!is_entry) note(time);
+    step = {now.times.time, now.times.next, 0, 0};
+    return std::exchange(is_entry, false) || time - begin < budget_s;  // at least one step
+  };
+  try {
+    run(model, energy_error_limit, team, observe);
+    timed.reached_end = model.times.time >= end;
+  } catch (const Breakdown& breakdown) {
+    timed.breakdown = breakdown.what();
+    note(work_clock(team.size()));
   }
-  run.wall_seconds += wall_now() - start;
+  timed.time = model.times.time;
+  timed.wall_seconds += wall_now() - start;
 }
 
 double seconds_per_step(const TimedRun& run, double from_time) {

@@ -34,7 +34,8 @@ double work_clock(int threads);
 
 /// Time steps until the end time, a breakdown or the end of the budget; at least one is appended, unless the
 /// end time is reached. On entry and on return velocities have been updated, so that fields may be read.
-void continue_run(TimedRun& run, Model& model, double energy_error_limit, double budget_s, ThreadTeam& team);
+void continue_run(TimedRun& timed, Model& model, double energy_error_limit, double budget_s,
+                  ThreadTeam& team);
 
 /// Mean cost of the steps from a time on, without the first few, in which memory is used for the first time,
 /// if there are others.

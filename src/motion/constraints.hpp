@@ -35,6 +35,11 @@ struct Reaction {
   double after = 0;
 };
 
+/// A reaction of supports.
+inline Contribution of_support(const Reaction& support) {
+  return {.external = {.before = support.before, .after = support.after}, .supports = support.impulse};
+}
+
 /// Velocity of a prescribed motion over the time step.
 double given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times, double velocity_before);
 
@@ -53,12 +58,20 @@ struct WallReaction {
   Reaction normal, friction;
 };
 
+inline Contribution of_wall(const WallReaction& wall) {
+  Contribution sum{.contact = {.before = wall.normal.before, .after = wall.normal.after},
+                   .friction = {.before = wall.friction.before, .after = wall.friction.after},
+                   .walls = wall.normal.impulse};
+  sum.walls += wall.friction.impulse;
+  return sum;
+}
+
 /// Stops nodes; \return normal and frictional reaction.
 WallReaction stop_at(const WallInRun& wall, const StepTimes& times, Nodes& nodes);
 
 /// Stops tied nodes, by impulses on the corners of their faces; before the others. Tied nodes then move with
-/// their faces. \param support the reactions of supports of the corners are added
-void stop_tied_at(const WallInRun& wall, const StepTimes& times, Ties& ties, Nodes& nodes, Reaction& support);
+/// their faces. \return the reaction of supports of the corners
+Reaction stop_tied_at(const WallInRun& wall, const StepTimes& times, Ties& ties, Nodes& nodes);
 /// Reaction of the wall on tied nodes, once all nodes have been stopped.
 WallReaction reaction_of_tied(const Ties& ties, const StepTimes& times, Nodes& nodes);
 

@@ -36,6 +36,65 @@ struct Work {
     half += 0.5 * (before + after);
     before = after = 0;
   }
+  Work& operator+=(const Work& other) {
+    half += other.half;
+    before += other.before;
+    after += other.after;
+    return *this;
+  }
+};
+
+/// Linear impulse or momentum, and angular about the origin.
+struct Impulse {
+  Vector linear{};
+  Vector angular{};
+
+  void add(const Vector& position, const Vector& impulse) {
+    add_to(linear, impulse);
+    add_to(angular, cross(position, impulse));
+  }
+  Impulse& operator+=(const Impulse& other) {
+    add_to(linear, other.linear);
+    add_to(angular, other.angular);
+    return *this;
+  }
+  Impulse& operator*=(double factor) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      linear[i] *= factor;
+      angular[i] *= factor;
+    }
+    return *this;
+  }
+};
+
+/// What a stage of a time step adds to the balances of energy and momentum.
+struct Contribution {
+  double internal = 0;  ///< to the energies of elements
+  double hourglass = 0;
+  double viscous = 0;
+  double deleted = 0;
+  Work external{}, contact{}, friction{};
+  Impulse loads{}, supports{}, walls{};
+  Impulse dropped{};         ///< momentum of removed nodes
+  double kinetic_start = 0;  ///< of mass that is there from the start
+  Impulse start{};           ///< its momentum
+
+  Contribution& operator+=(const Contribution& other) {
+    internal += other.internal;
+    hourglass += other.hourglass;
+    viscous += other.viscous;
+    deleted += other.deleted;
+    external += other.external;
+    contact += other.contact;
+    friction += other.friction;
+    loads += other.loads;
+    supports += other.supports;
+    walls += other.walls;
+    dropped += other.dropped;
+    kinetic_start += other.kinetic_start;
+    start += other.start;
+    return *this;
+  }
 };
 
 struct EnergyBalance {
@@ -59,6 +118,27 @@ struct EnergyBalance {
   /// (Energy now - energy at the start - external work) / reference.
   double relative_error() const {
     return reference > 0 ? (sum() - kinetic_start - external.at_step()) / reference : 0;
+  }
+
+  void begin_step() {
+    for (Work* work : {&external, &contact, &friction}) work->begin_step();
+  }
+  EnergyBalance& operator+=(const Contribution& stage) {
+    kinetic_start += stage.kinetic_start;
+    internal += stage.internal;
+    hourglass += stage.hourglass;
+    viscous += stage.viscous;
+    deleted += stage.deleted;
+    external += stage.external;
+    contact += stage.contact;
+    friction += stage.friction;
+    return *this;
+  }
+  /// All contributions of the step are in: keeps the largest values so far.
+  void end_step() {
+    reference = std::max({reference, kinetic_start, std::abs(sum()), internal});
+    contact_added_max = std::max(contact_added_max, contact.at_step());
+    error_max = std::max(error_max, std::abs(relative_error()));
   }
 };
 
@@ -92,27 +172,21 @@ inline std::size_t part_of_largest_ratio(std::span<const PartEnergy> parts) {
   return static_cast<std::size_t>(largest - parts.begin());
 }
 
-/// Linear impulse or momentum, and angular about the origin.
-struct Impulse {
-  Vector linear{};
-  Vector angular{};
-
-  void add(const Vector& position, const Vector& impulse) {
-    add_to(linear, impulse);
-    add_to(angular, cross(position, impulse));
-  }
-  void add(const Impulse& other) {
-    add_to(linear, other.linear);
-    add_to(angular, other.angular);
-  }
-};
-
 struct MomentumBalance {
   Impulse start, now;  ///< at the last half step, with positions of the step that follows it
   Impulse loads, supports, walls;
   Impulse dropped;          ///< momentum of removed nodes
   double linear_scale = 0;  ///< largest sum of |m v| so far: reference of the imbalance
   double angular_scale = 0;
+
+  MomentumBalance& operator+=(const Contribution& stage) {
+    start += stage.start;
+    loads += stage.loads;
+    supports += stage.supports;
+    walls += stage.walls;
+    dropped += stage.dropped;
+    return *this;
+  }
 
   /// Largest component of (momentum now + dropped - start - impulses from outside) / scale.
   double linear_imbalance() const { return imbalance(&Impulse::linear, linear_scale); }

@@ -94,12 +94,11 @@ double height_above(const WallInRun& entry, const RigidBody& body, const Nodes& 
   return least;
 }
 
-WallReaction stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& body, RigidMotion& motion,
-                     const Nodes& nodes, Reaction& support) {
-  WallReaction reaction;
-  if (times.next <= 0) return reaction;
+Contribution stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& body, RigidMotion& motion,
+                     const Nodes& nodes) {
+  if (times.next <= 0) return {};
   find_touches(entry, times, body, motion, nodes);
-  if (body.touch.empty()) return reaction;
+  if (body.touch.empty()) return {};
   const Vector3d normal(entry.wall.normal.data());
   const Vector3d wall_velocity(entry.wall.velocity.data());
   double first = 0;
@@ -114,17 +113,19 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& 
     first = std::max(first, residual);
     if (residual <= converged_ratio * first) break;
   }
+  WallReaction reaction;
   for (const WallTouch& touch : body.touch) {
     const Vector3d position = body.centre + touch.arm;
     account(reaction.normal, position, touch.impulse * normal, touch, motion);
     account(reaction.friction, position, touch.friction, touch, motion);
   }
   const RigidSupport held = support_against(motion, motion.impulse, motion.moment);
-  support.before += held.work_before;
-  support.after += held.work_after;
-  support.impulse.add(to_vector(body.centre), to_vector(held.impulse));
-  add_to(support.impulse.angular, to_vector(held.moment));
-  return reaction;
+  Contribution sum = of_wall(reaction);
+  sum.external.before = held.work_before;
+  sum.external.after = held.work_after;
+  sum.supports.add(to_vector(body.centre), to_vector(held.impulse));
+  add_to(sum.supports.angular, to_vector(held.moment));
+  return sum;
 }
 
 }  // namespace brio

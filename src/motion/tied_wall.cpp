@@ -78,11 +78,11 @@ void apply(const Ties& ties, Nodes& nodes, int node, const Vector3d& given, Reac
 
 }  // namespace
 
-void stop_tied_at(const WallInRun& entry, const StepTimes& times, Ties& ties, Nodes& nodes,
-                  Reaction& support) {
+Reaction stop_tied_at(const WallInRun& entry, const StepTimes& times, Ties& ties, Nodes& nodes) {
+  Reaction support;
   ties.wall_impulse.assign(ties.node.size(), Vector3d::Zero());
   ties.wall_friction.assign(ties.node.size(), Vector3d::Zero());
-  if (times.next <= 0) return;
+  if (times.next <= 0) return support;
   const Vector3d normal(entry.wall.normal.data());
   const Vector3d wall_velocity(entry.wall.velocity.data());
   const double offset =
@@ -108,6 +108,7 @@ void stop_tied_at(const WallInRun& entry, const StepTimes& times, Ties& ties, No
     apply(ties, nodes, tie.node, ties.wall_impulse[i] + ties.wall_friction[i], support);
   }
   carry_velocities(ties, nodes, times.next);
+  return support;
 }
 
 WallReaction reaction_of_tied(const Ties& ties, const StepTimes& times, Nodes& nodes) {

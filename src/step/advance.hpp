@@ -1,5 +1,7 @@
 #pragma once
-/// One time step of the central difference method.
+/// Time steps of the central difference method.
+
+#include <functional>
 
 #include "src/base/breakdown.hpp"
 #include "src/model/model.hpp"
@@ -12,15 +14,18 @@ namespace brio {
 /// collapsed step, or an energy error beyond `energy_error_limit`.
 void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team);
 
-/// Deletes the elements listed by `model.sweep_results`, and updates loads, contact surfaces and chunks. Part
-/// of `update_velocities`.
-void erode_elements(Model& model, ThreadTeam& team);
+/// Second half: positions, and the time.
+void update_positions(Model& model, ThreadTeam& team);
+
+/// Looks at a model that is complete at its time. \return whether to go on
+using Observer = std::function<bool(Model&)>;
+
+/// Time steps up to the end time or until the observer ends them. The observer sees every complete state,
+/// that of entry included: a model as built gets its first velocities before. \throws Breakdown
+void run(Model& model, double energy_error_limit, ThreadTeam& team, const Observer& observe);
 
 /// Audits contact at the present positions if the deck asks for it (contact/audit/audit.hpp). Called where
 /// fields are written.
 void audit_contacts(Model& model, ThreadTeam& team);
-
-/// Second half: positions, and the time.
-void update_positions(Model& model, ThreadTeam& team);
 
 }  // namespace brio

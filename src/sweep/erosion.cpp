@@ -24,11 +24,11 @@ void leave_nodes(Erosion& erosion, const Block& block, std::size_t place) {
   }
 }
 
-void account(const Block& block, std::size_t place, EnergyBalance& energy) {
+void account(const Block& block, std::size_t place, Contribution& sum) {
   const HeldEnergy held = held_energy(block, place);
-  energy.internal -= held.internal;
-  energy.hourglass -= held.hourglass;
-  energy.deleted += held.internal + held.hourglass;
+  sum.internal -= held.internal;
+  sum.hourglass -= held.hourglass;
+  sum.deleted += held.internal + held.hourglass;
 }
 
 // The last element of the chunk takes the place.
@@ -80,8 +80,9 @@ Erosion make_erosion(std::span<const Block> blocks, std::size_t node_count) {
   return erosion;
 }
 
-void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResult> results,
-           std::span<Block> blocks, std::span<PartInModel> parts, EnergyBalance& energy) {
+Contribution erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResult> results,
+                   std::span<Block> blocks, std::span<PartInModel> parts) {
+  Contribution energies;
   erosion.deleted.clear();
   erosion.freed.clear();
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
@@ -98,7 +99,7 @@ void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResul
       erosion.deleted.push_back({static_cast<int>(task.block), part.element_order[place]});
       erosion.mass_of_deleted += block.kernel.mass(block, place);
       ++erosion.deleted_count[task.block];
-      account(block, place, energy);
+      account(block, place, energies);
       leave_nodes(erosion, block, place);
       if (block.cloud) cut_particle(*block.cloud, block.node(place, 0) - block.cloud->first_node);
       fill_place(block, task.chunk, place, part);
@@ -109,6 +110,7 @@ void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResul
   std::sort(erosion.deleted.begin(), erosion.deleted.end());
   std::sort(erosion.freed.begin(), erosion.freed.end());
   std::sort(erosion.dropping.begin(), erosion.dropping.end());
+  return energies;
 }
 
 bool is_sparse(const SweepSchedule& schedule, std::span<const Block> blocks) {
@@ -168,27 +170,29 @@ void remove_nodes(ActiveLoad& load, std::span<const int> dropping) {
                 [&](int node) { return std::binary_search(dropping.begin(), dropping.end(), node); });
 }
 
-void remove_nodes(Erosion& erosion, Nodes& nodes, EnergyBalance& energy, MomentumBalance& momentum) {
+Contribution remove_nodes(Erosion& erosion, Nodes& nodes) {
+  Contribution removed;
   for (const int entry : erosion.dropping) {
     const auto node = static_cast<std::size_t>(entry);
     NodeRecord& record = nodes.record[node];
     const double mass = nodes.mass[node];
     const Vector position{record.position[0], record.position[1], record.position[2]};
     const Vector velocity{record.velocity[0], record.velocity[1], record.velocity[2]};
-    energy.deleted += 0.5 * mass * dot(velocity, velocity);
-    momentum.dropped.add(position, {mass * velocity[0], mass * velocity[1], mass * velocity[2]});
+    removed.deleted += 0.5 * mass * dot(velocity, velocity);
+    removed.dropped.add(position, {mass * velocity[0], mass * velocity[1], mass * velocity[2]});
     erosion.dropped_mass += mass;
     nodes.mass[node] = record.inverse_mass = 0;
     for (double& component : record.velocity) component = 0;
     if (!nodes.has_rotations()) continue;
     double* spin = nodes.angular_velocity[node].component;
     const double inertia = nodes.rotational_inertia[node];
-    energy.deleted += 0.5 * inertia * (spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]);
-    for (std::size_t i = 0; i < 3; ++i) momentum.dropped.angular[i] += inertia * spin[i];
+    removed.deleted += 0.5 * inertia * (spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]);
+    for (std::size_t i = 0; i < 3; ++i) removed.dropped.angular[i] += inertia * spin[i];
     nodes.rotational_inertia[node] = 0;
     nodes.angular_velocity[node] = {};
   }
   erosion.dropping.clear();
+  return removed;
 }
 
 MassBalance mass_balance(const Erosion& erosion, const Nodes& nodes) {

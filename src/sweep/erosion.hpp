@@ -70,9 +70,10 @@ bool can_erode(std::span<const Block> blocks);
 /// \param parts by block: part p is block p
 Erosion make_erosion(std::span<const Block> blocks, std::size_t node_count);
 
-/// Deletes the elements listed by the last sweep; fills `deleted` and `freed`.
-void erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResult> results,
-           std::span<Block> blocks, std::span<PartInModel> parts, EnergyBalance& energy);
+/// Deletes the elements listed by the last sweep; fills `deleted` and `freed`. \return their energies, moved
+/// to those of deleted elements
+Contribution erode(Erosion& erosion, SweepSchedule& schedule, std::span<const SweepResult> results,
+                   std::span<Block> blocks, std::span<PartInModel> parts);
 
 /// True when chunks are so short that repacking pays.
 bool is_sparse(const SweepSchedule& schedule, std::span<const Block> blocks);
@@ -87,9 +88,8 @@ void remove_sides(ActiveLoad& load, std::span<const DeletedElement> deleted);
 /// Removes nodes from a load. \param dropping ascending
 void remove_nodes(ActiveLoad& load, std::span<const int> dropping);
 
-/// Removes the nodes listed in `dropping`: their mass, momentum and kinetic energy are counted as
-/// deleted.
-void remove_nodes(Erosion& erosion, Nodes& nodes, EnergyBalance& energy, MomentumBalance& momentum);
+/// Removes the nodes listed in `dropping`. \return their kinetic energy and momentum
+Contribution remove_nodes(Erosion& erosion, Nodes& nodes);
 
 /// Mass of nodes with elements, and of free point masses.
 struct MassBalance {

@@ -67,9 +67,9 @@ AddedMass make_mass_scaling(const TimeSection& time, const Deck& deck, std::span
   return mass;
 }
 
-void hand_out(AddedMass& mass, const SweepSchedule& schedule, std::span<const SweepResult> results,
-              std::span<const Block> blocks, std::span<const PartInModel> parts, Nodes& nodes,
-              EnergyBalance& energy, MomentumBalance& momentum, bool at_start) {
+Contribution hand_out(AddedMass& mass, const SweepSchedule& schedule, std::span<const SweepResult> results,
+                      std::span<const Block> blocks, std::span<const PartInModel> parts, Nodes& nodes,
+                      bool at_start) {
   Given given;
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
     const SweepTask& task = schedule.tasks[t];
@@ -85,14 +85,9 @@ void hand_out(AddedMass& mass, const SweepSchedule& schedule, std::span<const Sw
       mass.added[task.block] += block.mass_gain[element];
     }
   }
-  if (at_start) {
-    energy.kinetic_start += given.energy;
-    momentum.start.add(given.impulse);
-  } else {
-    energy.external.half += given.energy;
-    momentum.supports.add(given.impulse);
-  }
   check_share(mass, parts);
+  if (at_start) return {.kinetic_start = given.energy, .start = given.impulse};
+  return {.external = {.half = given.energy}, .supports = given.impulse};
 }
 
 }  // namespace brio

@@ -34,9 +34,10 @@ AddedMass make_mass_scaling(const TimeSection& time, const Deck& deck, std::span
 
 /// Adds to the nodes the mass that the last sweep added to their elements, in the order of the tasks.
 /// \param at_start whether the run has not begun
+/// \return the kinetic energy and momentum of the mass: from outside, or there from the start
 /// \throws Breakdown where more has been added than the deck accepts.
-void hand_out(AddedMass& mass, const SweepSchedule& schedule, std::span<const SweepResult> results,
-              std::span<const Block> blocks, std::span<const PartInModel> parts, Nodes& nodes,
-              EnergyBalance& energy, MomentumBalance& momentum, bool at_start);
+Contribution hand_out(AddedMass& mass, const SweepSchedule& schedule, std::span<const SweepResult> results,
+                      std::span<const Block> blocks, std::span<const PartInModel> parts, Nodes& nodes,
+                      bool at_start);
 
 }  // namespace brio

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "src/motion/constraints.hpp"
+
 namespace brio {
 
-bool release_ties(Ties& ties, const Erosion& erosion, Nodes& nodes, EnergyBalance& energy,
-                  MomentumBalance& momentum) {
+std::optional<Contribution> release_ties(Ties& ties, const Erosion& erosion, Nodes& nodes) {
   bool any = false;
   for (TiedNode& tied : ties.node) {
     const DeletedElement owner{tied.face_part, tied.element};
@@ -13,14 +14,9 @@ bool release_ties(Ties& ties, const Erosion& erosion, Nodes& nodes, EnergyBalanc
                     std::binary_search(erosion.freed.begin(), erosion.freed.end(), tied.tie.node);
     any = any || tied.released;
   }
-  if (!any) return false;
+  if (!any) return {};
   const NodeMotion lost = release(ties, nodes);
-  energy.deleted += lost.energy;
-  for (std::size_t i = 0; i < 3; ++i) {
-    momentum.dropped.linear[i] += lost.linear[static_cast<Eigen::Index>(i)];
-    momentum.dropped.angular[i] += lost.angular[static_cast<Eigen::Index>(i)];
-  }
-  return true;
+  return Contribution{.deleted = lost.energy, .dropped = {to_vector(lost.linear), to_vector(lost.angular)}};
 }
 
 }  // namespace brio

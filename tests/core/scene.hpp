@@ -60,17 +60,29 @@ inline Model build_model(const Deck& deck) {
   return build(deck, meshes);
 }
 
+/// A number of time steps further; a model as built gets its first velocities before.
+inline void make_steps(Model& model, int count, double energy_error_limit, ThreadTeam& team) {
+  brio::run(model, energy_error_limit, team, [count](Model&) mutable { return count-- > 0; });
+}
+
+/// Calls look(i) for a number of complete states, i from 0, that of entry first.
+template <class Look>
+void look_at_steps(Model& model, int count, double energy_error_limit, ThreadTeam& team, const Look& look) {
+  brio::run(model, energy_error_limit, team, [&, i = 0](Model&) mutable {
+    look(i);
+    return ++i < count;
+  });
+}
+
 /// Steps to the end time; `look` is called at every step once velocities and balances are complete.
 inline void run(Model& model, const Deck& deck, ThreadTeam& team,
                 const std::function<void(Model&)>& look = {}) {
-  while (true) {
-    update_velocities(model, deck.numerics.energy_error_limit, team);
-    if (look) look(model);
-    for (const ContactScene& scene : model.contacts)
-      EXPECT_EQ(scene.unresolved.steps, 0) << "surfaces cross at step " << model.step;
-    if (model.times.time >= deck.time.end) return;
-    update_positions(model, team);
-  }
+  brio::run(model, deck.numerics.energy_error_limit, team, [&](Model& now) {
+    if (look) look(now);
+    for (const ContactScene& scene : now.contacts)
+      EXPECT_EQ(scene.unresolved.steps, 0) << "surfaces cross at step " << now.step;
+    return true;
+  });
 }
 
 inline Vector momentum_of(const Model& model) { return momentum(model.nodes).total.linear; }

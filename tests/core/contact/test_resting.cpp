@@ -69,8 +69,7 @@ Rest rest(const Deck& deck, int steps, double unit, double edge) {
   ThreadTeam team(1);
   Rest result;
   std::vector<NodeRecord> middle;
-  for (int step = 0; step < steps; ++step) {
-    update_velocities(model, 1e9, team);
+  look_at_steps(model, steps, 1e9, team, [&](int step) {
     if (step == steps / 2) middle.assign(model.nodes.record.begin(), model.nodes.record.end());
     const double kinetic = model.energy.kinetic_half / unit;
     if (step > 3 * steps / 4) {
@@ -78,8 +77,7 @@ Rest rest(const Deck& deck, int steps, double unit, double edge) {
     } else if (step > steps / 2) {
       result.kinetic_before = std::max(result.kinetic_before, kinetic);
     }
-    update_positions(model, team);
-  }
+  });
   for (std::size_t i = 0; i < middle.size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
       result.drift = std::max(

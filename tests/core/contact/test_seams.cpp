@@ -267,13 +267,11 @@ Settled settle(Deck deck, int steps) {
   const double unit = model.parts[0].mass * acceleration_down;
   Settled result;
   std::vector<NodeRecord> middle;
-  for (int step = 0; step < steps; ++step) {
-    update_velocities(model, 1e9, team);
+  look_at_steps(model, steps, 1e9, team, [&](int step) {
     if (step == steps / 2) middle.assign(model.nodes.record.begin(), model.nodes.record.end());
     double& kinetic = step > 3 * steps / 4 ? result.kinetic : result.kinetic_before;
     if (step > steps / 2) kinetic = std::max(kinetic, model.energy.kinetic_half / unit);
-    update_positions(model, team);
-  }
+  });
   for (std::size_t i = 0; i < middle.size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
       result.drift =

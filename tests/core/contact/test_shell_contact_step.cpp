@@ -50,10 +50,7 @@ TEST(ShellContactStep, BitsDoNotDependOnTheNumberOfThreads) {
       models.push_back(build_model(deck));
       Model& model = models.back();
       ThreadTeam team(threads);
-      for (int step = 0; step < 300; ++step) {
-        update_velocities(model, deck.numerics.energy_error_limit, team);
-        update_positions(model, team);
-      }
+      make_steps(model, 300, deck.numerics.energy_error_limit, team);
     }
     EXPECT_LT(models[0].energy.friction.half, 0);
     EXPECT_GT(models[0].contacts[0].step.active, 10);

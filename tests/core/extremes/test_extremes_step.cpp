@@ -61,11 +61,8 @@ TEST_P(ExtremesStep, StaysBoundedJustBelowTheCriticalOne) {
   ThreadTeam team(1);
   const double start = first_energy(model, team);
   double largest = 0;
-  for (int step = 0; step < 5000; ++step) {
-    update_positions(model, team);
-    update_velocities(model, 1e-2, team);
-    largest = std::max(largest, model.energy.kinetic_half);
-  }
+  look_at_steps(model, 5001, 1e-2, team,
+                [&](int) { largest = std::max(largest, model.energy.kinetic_half); });
   EXPECT_LT(largest, 60 * start);
 }
 
@@ -101,11 +98,8 @@ Unstable run_above(Kind kind, double share) {
   const double start = first_energy(model, team);
   Unstable result;
   try {
-    for (int step = 0; step < 10000; ++step) {
-      update_positions(model, team);
-      update_velocities(model, deck.numerics.energy_error_limit, team);
-      result.growth = std::max(result.growth, model.energy.kinetic_half / start);
-    }
+    look_at_steps(model, 10001, deck.numerics.energy_error_limit, team,
+                  [&](int) { result.growth = std::max(result.growth, model.energy.kinetic_half / start); });
   } catch (const Breakdown& breakdown) {
     result.cause = breakdown.what();
   }

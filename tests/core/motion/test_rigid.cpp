@@ -129,8 +129,7 @@ void spin_about_the_intermediate_axis(double turn_a_step, int steps) {
   double worst_energy = 0, worst_momentum = 0;
   int turned_over = 0;
   double side = 1;
-  for (int i = 0; i < steps; ++i) {
-    update_velocities(model, 0.1, team);
+  look_at_steps(model, steps, 0.1, team, [&](int) {
     worst_energy = std::max(worst_energy, std::abs(model.energy.kinetic / energy - 1));
     worst_momentum = std::max(worst_momentum, (angular_momentum_of(model) - momentum_at_start).norm());
     const Vector3d axis = model.rigid.body[0].attitude._transformVector(Vector3d::UnitY());
@@ -138,8 +137,7 @@ void spin_about_the_intermediate_axis(double turn_a_step, int steps) {
       side = -side;
       ++turned_over;
     }
-    update_positions(model, team);
-  }
+  });
   EXPECT_GT(turned_over, 5);
   EXPECT_LE(worst_energy, 1e-10);
   EXPECT_LE(worst_momentum, 1e-12 * momentum_at_start.norm());

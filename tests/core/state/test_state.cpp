@@ -34,23 +34,20 @@ void restore(Model& model, const std::string& state) {
 }
 
 void make_steps(Model& model, const Deck& deck, int steps, ThreadTeam& team) {
-  for (int i = 0; i < steps; ++i) {
-    update_positions(model, team);
-    update_velocities(model, deck.numerics.energy_error_limit, team);
-  }
+  run(model, deck.numerics.energy_error_limit, team, [steps](Model&) mutable { return steps-- > 0; });
 }
 
 /// A model after its first step.
 Model started(const Deck& deck, ThreadTeam& team) {
   Model model = build_scene(deck);
-  update_velocities(model, deck.numerics.energy_error_limit, team);
+  make_steps(model, deck, 0, team);
   return model;
 }
 
 // Compared are all numbers of the state, and what is derived from them by one step more.
 void expect_same_bits(const Deck& deck, int before, int after, bool deletes = false) {
   ThreadTeam one(1), two(2);
-  Model uninterrupted = started(deck, one);
+  Model uninterrupted = build_scene(deck);
   make_steps(uninterrupted, deck, before, one);
   const std::string saved = state_of(uninterrupted);
   const std::int64_t deleted = uninterrupted.erosion ? uninterrupted.erosion->total_deleted() : 0;

@@ -127,12 +127,9 @@ struct Counted {
 Counted count(const Deck& deck, int threads, int steps) {
   Model model = build_model(deck);
   ThreadTeam team(threads);
-  const auto advance = [&] {
-    update_velocities(model, deck.numerics.energy_error_limit, team);
-    update_positions(model, team);
-  };
+  const auto advance = [&](int count) { make_steps(model, count, deck.numerics.energy_error_limit, team); };
   const Model start = model;
-  for (int step = 0; step < steps; ++step) advance();
+  advance(steps);
   model.step = start.step;
   model.times = start.times;
   model.control = start.control;
@@ -140,11 +137,11 @@ Counted count(const Deck& deck, int threads, int steps) {
   model.blocks = start.blocks;
   model.energy = start.energy;
   model.ties = start.ties;
-  for (int step = 0; step < 10; ++step) advance();
+  advance(10);
   Counted counted;
   for (int step = 10; step < steps; ++step) {
     const AllocationCount allocations;
-    advance();
+    advance(1);
     const bool searched = std::any_of(model.contacts.begin(), model.contacts.end(),
                                       [](const ContactScene& scene) { return scene.step.searched; });
     if (!searched) counted.allocations += allocations.count();

@@ -141,13 +141,9 @@ TEST(Beams, StepAllocatesNothing) {
   const Deck deck = many_beams();
   Model model = build_model(deck);
   ThreadTeam team(2);
-  const auto advance = [&] {
-    update_velocities(model, 1, team);
-    update_positions(model, team);
-  };
-  for (int step = 0; step < 5; ++step) advance();
+  make_steps(model, 5, 1, team);
   const AllocationCount allocations;
-  for (int step = 0; step < 20; ++step) advance();
+  make_steps(model, 20, 1, team);
   EXPECT_EQ(allocations.count(), 0u);
 }
 

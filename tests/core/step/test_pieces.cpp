@@ -96,7 +96,7 @@ TEST(Loads, PressureOnAClosedSurfaceHasNoResultant) {
   Impulse sum;
   for (ActiveLoad& load : model.loads) {
     apply(load, 0, model.nodes);
-    sum.add(resultant(load, model.nodes));
+    sum += resultant(load, model.nodes);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(sum.linear[axis], 0, 1e-12);

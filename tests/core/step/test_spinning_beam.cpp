@@ -47,8 +47,8 @@ class SpinningBeam {
   Means over(double turns) {
     Means means;
     double samples = 0;
-    for (const double end = turned_ + turns; turned_ < end; ++samples) {
-      update_velocities(model_, 1e9, team_);
+    const double end = turned_ + turns;
+    run(model_, 1e9, team_, [&](Model&) {
       const NodeRecord* end_of = model_.nodes.record.data();
       double along[3];
       for (int i = 0; i < 3; ++i) along[i] = end_of[1].position[i] - end_of[0].position[i];
@@ -58,8 +58,9 @@ class SpinningBeam {
       means.energy += model_.energy.sum() / model_.energy.kinetic_start;
       means.length += std::hypot(along[0], along[1], along[2]);
       means.spin += model_.nodes.angular_velocity[0].component[2] / spin_;
-      update_positions(model_, team_);
-    }
+      ++samples;
+      return turned_ < end;
+    });
     means.energy /= samples;
     means.length /= samples;
     means.spin /= samples;

@@ -119,7 +119,7 @@ void delete_by_hand(Model& model, std::size_t part, const Dies& dies) {
       if (dies(model.parts[part].element_order[place]))
         block.lost[first + results[t].lost++] = static_cast<int>(place);
   }
-  erode(*model.erosion, model.schedule, results, model.blocks, model.parts, model.energy);
+  model.energy += erode(*model.erosion, model.schedule, results, model.blocks, model.parts);
 }
 
 }  // namespace brio::test

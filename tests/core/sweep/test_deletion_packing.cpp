@@ -20,10 +20,7 @@ Model living_block(std::array<int, 3> elements, const Deck& base) {
   deck.parts[0].deletion->inverted = true;
   Model model = build_model(deck);
   ThreadTeam team(1);
-  for (int step = 0; step < 5; ++step) {
-    update_velocities(model, 1, team);
-    update_positions(model, team);
-  }
+  make_steps(model, 5, 1, team);
   return model;
 }
 
@@ -134,7 +131,7 @@ TEST(ErosionSlow, DeletionTouchesAsMuchAsItDeletes) {
       model.blocks[0].lost[first + result.lost] = static_cast<int>(first + 997 * (result.lost + 1));
       ++result.lost;
     }
-    erode(*model.erosion, model.schedule, results, model.blocks, model.parts, model.energy);
+    model.energy += erode(*model.erosion, model.schedule, results, model.blocks, model.parts);
     EXPECT_LE(allocations.count(), 1u);  // that of `results`
     EXPECT_EQ(model.erosion->deleted.size(), 100u);
     EXPECT_FALSE(is_sparse(model.schedule, model.blocks));

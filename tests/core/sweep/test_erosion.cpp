@@ -111,7 +111,7 @@ TEST(Erosion, FreedNodesAreThoseWhoseLastElementWent) {
     std::vector<SweepResult> results(model.schedule.tasks.size());
     results[0].lost = 1;
     model.blocks[0].lost[0] = model.parts[0].element_slot[static_cast<std::size_t>(element)];
-    erode(*model.erosion, model.schedule, results, model.blocks, model.parts, model.energy);
+    model.energy += erode(*model.erosion, model.schedule, results, model.blocks, model.parts);
     std::set<double> planes;
     for (int node : model.erosion->freed)
       planes.insert(std::round(model.nodes.record[static_cast<std::size_t>(node)].position[0]));
@@ -221,13 +221,9 @@ void expect_stable_debris(std::int64_t steps) {
   deck.time.end = 1e9;
   Model model = build_model(deck);
   ThreadTeam team(1);
-  update_velocities(model, 0.01, team);
+  make_steps(model, 0, 0.01, team);
   delete_by_hand(model, 0, [](int element) { return element == 1; });
-  update_positions(model, team);
-  while (model.step < steps) {
-    update_velocities(model, 0.01, team);
-    update_positions(model, team);
-  }
+  make_steps(model, steps, 0.01, team);
   EXPECT_EQ(model.erosion->deleted_count[0], 1);
   EXPECT_EQ(model.parts[0].element_slot[1], -1);
   EXPECT_LT(model.energy.error_max, 1e-4);
@@ -294,9 +290,8 @@ TEST(Erosion, StepAllocatesNothingWhileElementsDie) {
   while (deaths < 40) {
     const std::size_t tasks = model.schedule.tasks.size();
     const AllocationCount count;
-    update_velocities(model, 1, team);
+    make_steps(model, 1, 1, team);
     const std::size_t now = count.count();
-    update_positions(model, team);
     if (model.step > 3 && model.schedule.tasks.size() == tasks) allocations += now;
     deaths += model.erosion->deleted.size();
   }

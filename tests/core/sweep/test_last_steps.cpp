@@ -47,13 +47,13 @@ Errors errors_of(const Deck& deck) {
   model.energy.error_max = 0;
   std::vector<double> error;
   Errors found;
-  while (model.times.time < deck.time.end) {
-    found.least_step = std::min(found.least_step, model.times.next);
-    found.largest_step = std::max(found.largest_step, model.times.next);
-    update_positions(model, team);
-    update_velocities(model, 1e9, team);
-    error.push_back(std::abs(model.energy.relative_error()));
-  }
+  run(model, 1e9, team, [&](const Model& now) {
+    if (now.step > 0) error.push_back(std::abs(now.energy.relative_error()));
+    if (now.times.time >= deck.time.end) return false;
+    found.least_step = std::min(found.least_step, now.times.next);
+    found.largest_step = std::max(found.largest_step, now.times.next);
+    return true;
+  });
   for (std::size_t i = 0; i < error.size(); ++i)
     (i + 10 < error.size() ? found.before : found.last) =
         std::max(i + 10 < error.size() ? found.before : found.last, error[i]);

@@ -228,13 +228,11 @@ TEST_P(Particles, StableStepIsStableAndNotMuchBelowTheLimit) {
     ThreadTeam team(1);
     const double start = model.energy.kinetic_start;
     double largest = 0;
-    for (int i = 0; i < 2000; ++i) {
-      update_velocities(model, deck.numerics.energy_error_limit, team);
-      model.times.next = scale * model.control.stable;
-      largest = std::max(largest, model.energy.kinetic_half);
-      if (largest > 1e6 * start) break;
-      update_positions(model, team);
-    }
+    run(model, deck.numerics.energy_error_limit, team, [&](Model& now) {
+      now.times.next = scale * now.control.stable;
+      largest = std::max(largest, now.energy.kinetic_half);
+      return largest <= 1e6 * start && now.step < 2000;
+    });
     return largest / start;
   };
   EXPECT_LE(largest_kinetic_energy(0.9), 1.5);
@@ -277,13 +275,9 @@ TEST_P(Particles, StepAllocatesNothing) {
   for (const int threads : {1, 2}) {
     Model model = build_model(deck);
     ThreadTeam team(threads);
-    const auto advance = [&] {
-      update_velocities(model, deck.numerics.energy_error_limit, team);
-      update_positions(model, team);
-    };
-    for (int step = 0; step < 3; ++step) advance();
+    make_steps(model, 3, deck.numerics.energy_error_limit, team);
     const AllocationCount allocations;
-    for (int step = 0; step < 50; ++step) advance();
+    make_steps(model, 50, deck.numerics.energy_error_limit, team);
     EXPECT_EQ(allocations.count(), 0u) << threads;
   }
 }

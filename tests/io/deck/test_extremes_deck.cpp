@@ -220,10 +220,7 @@ TEST(ExtremesDeck, AHundredThousandPartsAreReadBuiltAndSteppedInProportionateTim
     for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
     Model model = build(deck, meshes);
     ThreadTeam team(1);
-    for (int step = 0; step < 3; ++step) {
-      update_velocities(model, 0.1, team);
-      update_positions(model, team);
-    }
+    run(model, 0.1, team, [](const Model& now) { return now.step < 3; });
     EXPECT_EQ(model.parts.size(), static_cast<std::size_t>(count));
     EXPECT_EQ(model.nodes.size(), 8 * static_cast<std::size_t>(count));
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -17,11 +17,8 @@ Model at_end(const std::string& text, const std::string& preset) {
   const Deck deck = parse_deck(text, "deck.yaml", {"numerics.preset=" + preset});
   Model model = build_scene(deck);
   ThreadTeam team(1);
-  while (true) {
-    update_velocities(model, deck.numerics.energy_error_limit, team);
-    if (model.times.time >= deck.time.end) return model;
-    update_positions(model, team);
-  }
+  run(model, deck.numerics.energy_error_limit, team, [](Model&) { return true; });
+  return model;
 }
 
 // inputs/verification/brick_cantilever.yaml: relative error of the frequency.

@@ -1,0 +1,76 @@
+#include "src/step/contact_stage.hpp"
+
+#include "src/step/driven_bodies.hpp"
+#include "src/step/leap.hpp"
+
+namespace brio {
+
+namespace {
+
+// To their positions at the start of the time step.
+void move_contact_walls(Model& model) {
+  model.contact_walls.resize(model.walls.size());
+  for (std::size_t w = 0; w < model.walls.size(); ++w) {
+    const RigidWall& wall = model.walls[w].wall;
+    const Eigen::Vector3d velocity(wall.velocity.data());
+    model.contact_walls[w] = {Eigen::Vector3d(wall.point.data()) + model.times.time * velocity,
+                              Eigen::Vector3d(wall.normal.data()), velocity, wall.friction};
+  }
+}
+
+Contribution contribution_of(const ContactStep& step) {
+  return {.external = {.before = step.support_work_before, .after = step.support_work_after},
+          .contact = {.before = step.normal_work_before, .after = step.normal_work_after},
+          .friction = {.before = step.friction_work_before, .after = step.friction_work_after},
+          .supports = {to_vector(step.support_impulse), to_vector(step.support_moment)},
+          .walls = {to_vector(step.wall_impulse), to_vector(step.wall_moment)}};
+}
+
+Contribution resolve_scene(ContactScene& scene, Model& model, ThreadTeam& team) {
+  try {
+    resolve(scene, model.nodes, model.times.next, team, model.rigid.motion, model.ties, model.contact_walls);
+  } catch (const TooManyNear&) {
+    refuse_crowd(model);
+  }
+  expect_driven_bodies_apart(model, scene);
+  if (scene.unresolved.steps == 1 && scene.unresolved.time < 0) scene.unresolved.time = model.times.time;
+  add_contact_impulses(model.rigid);
+  model.stages[Stage::contact_search] += scene.step.search_seconds;
+  model.stages[Stage::contact] -= scene.step.search_seconds;
+  return contribution_of(scene.step);
+}
+
+Contribution stop_tied(const WallInRun& wall, Model& model) {
+  Contribution sum;
+  const Reaction supports = stop_tied_at(wall, model.times, model.ties, model.nodes);
+  sum += of_wall(stop_at(wall, model.times, model.nodes));
+  sum += of_wall(reaction_of_tied(model.ties, model.times, model.nodes));
+  sum += of_support(supports);
+  return sum;
+}
+
+}  // namespace
+
+Contribution resolve_contact(Model& model, ThreadTeam& team) {
+  Contribution sum;
+  if (model.contacts.empty()) return sum;
+  const StageTimer timer(model.stages, Stage::contact);
+  move_contact_walls(model);
+  for (ContactScene& scene : model.contacts) sum += resolve_scene(scene, model, team);
+  return sum;
+}
+
+Contribution stop_at_walls(Model& model) {
+  Contribution sum;
+  if (model.walls.empty()) return sum;
+  const StageTimer timer(model.stages, Stage::constraints);
+  for (const WallInRun& wall : model.walls) {
+    sum += model.ties.empty() ? of_wall(stop_at(wall, model.times, model.nodes)) : stop_tied(wall, model);
+    for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
+      sum += stop_at(wall, model.times, model.rigid.body[b], model.rigid.motion[b], model.nodes);
+    add_contact_impulses(model.rigid);
+  }
+  return sum;
+}
+
+}  // namespace brio

@@ -1,0 +1,116 @@
+#include "src/step/sweep_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/breakdown.hpp"
+#include "src/step/diagnosis.hpp"
+#include "src/step/laid_open.hpp"
+#include "src/sweep/release_ties.hpp"
+
+namespace brio {
+
+namespace {
+
+// Internal forces by colours of chunks.
+void sweep_chunks(Model& model, ThreadTeam& team) {
+  const SweepSchedule& schedule = model.schedule;
+  for (std::size_t colour = 0; colour + 1 < schedule.colour_first.size(); ++colour) {
+    const std::size_t first = schedule.colour_first[colour];
+    team.for_each(schedule.colour_first[colour + 1] - first, [&](std::size_t i) {
+      const SweepTask& task = schedule.tasks[first + i];
+      Block& block = model.blocks[task.block];
+      model.sweep_results[first + i] =
+          block.kernel.sweep(block, task.chunk, model.nodes, model.times.previous);
+    });
+  }
+}
+
+// Forces between particles, after all have computed their stress.
+void exchange_between_elements(Model& model, ThreadTeam& team) {
+  const auto exchanges = [](const Block& block) { return block.kernel.exchange != nullptr; };
+  if (std::none_of(model.blocks.begin(), model.blocks.end(), exchanges)) return;
+  team.for_each(model.schedule.tasks.size(), [&](std::size_t t) {
+    const SweepTask& task = model.schedule.tasks[t];
+    Block& block = model.blocks[task.block];
+    if (exchanges(block))
+      model.sweep_results[t].viscous_energy +=
+          block.kernel.exchange(block, task.chunk, model.nodes, model.times.previous);
+  });
+}
+
+// Sums and the stable time step in the order of tasks, whatever the number of threads.
+Contribution gather_results(Model& model) {
+  Contribution energies;
+  StepControl& control = model.control;
+  control.stable = HUGE_VAL;
+  for (std::size_t t = 0; t < model.schedule.tasks.size(); ++t) {
+    const SweepTask& task = model.schedule.tasks[t];
+    const SweepResult& result = model.sweep_results[t];
+    model.element_updates += static_cast<std::int64_t>(task.chunk.element_count);
+    PartEnergy& part = model.part_energy[task.block];
+    part.internal += result.internal_energy;
+    part.hourglass += result.hourglass_energy;
+    energies.internal += result.internal_energy;
+    energies.hourglass += result.hourglass_energy;
+    energies.viscous += result.viscous_energy;
+    if (!(result.stable_step < control.stable)) continue;
+    control.stable = result.stable_step;
+    control.critical_block = task.block;
+    control.critical_element =
+        static_cast<std::size_t>(model.parts[task.block].element_order[result.critical_element]);
+  }
+  control.stable *= model.ties.step_share;
+  return energies;
+}
+
+}  // namespace
+
+Contribution sweep_elements(Model& model, ThreadTeam& team) {
+  const StageTimer timer(model.stages, Stage::elements);
+  for (ParticleSearch& search : model.particle_searches)
+    follow_neighbours(search, model.blocks[search.block], model.nodes, team);
+  sweep_chunks(model, team);
+  exchange_between_elements(model, team);
+  const Contribution energies = gather_results(model);
+  if (!(model.control.stable > 0))
+    throw Breakdown(element_name(model, model.control.critical_block, model.control.critical_element) +
+                    " has inverted or holds a value that is not a number, at time " +
+                    written(model.times.time) + "; " + cause_of_collapse(model));
+  return energies;
+}
+
+Contribution add_mass(Model& model) {
+  if (!model.added_mass) return {};
+  return hand_out(*model.added_mass, model.schedule, model.sweep_results, model.blocks, model.parts,
+                  model.nodes, model.step == 0);
+}
+
+Contribution remove_freed_nodes(Model& model) {
+  if (!model.erosion) return {};
+  for (ActiveLoad& load : model.loads) remove_nodes(load, model.erosion->dropping);
+  return remove_nodes(*model.erosion, model.nodes);
+}
+
+Contribution erode_elements(Model& model, ThreadTeam& team) {
+  Contribution sum;
+  if (!model.erosion) return sum;
+  const StageTimer timer(model.stages, Stage::erosion);
+  Erosion& erosion = *model.erosion;
+  do {
+    sum += erode(erosion, model.schedule, model.sweep_results, model.blocks, model.parts);
+    if (erosion.deleted.empty()) return sum;
+    for (ActiveLoad& load : model.loads) remove_sides(load, erosion.deleted);
+    for (ContactScene& scene : model.contacts) erode(scene, *model.surface_numbers, erosion.deleted);
+    if (const std::optional<Contribution> released = release_ties(model.ties, erosion, model.nodes)) {
+      sum += *released;
+      for (ContactScene& scene : model.contacts) release_tied_pairs(scene, model.ties);
+    }
+  } while (give_up_crossed(model, team));
+  if (!is_sparse(model.schedule, model.blocks)) return sum;
+  model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
+  model.sweep_results.resize(model.schedule.tasks.size());
+  return sum;
+}
+
+}  // namespace brio

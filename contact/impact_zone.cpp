@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <vector>
 
 #include "contact/scene.hpp"
@@ -229,7 +230,19 @@ class Zones {
       }
     if (members.empty()) return;
     find_zone_impulses(members);
+    if (scene_.log) log_zone(unit_of, members);
     for (std::size_t i = 0; i < members.size(); ++i) push(unit_of[i], members[i]);
+  }
+
+  void log_zone(const std::vector<int>& units, const std::vector<ZoneMember>& members) {
+    std::map<int, Vector3d> impulse_of_part;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const int u = units[i];
+      const int part = is_body(u) ? scene_.log->part_of_body[static_cast<std::size_t>(u - slaves_)]
+                                  : scene_.log->part_of_node[global(u)];
+      impulse_of_part.try_emplace(part, Vector3d::Zero()).first->second += members[i].impulse;
+    }
+    scene_.log->add(impulse_of_part);
   }
 
   void push(int u, const ZoneMember& one) {

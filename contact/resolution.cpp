@@ -276,6 +276,7 @@ class Resolution {
       scene_.contacts[i].impulse = row_of(i).impulse;
       scene_.contacts[i].friction = to_eigen(row_of(i).friction);
     }
+    if (scene_.log) log_contacts(scene_);
     const bool at_walls = take_over_walls();
     sum_impulses(scene_);
     count_contacts(scene_);
@@ -326,14 +327,19 @@ class Resolution {
       Vector3d reaction = Vector3d::Zero();
       for (int axis = 0; axis < 3; ++axis)
         if (nodes_.free_inverse_mass(node, axis) == 0) reaction[axis] = -impulse[axis];
+      if (scene_.log && !reaction.isZero(0))
+        scene_.log->supports.push_back({.node = scene_.surface.node[s], .impulse = reaction});
       const Vector3d position(nodes_.record[node].position);
       account_support({reaction, position.cross(reaction), reaction.dot(before), reaction.dot(after)});
     }
-    for (const RigidMotion& body : bodies_) {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const RigidMotion& body = bodies_[b];
       step.normal_work_before +=
           body.impulse.dot(body.velocity_before) + body.moment.dot(body.angular_velocity_before);
       step.normal_work_after += body.impulse.dot(body.velocity) + body.moment.dot(body.angular_velocity);
       RigidSupport support = support_against(body, body.impulse, body.moment);
+      if (scene_.log)
+        scene_.log->supports.push_back({.body = static_cast<int>(b), .impulse = support.impulse});
       support.moment += body.centre.cross(support.impulse);
       account_support(support);
     }
@@ -362,6 +368,20 @@ class Resolution {
     }
   }
 
+  void log_supports() {
+    std::vector<Vector3<double>> reaction(rows_.block.size(), {0, 0, 0});
+    sum_reactions(rows_.rows, rows_.block, rows_.place, reaction);
+    for (std::size_t b = 0; b < reaction.size(); ++b) {
+      const Vector3d impulse = to_eigen(reaction[b]);
+      if (impulse.isZero(0)) continue;
+      const BlockOwner& owner = rows_.owner[b];
+      if (owner.kind == BlockOwner::Kind::node)
+        scene_.log->supports.push_back({.node = owner.index, .impulse = impulse});
+      if (owner.kind == BlockOwner::Kind::body)
+        scene_.log->supports.push_back({.body = owner.index, .impulse = impulse});
+    }
+  }
+
   void account_rows() {
     std::vector<ImpulseOnWall>& pushes = scene_.walls.push;
     pushes.assign(walls_.size(), {});
@@ -379,6 +399,7 @@ class Resolution {
     step.support_work_after += work.support_after;
     step.support_impulse += to_eigen(work.support_impulse);
     step.support_moment += to_eigen(work.support_moment);
+    if (scene_.log) log_supports();
     if (bodies_.empty()) return;
     for (const ConstraintRow& row : rows_.rows.row) {
       if (row.impulse == 0) continue;
@@ -407,6 +428,8 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std
              const Ties& ties, std::span<const ContactWall> walls) {
   assert(nodes.velocity_before.size() == nodes.size());
   scene.step = ContactStep{};
+  scene.walls.push.clear();
+  if (scene.log) scene.log->begin_step();
   if (scene.surface.node.empty()) return;
   Resolution(scene, nodes, dt, team, bodies, ties, walls).run();
   scene.last_dt = dt;

@@ -22,6 +22,7 @@
 #include "contact/erosion.hpp"
 #include "contact/features/feature_motion.hpp"
 #include "contact/features/features.hpp"
+#include "contact/impulse_log.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
 #include "contact/pairs/feature_pairs.hpp"
@@ -131,6 +132,7 @@ struct ContactScene {
 
   ContactStep step;
   ContactTotals totals;
+  std::optional<ImpulseLog> log;  ///< if the caller asks for it
 
   /// Saved and restored (src/base/state_archive.hpp); the surface only where it can change.
   template <class Archive>

@@ -4,6 +4,8 @@
 
   --column NAME    of the history, such as external, internal, plate.velocity_z
   --label TEXT     of the axis of the column; default its name
+  --against NAME   column of the other axis, such as ram.displacement_z; default the time
+  --scale FACTOR   multiply the column, such as -1
   --time FACTOR UNIT  multiply times; default 1000 ms
 """
 import argparse
@@ -21,6 +23,8 @@ def arguments():
     parser.add_argument("runs", nargs="+", metavar="LABEL=HISTORY.csv")
     parser.add_argument("--column", required=True)
     parser.add_argument("--label")
+    parser.add_argument("--against")
+    parser.add_argument("--scale", type=float, default=1)
     parser.add_argument("--time", nargs=2, default=["1000", "ms"], metavar=("FACTOR", "UNIT"))
     parser.add_argument("--output", required=True)
     return parser.parse_args()
@@ -42,8 +46,9 @@ def main():
     for run in options.runs:
         label, _, path = run.partition("=")
         times, values = column(path, options.column)
-        axes.plot([factor * t for t in times], values, label=label, linewidth=1.2)
-    axes.set_xlabel(f"time, {unit}")
+        along = column(path, options.against)[1] if options.against else [factor * t for t in times]
+        axes.plot(along, [options.scale * value for value in values], label=label, linewidth=1.2)
+    axes.set_xlabel(options.against or f"time, {unit}")
     axes.set_ylabel(options.label or options.column)
     axes.legend(frameon=False)
     axes.grid(alpha=0.3)

@@ -70,4 +70,16 @@ RowWork account_work(ConstraintRows& rows, std::span<const Vector> before,
   return work;
 }
 
+void sum_reactions(const ConstraintRows& rows, std::span<const VelocityBlock> after,
+                   std::span<const BlockPlace> places, std::span<Vector> reaction) {
+  for (const ConstraintRow& row : rows.row) {
+    if (row.impulse == 0) continue;
+    RowMap(rows, row).spread(impulse_of(row), [&](int b, const Vector& given) {
+      const VelocityBlock& block = after[index(b)];
+      if (!is_free(block.inverse_mass))
+        reaction[index(b)] = reaction[index(b)] + reaction_of(block, places[index(b)], given);
+    });
+  }
+}
+
 }  // namespace brio

@@ -44,4 +44,9 @@ RowWork account_work(ConstraintRows& rows, std::span<const Vector3<double>> befo
                      std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
                      std::span<ImpulseOnWall> walls);
 
+/// Reactions of supports block by block, of which `account_work` gives the sums. \param reaction one a block;
+/// they are increased
+void sum_reactions(const ConstraintRows& rows, std::span<const VelocityBlock> after,
+                   std::span<const BlockPlace> places, std::span<Vector3<double>> reaction);
+
 }  // namespace brio

@@ -32,7 +32,7 @@ struct NodeAtWall {
 struct NodesAtWalls {
   std::vector<NodeAtWall> touch;      ///< of this step, first the predicted ones, by wall and slave
   std::vector<NodeAtWall> last;       ///< of the step before, by wall and slave
-  std::vector<ImpulseOnWall> push;    ///< on each wall, in this step
+  std::vector<ImpulseOnWall> push;    ///< on each wall, in this step; empty: none
   std::vector<std::uint8_t> touches;  ///< of each wall and slave: whether it is listed
 
   /// Replace the touches by those of nodes that may reach a wall in this step, with impulses as they were.

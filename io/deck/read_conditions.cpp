@@ -67,12 +67,12 @@ void read_where(const YamlNode& node, const Slot& slot, const std::string& condi
 }
 
 void read_motion(const YamlNode& node, const Slot& slot, PrescribedMotion& motion) {
-  std::vector<std::string_view> accepted{"part", "set", "fix"};
+  std::vector<std::string_view> accepted{"name", "part", "set", "fix"};
   for (const auto& [key, kind] : motion_keys) accepted.push_back(key);
   check_keys(node, accepted);
   const YamlEntry* given = nullptr;
   for (const YamlEntry& entry : node.entries) {
-    if (entry.key == "set" || entry.key == "part") continue;
+    if (entry.key == "set" || entry.key == "part" || entry.key == "name") continue;
     if (given != nullptr)
       throw DeckError(entry.place,
                       "both '" + given->key + "' and '" + entry.key + "'; one is accepted an entry");
@@ -100,6 +100,18 @@ void read_motion(const YamlNode& node, const Slot& slot, PrescribedMotion& motio
     read_value(*entry.value, Slot{entry.key, any_number, slot.known}, curve);
     add_component(*entry.value, components, motion, entry.key, std::move(curve));
   }
+}
+
+std::string name_of_condition(const YamlNode& node, const Slot& slot) {
+  const YamlEntry* name = node.find("name");
+  if (name == nullptr) return "";
+  std::string read;
+  read_value(*name->value, Slot{"name", any_number, slot.known}, read);
+  if (read.empty() || read.find_first_not_of(name_letters) != std::string::npos)
+    throw DeckError(name->value->place, "'" + read +
+                                            "' cannot be the name of a boundary condition; accepted " +
+                                            "are letters, digits, _ and -");
+  return read;
 }
 
 void read_part_names(const YamlNode& node, const Slot& slot, std::vector<std::string>& names) {
@@ -156,11 +168,15 @@ void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condit
 void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition) {
   require_map(node, slot);
   if (const YamlEntry* wall = node.find(RigidWall::name)) {
-    check_keys(node, {RigidWall::name});
-    read_value(*wall->value, Slot{RigidWall::name, any_number, slot.known}, condition.emplace<RigidWall>());
+    check_keys(node, {"name", RigidWall::name});
+    auto& read = condition.emplace<RigidWall>();
+    read_value(*wall->value, Slot{RigidWall::name, any_number, slot.known}, read);
+    read.label = name_of_condition(node, slot);
     return;
   }
-  read_motion(node, slot, condition.emplace<PrescribedMotion>());
+  auto& motion = condition.emplace<PrescribedMotion>();
+  read_motion(node, slot, motion);
+  motion.name = name_of_condition(node, slot);
 }
 
 void read_value(const YamlNode& node, const Slot& slot, Load& load) {

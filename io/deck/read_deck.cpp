@@ -3,6 +3,7 @@
 #include "io/deck/preset.hpp"
 #include "io/deck/read_fields.hpp"
 #include "io/deck/yaml_source.hpp"
+#include "src/output/cell_variables.hpp"
 
 namespace brio {
 
@@ -16,20 +17,23 @@ void check_precision(const Deck& deck, const YamlNode& root) {
                       "part '" + part.name + "' is of particles, which are computed in double only");
 }
 
-/// Names that no material of a part knows would be fields of zeros.
-void check_history_fields(const Deck& deck, const YamlNode& root) {
-  if (deck.output.fields_.history.empty()) return;
-  std::vector<std::string_view> known;
+/// Resolves groups of variables. Names that nothing knows would be fields of zeros.
+void read_variables(Deck& deck, const YamlNode& root) {
+  std::vector<std::string>& wanted = deck.output.fields_.variables;
+  if (wanted.empty()) return;
+  std::vector<std::string_view> histories;
   for (const auto& [name, material] : deck.materials)
     for (const std::string_view word : history_names_of(material))
-      if (std::ranges::find(known, word) == known.end()) known.push_back(word);
-  const YamlNode& list = *root.find("output")->value->find("fields")->value->find("history")->value;
-  for (std::size_t i = 0; i < deck.output.fields_.history.size(); ++i) {
-    const std::string& name = deck.output.fields_.history[i];
-    if (std::ranges::find(known, name) != known.end()) continue;
-    throw DeckError(list.items[i]->place,
-                    "no material has a history '" + name + "'; " + accepted_words(name, known));
-  }
+      if (std::ranges::find(histories, word) == histories.end()) histories.push_back(word);
+  std::vector<std::string_view> known{default_group, all_group};
+  for (const DerivedVariable& variable : derived_variables()) known.push_back(variable.name);
+  known.insert(known.end(), histories.begin(), histories.end());
+  const YamlNode& list = *root.find("output")->value->find("fields")->value->find("variables")->value;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (std::ranges::find(known, wanted[i]) == known.end())
+      throw DeckError(list.items[i]->place,
+                      "no field is called '" + wanted[i] + "'; " + accepted_words(wanted[i], known));
+  wanted = named_variables(wanted, histories);
 }
 
 }  // namespace
@@ -57,7 +61,7 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
         "'parts' is empty; at least one part is expected, such as {cube: {mesh: ..., element: ..., "
         "material: ...}}");
   check_precision(deck, *root);
-  check_history_fields(deck, *root);
+  read_variables(deck, *root);
   deck.text = overrides.empty() && root == as_said ? text : write_yaml(*root);
   return deck;
 }

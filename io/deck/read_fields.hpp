@@ -25,6 +25,8 @@ class KnownNames {
 
   /// \throws DeckError if no part is called so.
   const Part& part(const YamlNode& node, std::string_view name) const;
+  /// \throws DeckError if no boundary condition is called so.
+  void expect_condition(const YamlNode& node, std::string_view name) const;
   /// \throws DeckError if no material is called so.
   const Material& material(const YamlNode& node) const;
 
@@ -65,6 +67,9 @@ void read_value(const YamlNode& node, const Slot& slot, Connection& connection);
 void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair);
 void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact);
 void read_value(const YamlNode& node, const Slot& slot, Probe& probe);
+void read_value(const YamlNode& node, const Slot& slot, ReactionColumns& columns);
+void read_value(const YamlNode& node, const Slot& slot, ContactColumns& columns);
+void read_value(const YamlNode& node, const Slot& slot, ForceSection& section);
 
 /// \throws DeckError "KEY is ...; WANTED is expected".
 [[noreturn]] void refuse(const YamlNode& node, const Slot& slot, const std::string& wanted);

@@ -96,7 +96,7 @@ OutputCost measure_output(const Deck& deck, Model& model, double steps) {
                        .version = BRIO_VERSION,
                        .threads = 1},
                       columns);
-  FieldObserver observer(model, deck.output.fields_.history);
+  FieldObserver observer(model, deck.output.fields_.variables);
   const Snapshot& snapshot = observer.observe(model);
   const double first_seconds = seconds_of([&] { writer.write(snapshot); });
   cost.first_dump_bytes = folder.bytes();

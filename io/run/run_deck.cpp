@@ -184,11 +184,12 @@ void expect_same_columns(const std::filesystem::path& results, const RestartFile
                          const std::vector<std::string>& columns, const Deck& deck) {
   const Deck saved = parse_deck(restart.header.record.deck_text, restart.path.string());
   if (ResultReader(results).history_columns() == columns &&
-      saved.output.fields_.history == deck.output.fields_.history)
+      saved.output.fields_.variables == deck.output.fields_.variables)
     return;
-  throw DeckError(deck.file + ": history or fields in " + results.string() +
-                  " have other columns than this run; accepted are the same output.history.probes and "
-                  "output.fields.history, or results in another folder (--output)");
+  throw DeckError(
+      deck.file + ": history or fields in " + results.string() +
+      " have other columns than this run; accepted are the same probes and forces of "
+      "output.history and the same output.fields.variables, or results in another folder (--output)");
 }
 
 bool is_same_folder(const std::filesystem::path& a, const std::filesystem::path& b) {

@@ -21,7 +21,7 @@ OutputSchedule restart_schedule(const Deck& deck) {
 RunOutput::RunOutput(const Deck& deck, Model& model, ResultWriter& writer)
     : model_(model),
       writer_(writer),
-      observer_(model, deck.output.fields_.history),
+      observer_(model, deck.output.fields_.variables),
       history_(history_columns(model)),
       field_schedule_(field_schedule(deck)),
       history_schedule_(history_schedule(deck)),
@@ -69,6 +69,7 @@ void RunOutput::write(bool row, bool fields, ThreadTeam& team) {
   }
   if (row) {
     history_.append(row_);
+    if (model_.forces) model_.forces->begin_interval();
     last_row_ = model_.times.time;
   }
   if (fields) {

@@ -112,11 +112,30 @@ struct SchemaOf<MotionComponents> : WithoutDefault {
   }
 };
 
+/// `all`, or a list.
+Schema all_or_list(Schema items) {
+  return {
+      {"oneOf", {{{"const", "all"}, {"title", "all"}}, {{"type", "array"}, {"items", std::move(items)}}}}};
+}
+
+template <>
+struct SchemaOf<ReactionColumns> : WithoutDefault {
+  static Schema make(const Range&) { return all_or_list({{"type", "string"}}); }
+};
+
+template <>
+struct SchemaOf<ContactColumns> : WithoutDefault {
+  static Schema make(const Range&) { return all_or_list(schema_of<std::array<std::string, 2>>(any_number)); }
+};
+
 template <>
 struct SchemaOf<BoundaryCondition> : WithoutDefault {
   static Schema make(const Range&) {
+    const Schema name{
+        {"type", "string"}, {"pattern", "^[A-Za-z0-9_-]+$"}, {"description", "for columns of the history"}};
     Schema motion{{"type", "object"}, {"title", "motion"}};
     motion["description"] = "components of the motion of a set are prescribed";
+    motion["properties"]["name"] = name;
     motion["properties"]["part"] = {{"type", "string"},
                                     {"description", "all nodes of a part, or a rigid part as a whole"}};
     motion["properties"]["set"] = schema_of<NodeSelection>(any_number);
@@ -136,7 +155,7 @@ struct SchemaOf<BoundaryCondition> : WithoutDefault {
     motion["allOf"] = {{{"oneOf", {{{"required", {"part"}}}, {{"required", {"set"}}}}}}};
     motion["oneOf"] = keys;
     motion["additionalProperties"] = false;
-    Schema choice = single_key_choice<std::variant<RigidWall>>();
+    Schema choice = single_key_choice<std::variant<RigidWall>>({{"name", name}});
     choice["oneOf"].insert(choice["oneOf"].begin(), motion);
     return choice;
   }

@@ -191,9 +191,11 @@ Vector unit_normal(const RigidWall& wall) {
 }
 
 void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  int number = -1;
   for (const BoundaryCondition& condition : deck.boundary_conditions) {
+    ++number;
     if (const auto* wall = std::get_if<RigidWall>(&condition)) {
-      model.walls.push_back({*wall});
+      model.walls.push_back({*wall, number});
       model.walls.back().wall.normal = unit_normal(*wall);
       continue;
     }
@@ -201,11 +203,13 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
     std::vector<int> nodes = select_nodes(motion.where, deck, meshes, model);
     for (const std::size_t b : take_rigid(nodes, motion.where, model))
       for (const PrescribedComponent& component : motion.components)
-        model.rigid.body[b].given.push_back({motion.kind, component.axis, component.curve, component.place});
+        model.rigid.body[b].given.push_back(
+            {motion.kind, component.axis, component.curve, component.place, number});
     if (nodes.empty()) continue;
     for (const PrescribedComponent& component : motion.components) {
       if (component.axis >= 3 && !model.nodes.has_rotations()) continue;  // solids have no rotations to hold
-      model.prescribed.push_back({nodes, motion.kind, component.axis, component.curve, component.place});
+      model.prescribed.push_back(
+          {nodes, motion.kind, component.axis, component.curve, component.place, number});
       mark(model.prescribed.back(), model.nodes);
     }
   }
@@ -398,6 +402,10 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   model.extent = scene_extent(model.nodes);
   start_balances(model);
   model.probes = place_probes(deck, model.parts, model.nodes);
+  if (const auto& forces = deck.output.history.forces) {
+    for (ContactScene& scene : model.contacts) scene.log = make_impulse_log(*forces, deck, model);
+    model.forces = make_force_sums(*forces, deck, model);
+  }
   return model;
 }
 

@@ -17,6 +17,7 @@
 #include "elements/block.hpp"
 #include "materials/material.hpp"
 #include "src/base/fields.hpp"
+#include "src/deck/force_output.hpp"
 #include "src/deck/mesh_source.hpp"
 
 namespace brio {
@@ -190,6 +191,7 @@ struct PrescribedComponent {
 
 /// `fix: [x, y, z, rx, ry, rz]`, or `displacement|velocity|acceleration: {x: CURVE, ...}`.
 struct PrescribedMotion {
+  std::string name;  ///< may be empty
   NodeSelection where;
   MotionKind kind = MotionKind::velocity;
   std::vector<PrescribedComponent> components;
@@ -204,6 +206,7 @@ struct RigidWall {
   Triple velocity{};
   double friction = 0;
   std::string place{};  ///< in the deck
+  std::string label{};  ///< its name in the deck; may be empty
   static constexpr auto fields() {
     return field_table(required("point", &RigidWall::point, any_number, "a point of the plane at the start"),
                        required("normal", &RigidWall::normal, any_number, "points into the free side"),
@@ -364,15 +367,17 @@ struct TimeSection {
 struct FieldOutput {
   std::optional<double> every;
   std::vector<double> times;
-  std::vector<std::string> history;
+  std::vector<std::string> variables;
   static constexpr auto fields() {
     return field_table(
         optional("every", &FieldOutput::every, positive,
                  "time between dumps; default: a twentieth of the end time"),
         optional("times", &FieldOutput::times, non_negative, "times of dumps instead"),
-        optional("history", &FieldOutput::history, any_number,
-                 "what of the history of the materials is written besides, each as a field of cells: a list "
-                 "of names, such as temperature; 0 in materials that do not know it"));
+        optional(
+            "variables", &FieldOutput::variables, any_number,
+            "fields of cells, a list: default, all, von_mises, pressure, triaxiality, internal_energy, or "
+            "a name of the history of a material, such as temperature (0 in materials that do not know "
+            "it); part and element_id are written in any case; default: [default]"));
   }
   std::string_view fault() const {
     return every && !times.empty() ? "both 'every' and 'times' are given; one of them is accepted" : "";
@@ -393,12 +398,15 @@ struct Probe {
 struct HistoryOutput {
   std::optional<double> every;
   std::vector<Probe> probes;
+  std::optional<ForceOutput> forces;
   static constexpr auto fields() {
     return field_table(
         optional("every", &HistoryOutput::every, positive,
                  "time between rows; default: a thousandth of the end time"),
         optional("probes", &HistoryOutput::probes, any_number,
-                 "a map of names to nodes whose displacement and velocity are written as well"));
+                 "a map of names to nodes whose displacement and velocity are written as well"),
+        optional("forces", &HistoryOutput::forces, any_number,
+                 "forces that are written as well: means over the time since the row before"));
   }
 };
 struct RestartOutput {

@@ -14,6 +14,7 @@
 #include "contact/start/initial_gap.hpp"
 #include "contact/ties/ties.hpp"
 #include "src/deck/deck.hpp"
+#include "src/model/force_sums.hpp"
 #include "src/model/merged_parts.hpp"
 #include "src/model/probes.hpp"
 #include "src/model/scene_extent.hpp"
@@ -84,6 +85,7 @@ struct Model {
   double hourglass_warning = 0;         ///< limit of the ratio of hourglass to internal energy
   MomentumBalance momentum;
   std::vector<ProbeInRun> probes;           ///< one a probe of the deck
+  std::optional<ForceSums> forces;          ///< if the deck asks for forces in the history
   std::vector<KineticEnergy> kinetic_sums;  ///< one a range of nodes
   StageTimes stages;
 };

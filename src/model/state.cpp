@@ -17,6 +17,10 @@ void serialize(Archive& archive, Model& model) {
   archive(model.contacts, model.contact_audits);
   archive.section(4);
   archive(model.erosion, model.added_mass);
+  std::vector<double> forces;
+  if (model.forces) forces = model.forces->impulses();
+  archive(forces);
+  if (model.forces) model.forces->set_impulses(forces);
   archive.section(5);
 }
 

@@ -18,6 +18,7 @@ struct PrescribedNodes {
   int axis = 0;  ///< 0..2 translations, 3..5 rotations
   Curve curve;
   std::string place{};  ///< in the deck
+  int condition = -1;   ///< its number in the deck
 };
 
 /// Times of the present time step: forces are of `time`, velocities go from -previous/2 to +next/2 about it.
@@ -51,7 +52,8 @@ Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& 
 
 /// A rigid wall: nodes that would be behind it at the end of the time step are stopped on it.
 struct WallInRun {
-  RigidWall wall;  ///< normal of unit length
+  RigidWall wall;      ///< normal of unit length
+  int condition = -1;  ///< its number in the deck
 };
 
 struct WallReaction {

@@ -246,6 +246,7 @@ Reaction accelerate(RigidBodies& bodies, const StepTimes& times) {
     if (rotation_is_given(body)) body.angular_momentum = motion.inertia * motion.angular_velocity;
     const Vector3d impulse = body.mass * (motion.velocity - pushed);
     const Vector3d moment = body.angular_momentum - turning;
+    body.support = impulse;
     reaction.impulse.add(to_vector(body.centre), to_vector(impulse));
     add_to(reaction.impulse.angular, to_vector(moment));
     reaction.before += impulse.dot(motion.velocity_before) + moment.dot(motion.angular_velocity_before);

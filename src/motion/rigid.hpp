@@ -30,6 +30,7 @@ struct PrescribedRigid {
   int axis = 0;  ///< 0..2 translations, 3..5 rotations
   Curve curve;
   std::string place{};  ///< in the deck
+  int condition = -1;   ///< its number in the deck
 };
 
 /// A node of a body in contact with a wall in the present time step.
@@ -61,6 +62,8 @@ struct RigidBody {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Vector3d weight = Eigen::Vector3d::Zero();  ///< gravity as a part of the force
   std::vector<WallTouch> touch;                      ///< at the wall under consideration
+  Eigen::Vector3d support =
+      Eigen::Vector3d::Zero();  ///< linear impulse of its supports, but in contact, in this step
 
   bool is_given(int axis) const;
 

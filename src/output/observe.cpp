@@ -1,7 +1,10 @@
 #include "src/output/observe.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
+
+#include "src/output/cell_variables.hpp"
 
 namespace brio {
 
@@ -78,7 +81,7 @@ std::vector<std::int64_t> points_of_nodes(const Model& model) {
 
 }  // namespace
 
-FieldObserver::FieldObserver(const Model& model, std::span<const std::string> history)
+FieldObserver::FieldObserver(const Model& model, std::span<const std::string> variables)
     : point_of_node_(points_of_nodes(model)) {
   node_of_point_.resize(model.nodes.size() -
                         static_cast<std::size_t>(std::ranges::count(point_of_node_, std::int64_t{-1})));
@@ -90,26 +93,47 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> hi
   snapshot_.point_fields = {field("displacement", 3, points, Storage::double_precision),
                             field("velocity", 3, points)};
   if (!model.contacts.empty()) snapshot_.point_fields.push_back(field("contact_force", 3, points));
-  snapshot_.cell_fields = {field("stress", 6, 0), field("equivalent_plastic_strain", 1, 0),
-                           field("part", 1, 0, Storage::integer, true),
-                           field("element_id", 1, 0, Storage::integer, true)};
-  const auto add_cell_field = [&](const std::string& name) {
-    snapshot_.cell_fields.push_back(field(name, 1, 0));
-    return snapshot_.cell_fields.size() - 1;
-  };
-  if (any_has(model, &ElementTraits::has_thickness)) thickness_ = add_cell_field("thickness");
-  if (any_has(model, &ElementTraits::has_radius)) radius_ = add_cell_field("radius");
-  if (any_has(model, &ElementTraits::has_density)) density_ = add_cell_field("density");
-  history_ = {1};
-  const auto add_history = [&](const std::string& name) {
-    const auto is_there = [&](std::size_t k) { return snapshot_.cell_fields[k].name == name; };
-    if (std::ranges::none_of(history_, is_there)) history_.push_back(add_cell_field(name));
-  };
-  if (can_be_damaged(model)) add_history("damage");
-  for (const std::string& name : history) add_history(name);
+  add_cell_fields(model, variables);
   take_topology(model);
   fill_points(model);
   reference_ = snapshot_.points;
+}
+
+void FieldObserver::add_cell_field(std::string_view name, CellSource source) {
+  const auto is_there = [&](const FieldArray& known) { return known.name == name; };
+  if (std::ranges::any_of(snapshot_.cell_fields, is_there)) return;
+  const bool fixed = source.kind == CellSource::Kind::part || source.kind == CellSource::Kind::element;
+  snapshot_.cell_fields.push_back(field(std::string(name), source.kind == CellSource::Kind::stress ? 6 : 1, 0,
+                                        fixed ? Storage::integer : Storage::single_precision, fixed));
+  cell_source_.push_back(source);
+}
+
+void FieldObserver::add_cell_fields(const Model& model, std::span<const std::string> variables) {
+  using Kind = CellSource::Kind;
+  const auto add_default = [&] {
+    add_cell_field("stress", {Kind::stress});
+    add_cell_field("equivalent_plastic_strain", {Kind::history});
+  };
+  const auto add_default_of_kinds = [&] {
+    if (any_has(model, &ElementTraits::has_thickness)) add_cell_field("thickness", {Kind::thickness});
+    if (any_has(model, &ElementTraits::has_radius)) add_cell_field("radius", {Kind::radius});
+    if (any_has(model, &ElementTraits::has_density)) add_cell_field("density", {Kind::density});
+    if (can_be_damaged(model)) add_cell_field("damage", {Kind::history});
+  };
+  const bool has_default =
+      variables.empty() || std::ranges::find(variables, default_group) != variables.end();
+  if (has_default) add_default();
+  add_cell_field("part", {Kind::part});
+  add_cell_field("element_id", {Kind::element});
+  if (has_default) add_default_of_kinds();
+  for (const std::string& name : variables) {
+    if (name == default_group) continue;
+    const auto derived = std::ranges::find(derived_variables(), name, &DerivedVariable::name);
+    if (derived != derived_variables().end())
+      add_cell_field(name, {Kind::derived, derived->value});
+    else
+      add_cell_field(name, {Kind::history});
+  }
 }
 
 // Cells of the elements that live, by part and element.
@@ -170,6 +194,35 @@ void FieldObserver::fill_contact_force(const Model& model) {
   }
 }
 
+void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
+                              FieldArray& field) {
+  using Kind = CellSource::Kind;
+  const auto value = [&] {
+    switch (source.kind) {
+      case Kind::part:
+        return static_cast<double>(at.part);
+      case Kind::element:
+        return static_cast<double>(at.element);
+      case Kind::derived:
+        return source.derived(sample);
+      case Kind::thickness:
+        return sample.thickness;
+      case Kind::radius:
+        return sample.radius;
+      case Kind::density:
+        return sample.density;
+      default:
+        return sample.named(field.name);
+    }
+  };
+  if (source.kind != Kind::stress) {
+    field.values[at.number] = value();
+    return;
+  }
+  const SymmetricTensor<double>& s = sample.stress;
+  std::ranges::copy(std::array{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}, &field.values[6 * at.number]);
+}
+
 void FieldObserver::fill_cells(const Model& model) {
   std::size_t cell = 0;
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
@@ -177,18 +230,8 @@ void FieldObserver::fill_cells(const Model& model) {
     for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
       if (part.element_slot[e] < 0 && part.rigid < 0) continue;
       const ElementSample sample = sample_of(model, part, e);
-      double* stress = &snapshot_.cell_fields[0].values[6 * cell];
-      const SymmetricTensor<double>& s = sample.stress;
-      for (double component : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) *stress++ = component;
-      snapshot_.cell_fields[2].values[cell] = static_cast<double>(p);
-      snapshot_.cell_fields[3].values[cell] = static_cast<double>(e);
-      if (thickness_) snapshot_.cell_fields[*thickness_].values[cell] = sample.thickness;
-      if (radius_) snapshot_.cell_fields[*radius_].values[cell] = sample.radius;
-      if (density_) snapshot_.cell_fields[*density_].values[cell] = sample.density;
-      for (const std::size_t k : history_) {
-        FieldArray& named = snapshot_.cell_fields[k];
-        named.values[cell] = sample.named(named.name);
-      }
+      for (std::size_t k = 0; k < cell_source_.size(); ++k)
+        fill_cell(cell_source_[k], sample, {p, e, cell}, snapshot_.cell_fields[k]);
       ++cell;
     }
   }
@@ -251,6 +294,7 @@ std::vector<std::string> history_columns(const Model& model) {
   if (model.erosion)
     for (const auto cause : deletion_causes) columns.push_back("deleted_by_" + std::string(cause));
   add_columns(model.probes, columns);
+  if (model.forces) add_columns(*model.forces, columns);
   return columns;
 }
 
@@ -281,6 +325,7 @@ void observe_history(Model& model, std::vector<double>& row) {
   if (model.erosion)
     for (const auto count : model.erosion->deleted_by_cause) row.push_back(static_cast<double>(count));
   add_values(model.probes, model.nodes, row);
+  if (model.forces) add_values(*model.forces, row);
 }
 
 std::vector<std::string> active_features(const Model& model) {

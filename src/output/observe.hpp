@@ -18,8 +18,9 @@ namespace brio {
 class FieldObserver {
  public:
   /// Stores the present positions as the reference of displacements.
-  /// \param history names of the histories of material models that become fields of cells
-  explicit FieldObserver(const Model& model, std::span<const std::string> history = {});
+  /// \param variables fields of cells beside part and element number, of `output.fields.variables`; empty:
+  /// the default
+  explicit FieldObserver(const Model& model, std::span<const std::string> variables = {});
 
   /// Fields at the time of the step; call between update_velocities and update_positions.
   const Snapshot& observe(const Model& model);
@@ -33,6 +34,22 @@ class FieldObserver {
   void follow(const Model& model);
 
  private:
+  /// What fills a field of cells.
+  struct CellSource {
+    enum class Kind { stress, part, element, derived, thickness, radius, density, history };
+    Kind kind;
+    double (*derived)(const ElementSample&) = nullptr;
+  };
+
+  /// Of which part, which of its elements, and which of all cells.
+  struct Cell {
+    std::size_t part, element, number;
+  };
+
+  static void fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
+                        FieldArray& field);
+  void add_cell_fields(const Model& model, std::span<const std::string> variables);
+  void add_cell_field(std::string_view name, CellSource source);
   void take_topology(const Model& model);
   void fill_points(const Model& model);
   void fill_contact_force(const Model& model);
@@ -41,9 +58,8 @@ class FieldObserver {
   Snapshot snapshot_;
   std::vector<int> node_of_point_;
   std::vector<std::int64_t> point_of_node_;
-  std::int64_t deleted_ = 0;                                 ///< elements, when the topology was taken
-  std::optional<std::size_t> thickness_, radius_, density_;  ///< places of these among the cell fields
-  std::vector<std::size_t> history_;                         ///< of those that are history of a material
+  std::int64_t deleted_ = 0;             ///< elements, when the topology was taken
+  std::vector<CellSource> cell_source_;  ///< of each cell field
   std::vector<double> reference_;
 };
 

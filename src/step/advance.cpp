@@ -55,8 +55,11 @@ Contribution constrain(Model& model) {
   Contribution sum;
   if (model.prescribed.empty()) return sum;
   const StageTimer timer(model.stages, Stage::constraints);
-  for (const PrescribedNodes& given : model.prescribed)
-    sum += of_support(prescribe(given, model.times, model.nodes));
+  for (const PrescribedNodes& given : model.prescribed) {
+    const Reaction support = prescribe(given, model.times, model.nodes);
+    if (model.forces) model.forces->add_reaction(given.condition, support.impulse.linear);
+    sum += of_support(support);
+  }
   return sum;
 }
 
@@ -71,6 +74,7 @@ Contribution accelerate_rigid(Model& model, ThreadTeam& team) {
   if (model.rigid.empty()) return {};
   const StageTimer timer(model.stages, Stage::rigid);
   const Reaction supports = accelerate(model.rigid, model.times);
+  if (model.forces) add_reactions(*model.forces, model.rigid);
   carry_velocities(model.rigid, model.nodes, team);
   return of_support(supports);
 }
@@ -141,11 +145,14 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   balance += remove_freed_nodes(model);
 
   apply_loads(model);
+  if (model.forces) note_loads(*model.forces, model.nodes);
   balance += sweep_elements(model, team);
+  if (model.forces) measure_sections(*model.forces, model.nodes);
   balance += add_mass(model);
   balance += erode_elements(model, team);
   gather_tied_forces(model);
   choose_step(model);
+  if (model.forces) begin_step(*model.forces, model.times.mean());
 
   balance += {.external = {.before = load_work(model)}};
   const KineticEnergy accelerated = accelerate_nodes(model, team);

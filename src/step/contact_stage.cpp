@@ -26,6 +26,14 @@ Contribution contribution_of(const ContactStep& step) {
           .walls = {to_vector(step.wall_impulse), to_vector(step.wall_moment)}};
 }
 
+void add_forces(ForceSums& sums, const ContactScene& scene, std::span<const WallInRun> walls) {
+  sums.add(*scene.log);
+  for (std::size_t w = 0; w < scene.walls.push.size(); ++w) {
+    const Vector3<double>& on_wall = scene.walls.push[w].impulse;
+    sums.add_reaction(walls[w].condition, {-on_wall.x, -on_wall.y, -on_wall.z});
+  }
+}
+
 Contribution resolve_scene(ContactScene& scene, Model& model, ThreadTeam& team) {
   try {
     resolve(scene, model.nodes, model.times.next, team, model.rigid.motion, model.ties, model.contact_walls);
@@ -37,7 +45,15 @@ Contribution resolve_scene(ContactScene& scene, Model& model, ThreadTeam& team) 
   add_contact_impulses(model.rigid);
   model.stages[Stage::contact_search] += scene.step.search_seconds;
   model.stages[Stage::contact] -= scene.step.search_seconds;
+  if (model.forces) add_forces(*model.forces, scene, model.walls);
   return contribution_of(scene.step);
+}
+
+Contribution stop_body(const WallInRun& wall, std::size_t b, Model& model) {
+  const Contribution sum =
+      stop_at(wall, model.times, model.rigid.body[b], model.rigid.motion[b], model.nodes);
+  if (model.forces) model.forces->add_support_of_body(b, sum.supports.linear);
+  return sum;
 }
 
 Contribution stop_tied(const WallInRun& wall, Model& model) {
@@ -65,10 +81,12 @@ Contribution stop_at_walls(Model& model) {
   if (model.walls.empty()) return sum;
   const StageTimer timer(model.stages, Stage::constraints);
   for (const WallInRun& wall : model.walls) {
-    sum += model.ties.empty() ? of_wall(stop_at(wall, model.times, model.nodes)) : stop_tied(wall, model);
-    for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
-      sum += stop_at(wall, model.times, model.rigid.body[b], model.rigid.motion[b], model.nodes);
+    Contribution one =
+        model.ties.empty() ? of_wall(stop_at(wall, model.times, model.nodes)) : stop_tied(wall, model);
+    for (std::size_t b = 0; b < model.rigid.body.size(); ++b) one += stop_body(wall, b, model);
     add_contact_impulses(model.rigid);
+    if (model.forces) model.forces->add_reaction(wall.condition, one.walls.linear);
+    sum += one;
   }
   return sum;
 }

@@ -61,7 +61,7 @@ inline Model build_model(const Deck& deck) {
 }
 
 /// A number of time steps further; a model as built gets its first velocities before.
-inline void make_steps(Model& model, int count, double energy_error_limit, ThreadTeam& team) {
+inline void make_steps(Model& model, std::int64_t count, double energy_error_limit, ThreadTeam& team) {
   brio::run(model, energy_error_limit, team, [count](Model&) mutable { return count-- > 0; });
 }
 

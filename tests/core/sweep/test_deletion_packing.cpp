@@ -20,7 +20,8 @@ Model living_block(std::array<int, 3> elements, const Deck& base) {
   deck.parts[0].deletion->inverted = true;
   Model model = build_model(deck);
   ThreadTeam team(1);
-  make_steps(model, 5, 1, team);
+  make_steps(model, 4, 1, team);
+  update_positions(model, team);  // which clears the forces
   return model;
 }
 

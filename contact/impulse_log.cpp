@@ -1,0 +1,54 @@
+#include "contact/impulse_log.hpp"
+
+#include <algorithm>
+
+#include "contact/scene.hpp"
+
+namespace brio {
+
+using Eigen::Vector3d;
+
+void ImpulseLog::begin_step() {
+  impulse.assign(wanted.size(), Vector3d::Zero());
+  supports.clear();
+}
+
+void ImpulseLog::add(int first, int second, const Vector3d& of_second) {
+  const std::array<int, 2> pair{std::min(first, second), std::max(first, second)};
+  const auto at = std::lower_bound(wanted.begin(), wanted.end(), pair);
+  if (at == wanted.end() || *at != pair) return;
+  Vector3d& sum = impulse[static_cast<std::size_t>(at - wanted.begin())];
+  if (first == second) {
+    sum += of_second.cwiseAbs();
+  } else {
+    sum += first < second ? of_second : Vector3d(-of_second);
+  }
+}
+
+void ImpulseLog::add(const std::map<int, Vector3d>& impulse_of_part) {
+  const auto count = static_cast<double>(impulse_of_part.size());
+  for (auto a = impulse_of_part.begin(); a != impulse_of_part.end(); ++a)
+    for (auto b = std::next(a); b != impulse_of_part.end(); ++b)
+      add(a->first, b->first, (a->second - b->second) / count);
+}
+
+int ImpulseLog::part_of(const ContactScene& scene, std::span<const int> slaves) const {
+  int part = -1;
+  for (const int slave : slaves)
+    if (const int node = scene.surface.node[static_cast<std::size_t>(slave)]; node >= 0)
+      part = std::max(part, part_of_node[static_cast<std::size_t>(node)]);
+  return part;
+}
+
+void log_contacts(ContactScene& scene) {
+  ImpulseLog& log = *scene.log;
+  for (const Contact& contact : scene.contacts) {
+    if (contact.impulse == 0) continue;
+    const auto own = static_cast<std::size_t>(contact.own);
+    const std::span<const int> nodes(contact.node);
+    log.add(log.part_of(scene, nodes.first(own)), log.part_of(scene, nodes.subspan(own)),
+            contact.impulse * contact.normal + contact.friction);
+  }
+}
+
+}  // namespace brio

@@ -160,6 +160,29 @@ void add_info_command(CLI::App& program) {
   command->callback([path, verify] { brio::print_info(*path, *verify); });
 }
 
+void add_plot_command(CLI::App& program) {
+  struct Arguments {
+    brio::PlotOptions options;
+    std::vector<std::string> words;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  brio::PlotOptions& options = arguments->options;
+  CLI::App* command = program.add_subcommand("plot", "Draw columns of the history of results (SVG)");
+  command
+      ->add_option("words", arguments->words,
+                   "result folders or .vtkhdf files, and columns; without columns: the energies")
+      ->required();
+  command->add_option("--against", options.against, "column of the other axis; default time");
+  command->add_option("--scale", options.scale, "factor on the columns, such as -1");
+  command
+      ->add_option("--filter", options.filter,
+                   "channel frequency class of SAE J211, such as 60, 180, 600, 1000; times are in seconds")
+      ->check(CLI::PositiveNumber)
+      ->type_name("CFC");
+  command->add_option("--output", options.output, "picture, .svg; default NAME.plot.svg here");
+  command->callback([arguments] { brio::plot(arguments->options, arguments->words); });
+}
+
 void add_schema_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "schema", "print the JSON schema of decks, for completion and checking in editors");
@@ -178,6 +201,7 @@ int run_command(int argument_count, char** arguments) {
   add_check_command(program);
   add_study_command(program, exit_code);
   add_info_command(program);
+  add_plot_command(program);
   add_schema_command(program);
   for (CLI::App* command : program.get_subcommands({}))
     command->set_version_flag("--version", "brio " BRIO_VERSION);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/start/initial_gap.hpp"
+#include "io/plot/plot_history.hpp"
 #include "io/run/forecast_deck.hpp"
 #include "io/run/run_deck.hpp"
 #include "io/study/run_study.hpp"
@@ -41,6 +42,8 @@ int study(StudyArguments& arguments);
 void check(const ForecastOptions& options, bool json);
 /// \param verify whether everything is read and compared with its checksums as well
 void print_info(const std::filesystem::path& result, bool verify);
+/// \param words results, which exist, and columns of their histories
+void plot(PlotOptions options, const std::vector<std::string>& words);
 void print_schema(bool of_study, bool markdown);
 
 }  // namespace brio

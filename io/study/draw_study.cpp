@@ -1,17 +1,12 @@
-// The pictures of a study. What gnuplot is told stays beside them, to be drawn anew by hand. Gnuplot runs
-// what stands in backquotes, in text between double quotes as well: text of a study stands between single
-// quotes, where nothing is expanded, or in data. Names of files begin with `./`: one that begins with `|` is
-// a command.
+// The pictures of a study.
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <system_error>
 
 #include "io/files/text_file.hpp"
-#include "io/study/run_processes.hpp"
+#include "io/study/gnuplot.hpp"
 #include "io/study/write_study.hpp"
 
 namespace brio {
@@ -20,35 +15,6 @@ namespace {
 
 bool can_be_drawn(const StudyRow& row) {
   return row.exit_code == 0 && row.processor_s > 0 && std::isfinite(row.error) && row.error > 0;
-}
-
-// In one line.
-std::string without_control(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  return text;
-}
-
-// A field of a block of data.
-std::string data_field(std::string text) {
-  std::replace(text.begin(), text.end(), '"', '\'');
-  std::replace(text.begin(), text.end(), '\\', '/');
-  return '"' + without_control(text) + '"';
-}
-
-// Name of a file in a command. One that begins with a quote would be misread: it begins with `./`.
-std::string literal(const std::string& words) {
-  std::string text = "'";
-  for (const char c : without_control(words)) text.append(c == '\'' ? 2 : 1, c);
-  return text + '\'';
-}
-
-// Text in a command, with apostrophes as they are printed.
-std::string text_literal(const std::string& words) {
-  std::string text = "'";
-  for (const char c : without_control(words))
-    text += c == '\'' ? std::string("\xE2\x80\x99") : std::string(1, c);
-  return text + '\'';
 }
 
 std::string line_of(const StudyRow& row, const std::string& label) {
@@ -168,17 +134,7 @@ std::string draw_study(const StudyTable& table, const std::filesystem::path& fol
   replace_text_file(folder / (name + ".gp"), {script(table, name)});
   for (const char* end : {".front.svg", ".front.png", ".knobs.svg", ".knobs.png"})
     remove_file(folder / (name + end));  // gnuplot would follow a symbolic link
-  const std::filesystem::path faults = folder / "gnuplot.txt";
-  int exit_code = 0;
-  try {
-    run_processes({{{"gnuplot", "./" + name + ".gp"}, faults, folder}}, 1, nullptr,
-                  [&](const Ended& ended) { exit_code = ended.exit_code; });
-  } catch (const std::system_error& fault) {
-    if (fault.code() != std::errc::no_such_file_or_directory) throw;
-    return "gnuplot is not installed; with it, `gnuplot " + name + ".gp` in " + folder.string() +
-           " draws them";
-  }
-  return exit_code == 0 ? std::string() : "gnuplot failed; see " + faults.string();
+  return run_gnuplot(folder, name + ".gp");
 }
 
 }  // namespace brio

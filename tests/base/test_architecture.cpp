@@ -95,7 +95,7 @@ const std::vector<Rooms> rooms_of_folders{
      "",
      "particle"},
     {"src", {"deck", "motion", "sweep", "model", "build", "step", "output", "forecast"}},
-    {"io", {"files", "mesh", "deck", "schema", "results", "restart", "run", "study"}},
+    {"io", {"files", "mesh", "deck", "schema", "results", "restart", "run", "study", "plot"}},
 };
 
 std::ptrdiff_t place_of(const std::string& path, const Rooms& rooms) {

@@ -23,7 +23,7 @@ initial_conditions: [{part: cube, velocity: [0, 0, -10]}]
 boundary_conditions: [{rigid_wall: {point: [0, 0, -0.6], normal: [0, 0, 1]}}]
 time: {end: 0.003}
 )";
-const std::string study = R"(
+const std::string cube_study = R"(
 deck: cube.yaml
 quantities: {kinetic: {history: kinetic, reference: 1}}
 knobs: {step: {short: {time.step_scale: 0.5}}}
@@ -41,7 +41,7 @@ class Streams : public test::Program {
 
 TEST_F(Streams, OutputThatCannotBeWrittenEndsEveryCommandWithFour) {
   write("cube.yaml", cube_deck);
-  write("cube.study.yaml", study);
+  write("cube.study.yaml", cube_study);
   ASSERT_EQ(shell("\"$brio\" run cube.yaml --quiet --output kept"), 0);
   for (const char* arguments :
        {"run cube.yaml", "run cube.yaml --json --quiet", "check cube.yaml --coarse-run=0",
@@ -65,7 +65,7 @@ TEST_F(Streams, NothingToPrintIsNoFault) {
 TEST_F(Streams, ErrorOutputThatCannotBeWrittenChangesNothing) {
   write("cube.yaml", cube_deck);
   write("bad.yaml", "title: no deck\n");
-  write("cube.study.yaml", study);
+  write("cube.study.yaml", cube_study);
   for (const char* errors : {"2> /dev/full", "2>&-"}) {
     EXPECT_EQ(shell(std::string("\"$brio\" run cube.yaml > output.txt ") + errors), 0) << errors;
     EXPECT_NE(read("output.txt").find("finished at time 0.003"), std::string::npos);

@@ -21,6 +21,10 @@
 ///     mask is_concave_from(HardeningPoint<T>) const;
 ///     mask has_tangent_over(HardeningPoint<T>, T distance) const;               // that is near the curve
 ///     mask bends(HardeningPoint<T>, T distance) const;                          // visibly, for round-off
+///
+/// and of one of straight pieces
+///
+///     T end_of_piece(HardeningPoint<T>) const;     // plastic strain up to which it is straight from a point
 
 #include "src/base/lanes.hpp"
 
@@ -29,7 +33,8 @@ namespace brio {
 enum class HardeningShape {
   any,
   straight,
-  has_tangents  ///< with the members above
+  has_tangents,       ///< with the members above
+  piecewise_straight  ///< with end_of_piece
 };
 
 template <class T>

@@ -7,9 +7,11 @@
 #include "materials/material_law.hpp"
 #include "materials/neo_hookean.hpp"
 #include "materials/power_law_hardening.hpp"
+#include "materials/tabulated/tabulated_plasticity.hpp"
 
 namespace brio {
 
-using Material = LawList<Elastic, ElasticPlastic, PowerLawHardening, JohnsonCook, NeoHookean>;
+using Material =
+    LawList<Elastic, ElasticPlastic, PowerLawHardening, JohnsonCook, NeoHookean, TabulatedPlasticity>;
 
 }  // namespace brio

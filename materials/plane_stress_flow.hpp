@@ -139,6 +139,9 @@ inline constexpr bool is_straight = Hardening::shape == HardeningShape::straight
 /// Where its tangents serve.
 template <class Hardening>
 inline constexpr bool has_tangents = Hardening::shape == HardeningShape::has_tangents;
+/// Where it is straight between corners.
+template <class Hardening>
+inline constexpr bool has_pieces = Hardening::shape == HardeningShape::piecewise_straight;
 
 /// Flow along tangents of the hardening curve. \param yields lanes that flow at all. \return whether all of
 /// them have come to the root.
@@ -282,6 +285,11 @@ BRIO_INLINE PlaneStressEnd<T> flow_in_plane_stress(const PlaneStressFlow<T>& flo
   } else if constexpr (has_tangents<Hardening>) {
     if (all(hardening.is_concave_from(start) | !yields) &&
         flow_along_tangents(flow, hardening, start, yields, end))
+      return end;
+  } else if constexpr (has_pieces<Hardening>) {
+    // A step that ends on the piece on which it starts is that of a straight curve.
+    if (flow_along_tangents(flow, LinearHardening{}, start, yields, end) &&
+        all((end.plastic_strain <= hardening.end_of_piece(start)) | !yields))
       return end;
   }
   return flow_within_bracket(flow, hardening, start);

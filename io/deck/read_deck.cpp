@@ -1,5 +1,6 @@
 #include "io/deck/read_deck.hpp"
 
+#include "io/deck/deck_files.hpp"
 #include "io/deck/preset.hpp"
 #include "io/deck/read_fields.hpp"
 #include "io/deck/yaml_source.hpp"
@@ -48,9 +49,9 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
     throw DeckError(root->place, "the deck is empty; materials, parts and time are required");
   if (!root->is_map())
     throw DeckError(root->place, "the deck is " + describe(*root) + "; a map of keys is expected");
-  for (const std::string& setting : overrides) root = override_value(root, setting);
   const std::shared_ptr<const YamlNode> as_said = root;
-  root = with_preset(root);
+  for (const std::string& setting : overrides) root = override_value(root, setting);
+  root = with_preset(with_tables(root, name));
   Deck deck;
   deck.file = name;
   const KnownNames known(deck);
@@ -62,7 +63,7 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
         "material: ...}}");
   check_precision(deck, *root);
   read_variables(deck, *root);
-  deck.text = overrides.empty() && root == as_said ? text : write_yaml(*root);
+  deck.text = root == as_said ? text : write_yaml(*root);
   return deck;
 }
 

@@ -2,6 +2,7 @@
 
 #include "io/mesh/generate_mesh.hpp"
 #include "io/schema/schema_of.hpp"
+#include "io/schema/schema_of_tables.hpp"
 
 namespace brio {
 
@@ -239,6 +240,7 @@ void replace_by_reference(Schema& schema, const Schema& body, const std::string&
 template <class T>
 void define(Schema& definitions, const std::string& name, Schema& schema) {
   const Schema body = schema_of<T>(any_number);
+  define<SharedYieldTable>(definitions, "yield_table", schema);
   replace_by_reference(schema, body, name);
   replace_by_reference(definitions, body, name);
   definitions[name] = body;

@@ -286,6 +286,17 @@ void warn_of_missing_contact(const Deck& deck, const Model& model, const Shapes&
   }
 }
 
+void warn_of_softening(const Deck& deck, Warnings& warnings) {
+  for (const auto& [name, material] : deck.materials) {
+    const auto* law = std::get_if<TabulatedPlasticity>(&material);
+    if (law == nullptr || law->yield_stress->steepest_softening() == 0) continue;
+    warnings.push_back({"material '" + name + "'",
+                        "its yield stress falls with the plastic strain: strain localizes in one row of "
+                        "elements, and results depend on the mesh",
+                        "a table that does not fall, with failure by an opening_displacement"});
+  }
+}
+
 void warn_of_output(const Deck& deck, const Model& model, Warnings& warnings) {
   constexpr double worth_saying = 0.9;
   const double step = model.times.next;
@@ -318,6 +329,7 @@ std::vector<SceneWarning> scene_warnings(const Deck& deck, const Model& model) {
   warn_of_tiny_elements(deck, model, shapes, warnings);
   warn_of_long_elements(deck, model, shapes, warnings);
   warn_of_flowing_solids(deck, warnings);
+  warn_of_softening(deck, warnings);
   warn_of_output(deck, model, warnings);
   return warnings;
 }

@@ -26,12 +26,20 @@ void for_every_law(Check check) {
         const PowerLawHardening law{7800, young, poisson, yield, constant, exponent, luders};
         check(law);
       }
+  for (const double last : {yield, 900e6, 250e6}) {
+    const std::array<double, 2> rows[] = {
+        {0, yield}, {0.005, yield}, {0.02, 450e6}, {0.1, 600e6}, {0.7, last}};
+    check(TabulatedPlasticity{7800, young, poisson, yield_table(rows)});
+  }
 }
 
 std::string describe(const ElasticPlastic& law) { return "mix " + std::to_string(law.hardening_mix); }
 std::string describe(const PowerLawHardening& law) {
   return "constant " + std::to_string(law.hardening_constant) + " exponent " +
          std::to_string(law.hardening_exponent) + " luders " + std::to_string(law.luders_strain);
+}
+std::string describe(const TabulatedPlasticity& law) {
+  return "table down to " + std::to_string(law.yield_stress->lowest_stress());
 }
 
 template <class Law>
@@ -210,6 +218,14 @@ PowerLawHardening in_other_units(PowerLawHardening law, double scale) {
   law.youngs_modulus *= scale;
   law.yield_stress *= scale;
   law.hardening_constant *= scale;
+  return law;
+}
+TabulatedPlasticity in_other_units(TabulatedPlasticity law, double scale) {
+  std::vector<std::array<double, 2>> rows;
+  for (std::size_t i = 0; i < law.yield_stress->size(); ++i)
+    rows.push_back({law.yield_stress->strain()[i], scale * law.yield_stress->stress(0)[i]});
+  law.youngs_modulus *= scale;
+  law.yield_stress = yield_table(rows);
   return law;
 }
 

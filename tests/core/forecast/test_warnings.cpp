@@ -199,6 +199,17 @@ TEST(Warnings, OfParticlesOfNowThatAreSolid) {
   expect_none(deck);
 }
 
+TEST(Warnings, OfTablesThatFall) {
+  Deck deck = blocks();
+  std::vector<std::array<double, 2>> rows{{0, 1e6}, {0.1, 2e6}};
+  deck.materials.push_back({"tabulated", TabulatedPlasticity{1000, 1e9, 0.3, yield_table(rows)}});
+  for (Part& part : deck.parts) part.material = "tabulated";
+  expect_none(deck);
+  rows.push_back({0.2, 1.9e6});
+  deck.materials.back().second = TabulatedPlasticity{1000, 1e9, 0.3, yield_table(rows)};
+  expect_one(deck, "material 'tabulated'", "depend on the mesh");
+}
+
 TEST(Warnings, OfOutputAtEveryStepAndLooseLimits) {
   Deck deck = blocks();
   deck.output.history.every = 1e-9;

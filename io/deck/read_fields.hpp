@@ -55,12 +55,12 @@ void read_value(const YamlNode& node, const Slot& slot, std::string& value);
 // What has a form of its own in a deck (read_parts.cpp, read_functions.cpp,
 // read_conditions.cpp).
 void read_value(const YamlNode& node, const Slot& slot, Material& material);
+void read_value(const YamlNode& node, const Slot& slot, SharedYieldTable& table);
 void read_value(const YamlNode& node, const Slot& slot, Element& element);
 void read_value(const YamlNode& node, const Slot& slot, MeshSource& mesh);
 void read_value(const YamlNode& node, const Slot& slot, BeamSection& section);
 void read_value(const YamlNode& node, const Slot& slot, Part& part);
 void read_value(const YamlNode& node, const Slot& slot, NodeSelection& selection);
-void read_value(const YamlNode& node, const Slot& slot, SharedYieldTable& table);
 void read_value(const YamlNode& node, const Slot& slot, Curve& curve);
 void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition);
 void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition);

@@ -240,7 +240,6 @@ void replace_by_reference(Schema& schema, const Schema& body, const std::string&
 template <class T>
 void define(Schema& definitions, const std::string& name, Schema& schema) {
   const Schema body = schema_of<T>(any_number);
-  define<SharedYieldTable>(definitions, "yield_table", schema);
   replace_by_reference(schema, body, name);
   replace_by_reference(definitions, body, name);
   definitions[name] = body;
@@ -251,6 +250,7 @@ Schema whole_schema() {
   Schema definitions;
   define<Material>(definitions, "material", schema);
   define<MeshSource>(definitions, "mesh", schema);
+  define<SharedYieldTable>(definitions, "yield_table", schema);
   define<Element>(definitions, "element", schema);
   define<BeamSection>(definitions, "section", schema);
   define<NodeSelection>(definitions, "node_selection", schema);

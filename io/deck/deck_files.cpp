@@ -183,4 +183,77 @@ NodePointer with_tables(const NodePointer& root, const std::string& deck_file) {
   return root;
 }
 
+namespace {
+
+/// Deeper than includes of includes are; a circle is found before.
+constexpr int deepest_include = 16;
+
+NodePointer with_included(const NodePointer& root, const std::string& deck_file, int depth);
+
+NodePointer read_included(const YamlNode& name, const std::string& deck_file, int depth) {
+  if (!name.is_scalar())
+    throw DeckError(name.place, "'include' names " + describe(name) + "; paths are accepted");
+  const std::string path = path_from(name.place, deck_file, name.text);
+  if (depth > deepest_include)
+    throw DeckError(name.place, "'" + path + "' is included by itself, or by more than " +
+                                    std::to_string(deepest_include) + " files one in another");
+  std::error_code failure;
+  if (!std::filesystem::exists(path, failure))
+    throw DeckError(name.place,
+                    "there is no file '" + path + "'; a path is relative to the file in which it stands");
+  const NodePointer tree = parse_yaml(read_text_file(path), path);
+  if (!tree->is_map())
+    throw DeckError(name.place,
+                    "'" + path + "' is " + describe(*tree) + "; a map of keys of a deck is accepted");
+  return with_included(tree, deck_file, depth);
+}
+
+[[noreturn]] void refuse_second(const YamlEntry& second, const YamlEntry& first) {
+  throw DeckError(second.place,
+                  "duplicate key '" + second.key + "'; it stands already at " + to_string(first.place));
+}
+
+/// A section of both: entries of maps and items of lists, those of the included file first.
+NodePointer both_of(const YamlEntry& included, const YamlEntry& own) {
+  if (included.value->kind != own.value->kind || included.value->is_scalar() || included.value->is_null())
+    refuse_second(own, included);
+  auto sum = std::make_shared<YamlNode>(*own.value);
+  sum->items.insert(sum->items.begin(), included.value->items.begin(), included.value->items.end());
+  for (const YamlEntry& entry : own.value->entries)
+    if (const YamlEntry* other = included.value->find(entry.key)) refuse_second(entry, *other);
+  sum->entries.insert(sum->entries.begin(), included.value->entries.begin(), included.value->entries.end());
+  return sum;
+}
+
+NodePointer with_included(const NodePointer& root, const std::string& deck_file, int depth) {
+  const YamlEntry* include = root->find("include");
+  if (include == nullptr) return root;
+  const YamlNode& names = *include->value;
+  if (!names.is_sequence())
+    throw DeckError(names.place, "'include' is " + describe(names) + "; expected a list of paths");
+  auto sum = std::make_shared<YamlNode>(*root);
+  std::erase_if(sum->entries, [](const YamlEntry& entry) { return entry.key == "include"; });
+  for (std::size_t i = names.items.size(); i-- > 0;) {
+    const NodePointer included = read_included(*names.items[i], deck_file, depth + 1);
+    std::vector<YamlEntry> added;
+    for (const YamlEntry& entry : included->entries) {
+      const auto own = std::find_if(sum->entries.begin(), sum->entries.end(),
+                                    [&](const YamlEntry& one) { return one.key == entry.key; });
+      if (own != sum->entries.end()) {
+        own->value = both_of(entry, *own);
+      } else {
+        added.push_back(entry);
+      }
+    }
+    sum->entries.insert(sum->entries.begin(), added.begin(), added.end());
+  }
+  return sum;
+}
+
+}  // namespace
+
+NodePointer with_includes(const NodePointer& root, const std::string& deck_file) {
+  return with_included(root, deck_file, 0);
+}
+
 }  // namespace brio

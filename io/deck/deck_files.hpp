@@ -1,5 +1,6 @@
 #pragma once
-/// Files that a deck names: tables, `{file: steel.csv}` or `{file: tests.csv, columns: [strain, stress]}`.
+/// Files that a deck names: further decks, `include: [materials.yaml]`, and tables, `{file: steel.csv}` or
+/// `{file: tests.csv, columns: [strain, stress]}`.
 
 #include <memory>
 #include <string>
@@ -7,6 +8,12 @@
 #include "io/deck/yaml_source.hpp"
 
 namespace brio {
+
+/// The tree with what it includes, of which everything knows its place: sections that are maps or lists are
+/// joined, those of included files first.
+/// \throws DeckError where a file cannot be read, or a key stands twice.
+std::shared_ptr<const YamlNode> with_includes(const std::shared_ptr<const YamlNode>& root,
+                                              const std::string& deck_file);
 
 /// The tree with the rows of the files in place of the maps that name them: two numbers a row. Rows know
 /// their place in the file. A file has columns apart by commas, semicolons or blanks, comments behind #, and

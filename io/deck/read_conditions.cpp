@@ -142,12 +142,17 @@ void read_value(const YamlNode& node, const Slot& slot, NodeSelection& selection
 
 void read_value(const YamlNode& node, const Slot& slot, Curve& curve) {
   if (node.is_scalar()) {
+    if (node.quoted) {
+      curve = curve_of(node, slot, Expression::Variables::time);
+      return;
+    }
     double constant = 0;
     read_value(node, slot, constant);
     curve.points = {{0, constant}};
     return;
   }
-  if (!node.is_sequence() || node.items.empty()) refuse(node, slot, "a number or a list of [time, value]");
+  if (!node.is_sequence() || node.items.empty())
+    refuse(node, slot, "a number, an expression in quotes or a list of [time, value]");
   curve.points.clear();
   for (const auto& item : node.items) {
     std::array<double, 2>& point = curve.points.emplace_back();
@@ -156,6 +161,15 @@ void read_value(const YamlNode& node, const Slot& slot, Curve& curve) {
       throw DeckError(item->place, "the times of '" + std::string(slot.key) +
                                        "' do not grow; each must be later than the one before");
   }
+}
+
+void read_value(const YamlNode& node, const Slot& slot, SpaceTimeCurve& curve) {
+  if (!node.is_scalar() || !node.quoted) {
+    read_value(node, slot, static_cast<Curve&>(curve));
+    return;
+  }
+  curve = curve_of(node, slot, Expression::Variables::time_and_position);
+  curve.varies_in_space = curve.expression && curve.expression->uses_position();
 }
 
 void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition) {

@@ -50,11 +50,12 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
   if (!root->is_map())
     throw DeckError(root->place, "the deck is " + describe(*root) + "; a map of keys is expected");
   const std::shared_ptr<const YamlNode> as_said = root;
+  root = with_includes(root, name);
   for (const std::string& setting : overrides) root = override_value(root, setting);
   root = with_preset(with_tables(root, name));
   Deck deck;
   deck.file = name;
-  const KnownNames known(deck);
+  const KnownNames known(deck, *root);
   read_fields(*root, Slot{"deck", any_number, known}, deck);
   if (deck.parts.empty())
     throw DeckError(

@@ -24,13 +24,14 @@ bool is_infinity_or_nan(std::string_view text) {
   return false;
 }
 
-/// A finite number of any locale: from_chars knows none.
+/// A finite number of any locale: from_chars knows none. In quotes: an expression.
 double number(const YamlNode& node, const Slot& slot, std::string_view noun) {
   const std::string wanted = accepted_numbers(slot.range, noun);
-  if (!node.is_scalar() || node.quoted) refuse(node, slot, wanted);
+  if (!node.is_scalar()) refuse(node, slot, wanted);
+  if (node.quoted) return constant_of(node, slot);
   if (is_infinity_or_nan(node.text)) refuse(node, slot, wanted + " that is finite");
   std::string_view text = node.text;
-  if (!looks_like_a_number(text)) refuse(node, slot, wanted);
+  if (!looks_like_a_number(text)) refuse(node, slot, wanted + ", or an expression in quotes");
   if (text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -38,6 +39,14 @@ double number(const YamlNode& node, const Slot& slot, std::string_view noun) {
   if (fault == std::errc::result_out_of_range)
     refuse(node, slot, wanted + " whose size is 0 or from 1e-307 to 1e308");
   return value;
+}
+
+/// Says what an expression comes to.
+[[noreturn]] void refuse_number(const YamlNode& node, const Slot& slot, double value,
+                                const std::string& wanted) {
+  if (!node.quoted) refuse(node, slot, wanted);
+  throw DeckError(node.place,
+                  fmt::format("'{}' is {} = {}; expected {}", slot.key, describe(node), value, wanted));
 }
 
 }  // namespace
@@ -80,15 +89,15 @@ void check_keys(const YamlNode& map, const std::vector<std::string_view>& accept
 
 void read_value(const YamlNode& node, const Slot& slot, double& value) {
   value = number(node, slot, "a number");
-  if (!slot.range.contains(value)) refuse(node, slot, accepted_numbers(slot.range, "a number"));
+  if (!slot.range.contains(value)) refuse_number(node, slot, value, accepted_numbers(slot.range, "a number"));
 }
 
 void read_value(const YamlNode& node, const Slot& slot, int& value) {
   const std::string wanted = accepted_numbers(slot.range, "an integer");
   const double read = number(node, slot, "an integer");
-  if (read != std::floor(read) || !slot.range.contains(read)) refuse(node, slot, wanted);
+  if (read != std::floor(read) || !slot.range.contains(read)) refuse_number(node, slot, read, wanted);
   if (std::abs(read) > std::numeric_limits<int>::max())
-    refuse(node, slot, wanted + fmt::format(" of at most {}", std::numeric_limits<int>::max()));
+    refuse_number(node, slot, read, wanted + fmt::format(" of at most {}", std::numeric_limits<int>::max()));
   value = static_cast<int>(read);
 }
 
@@ -113,6 +122,15 @@ const Part& KnownNames::part(const YamlNode& node, std::string_view name) const 
   for (const Part& part : deck_.parts) names.push_back(part.name);
   throw DeckError(node.place,
                   "no part is called '" + std::string(name) + "'; " + accepted_words(name, names));
+}
+
+double KnownNames::end_time() const {
+  const YamlEntry* time = root_.find("time");
+  const YamlEntry* end = time != nullptr && time->value->is_map() ? time->value->find("end") : nullptr;
+  if (end == nullptr) return 1;  // refused when the section is read
+  double value = 0;
+  read_value(*end->value, Slot{"end", positive, *this}, value);
+  return value;
 }
 
 const Material& KnownNames::material(const YamlNode& node) const {

@@ -21,7 +21,7 @@ namespace brio {
 /// Names that later entries of a deck may refer to: what of the deck has been read so far.
 class KnownNames {
  public:
-  explicit KnownNames(const Deck& deck) : deck_(deck) {}
+  KnownNames(const Deck& deck, const YamlNode& root) : deck_(deck), root_(root) {}
 
   /// \throws DeckError if no part is called so.
   const Part& part(const YamlNode& node, std::string_view name) const;
@@ -29,9 +29,14 @@ class KnownNames {
   void expect_condition(const YamlNode& node, std::string_view name) const;
   /// \throws DeckError if no material is called so.
   const Material& material(const YamlNode& node) const;
+  /// What expressions may name.
+  const Parameters& parameters() const { return deck_.parameters; }
+  /// Of the run, which may be read later: curves are sampled up to it.
+  double end_time() const;
 
  private:
   const Deck& deck_;
+  const YamlNode& root_;
   mutable std::unordered_map<std::string_view, const Part*> parts_;  ///< filled when all parts are read
 };
 
@@ -62,6 +67,8 @@ void read_value(const YamlNode& node, const Slot& slot, BeamSection& section);
 void read_value(const YamlNode& node, const Slot& slot, Part& part);
 void read_value(const YamlNode& node, const Slot& slot, NodeSelection& selection);
 void read_value(const YamlNode& node, const Slot& slot, Curve& curve);
+void read_value(const YamlNode& node, const Slot& slot, SpaceTimeCurve& curve);
+void read_value(const YamlNode& node, const Slot& slot, Parameters& parameters);
 void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition);
 void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition);
 void read_value(const YamlNode& node, const Slot& slot, Load& load);
@@ -72,6 +79,14 @@ void read_value(const YamlNode& node, const Slot& slot, Probe& probe);
 void read_value(const YamlNode& node, const Slot& slot, ReactionColumns& columns);
 void read_value(const YamlNode& node, const Slot& slot, ContactColumns& columns);
 void read_value(const YamlNode& node, const Slot& slot, ForceSection& section);
+
+/// The value of an expression in quotes, `"2*v"`, from the parameters of the deck.
+/// \throws DeckError with the place inside of the text.
+double constant_of(const YamlNode& node, const Slot& slot);
+/// A curve from an expression in quotes; without time and place in it a constant.
+/// \param variables which it may use
+/// \throws DeckError with the place inside of the text, or where the value is not finite at some time.
+Curve curve_of(const YamlNode& node, const Slot& slot, Expression::Variables variables);
 
 /// \throws DeckError "KEY is ...; WANTED is expected".
 [[noreturn]] void refuse(const YamlNode& node, const Slot& slot, const std::string& wanted);

@@ -1,10 +1,102 @@
-// Tables: what stands in place of functions.
+// Tables and expressions: what stands in place of numbers and of functions of time.
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "io/deck/read_fields.hpp"
 
 namespace brio {
+
+namespace {
+
+/// Intervals in which a curve of time is sampled.
+constexpr int sample_count = 1000;
+
+/// A character inside of a text in quotes. Escapes and line breaks, which no formula needs, are not counted.
+Place inside(const YamlNode& node, std::size_t position) {
+  Place place = node.place;
+  if (place.line > 0) place.column += static_cast<int>(position) + 1;
+  return place;
+}
+
+std::shared_ptr<const Expression> parse(const YamlNode& node, const Slot& slot,
+                                        Expression::Variables variables) {
+  const Parameters& parameters = slot.known.parameters();
+  try {
+    return std::make_shared<const Expression>(node.text, parameters.values, variables);
+  } catch (const ExpressionError& error) {
+    std::string message = fmt::format("in the expression \"{}\" of '{}', at character {}: {}", node.text,
+                                      slot.key, error.position() + 1, error.what());
+    if (!error.unknown().empty()) {
+      std::vector<std::string_view> names;
+      for (const auto& [name, value] : parameters.values) names.push_back(name);
+      for (const std::string_view name : Expression::names(variables)) names.push_back(name);
+      for (const std::string_view name : Expression::constants_and_functions()) names.push_back(name);
+      message += "; " + accepted_words(error.unknown(), names);
+    }
+    throw DeckError(inside(node, error.position()), message);
+  }
+}
+
+void check_finite(double value, const YamlNode& node, const Slot& slot, const std::string& when) {
+  if (std::isfinite(value)) return;
+  throw DeckError(node.place,
+                  fmt::format("the expression \"{}\" of '{}' is {}{}; finite numbers are accepted", node.text,
+                              slot.key, std::isnan(value) ? "not a number" : "infinite", when));
+}
+
+}  // namespace
+
+double constant_of(const YamlNode& node, const Slot& slot) {
+  const double value = parse(node, slot, Expression::Variables::none)->at(0);
+  check_finite(value, node, slot, "");
+  return value;
+}
+
+Curve curve_of(const YamlNode& node, const Slot& slot, Expression::Variables variables) {
+  const std::shared_ptr<const Expression> expression = parse(node, slot, variables);
+  Curve curve;
+  if (!expression->uses_time() && !expression->uses_position()) {
+    curve.points = {{0, expression->at(0)}};
+    check_finite(curve.points[0][1], node, slot, "");
+    return curve;
+  }
+  curve.expression = expression;
+  const double end = slot.known.end_time();
+  for (int i = 0; i <= sample_count; ++i) {
+    const double time = end * i / sample_count;
+    const double value = expression->at(time);
+    if (!expression->uses_position()) check_finite(value, node, slot, fmt::format(" at time {}", time));
+    curve.points.push_back({time, value});
+  }
+  return curve;
+}
+
+void read_value(const YamlNode& node, const Slot& slot, Parameters& parameters) {
+  require_map(node, slot);
+  const auto check_name_of = [](const YamlEntry& entry) {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+    const bool is_name =
+        !entry.key.empty() && letters.find(entry.key.front()) != std::string_view::npos &&
+        entry.key.find_first_not_of(std::string(letters) + "0123456789") == std::string::npos;
+    if (!is_name)
+      throw DeckError(entry.place, "'" + entry.key +
+                                       "' cannot be a parameter; accepted are letters, digits and _, "
+                                       "a letter first");
+    for (const auto& names :
+         {Expression::constants_and_functions(), Expression::names(Expression::Variables::time_and_position)})
+      if (std::find(names.begin(), names.end(), entry.key) != names.end())
+        throw DeckError(entry.place,
+                        "'" + entry.key + "' has a meaning in expressions; another name is accepted");
+  };
+  for (const YamlEntry& entry : node.entries) {
+    check_name_of(entry);
+    double value = 0;
+    read_value(*entry.value, Slot{entry.key, any_number, slot.known}, value);
+    parameters.values.emplace_back(entry.key, value);
+  }
+}
 
 namespace {
 

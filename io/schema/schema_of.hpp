@@ -82,7 +82,7 @@ struct WithDefault {
 template <>
 struct SchemaOf<double> : WithDefault {
   static Schema make(const Range& range) {
-    Schema schema{{"type", "number"}};
+    Schema schema{{"type", {"number", "string"}}};  // an expression in quotes
     limit(schema, range);
     return schema;
   }
@@ -90,7 +90,7 @@ struct SchemaOf<double> : WithDefault {
 template <>
 struct SchemaOf<int> : WithDefault {
   static Schema make(const Range& range) {
-    Schema schema{{"type", "integer"}};
+    Schema schema{{"type", {"integer", "string"}}};
     limit(schema, range);
     return schema;
   }

@@ -32,6 +32,39 @@ inline Schema file_schema() {
 }
 
 template <>
+struct SchemaOf<Curve> : WithoutDefault {
+  static Schema make(const Range&) { return of("an expression of t in quotes", "the same at all times"); }
+
+  static Schema of(const char* expression, const char* constant) {
+    Schema number{{"type", {"number", "string"}}, {"title", "a number"}};
+    number["description"] = std::string(constant) + ", or " + expression;
+    return {
+        {"oneOf",
+         {number,
+          rows_schema("a list of [time, value]",
+                      "linear between the times, which grow; constant before the first and after the last"),
+          file_schema()}}};
+  }
+};
+
+template <>
+struct SchemaOf<SpaceTimeCurve> : WithoutDefault {
+  static Schema make(const Range&) {
+    return SchemaOf<Curve>::of("an expression of t, x, y and z in quotes",
+                               "the same everywhere at all times");
+  }
+};
+
+template <>
+struct SchemaOf<Parameters> : WithoutDefault {
+  static Schema make(const Range&) {
+    Schema map = map_of_names(schema_of<double>(any_number));
+    map["propertyNames"]["pattern"] = "^[A-Za-z_][A-Za-z0-9_]*$";
+    return map;
+  }
+};
+
+template <>
 struct SchemaOf<SharedYieldTable> : WithoutDefault {
   static Schema make(const Range&) {
     const Schema rows = rows_schema("a list of [equivalent plastic strain, yield stress]",

@@ -22,7 +22,7 @@ is. Its keys and what they take are listed here. `brio schema --study` prints th
 - What has been run with the same program, deck and settings is not run again.
 )";
 
-constexpr std::string_view introduction = R"(# What a deck may say
+constexpr std::string_view introduction = R"md(# What a deck may say
 
 <!-- Written by `brio schema --markdown`; do not edit. -->
 
@@ -30,13 +30,20 @@ A deck is a YAML file. Its keys and what they take are listed here; whatever is 
 what was probably meant. `brio schema` prints the same as JSON schema, for completion and checking in editors.
 
 - Numbers are written as `30e6`, `1e-3`, `.5`, `+1`; infinities and not-a-number are refused.
+- An expression in quotes may stand for any number, `velocity: [0, 0, "-2*v"]`. It knows the names of `parameters`, `pi`,
+  `+ - * / ^`, comparisons and `A ? B : C`, `sin cos tan asin acos atan atan2 sinh cosh tanh exp log log10 sqrt abs floor
+  ceil round min max mod`, and `smooth_step(x, a, b)`, which rises from 0 at a to 1 at b with continuous second derivative.
+- For a [curve](#curve) it may depend on the time `t`, `"p0*exp(-t/t0)"`; for a pressure on `x`, `y`, `z` as well, the centre
+  of each side.
+- Tables may stand in a CSV file, `{file: steel.csv}`: columns apart by commas, semicolons or blanks, comments behind `#`. The
+  deck in the results holds their rows, and those of included files.
 - Units are those of the author: any consistent set. Nothing is converted.
 - Names of parts and materials consist of letters, digits, `_` and `-`.
 - YAML anchors, aliases and merge keys (`<<`) work; a key that stands twice is refused.
 - `brio run DECK --set KEY.PATH=VALUE` replaces any value, for example `--set time.end=1e-3` or
   `--set boundary_conditions.0.fix=[x]` (entries of lists are counted from 0). The value is YAML and is checked like the
   deck.
-)";
+)md";
 
 std::string code(const std::string& text) { return fmt::format("`{}`", text); }
 std::string value_text(const Schema& value) {
@@ -72,6 +79,12 @@ std::string plural(const std::string& noun) {
   return noun.substr(0, end) + "s" + noun.substr(end);
 }
 
+/// Of a number, which may be an expression as well: number.
+std::string type_of(const Schema& schema) {
+  const Schema types = schema.value("type", Schema(""));
+  return types.is_array() ? types[0].get<std::string>() : types.get<std::string>();
+}
+
 /// What a value is, in a cell of a table.
 std::string kind_of(const Schema& schema) {
   if (schema.contains("allOf") && schema["allOf"][0].contains("$ref")) {
@@ -90,7 +103,7 @@ std::string kind_of(const Schema& schema) {
     for (const auto& one : schema["oneOf"]) kinds += (kinds.empty() ? "" : " or ") + kind_of(one);
     return kinds;
   }
-  const std::string type = schema.value("type", "");
+  const std::string type = type_of(schema);
   if (type == "array") {
     const std::string each = kind_of(schema["items"]);
     if (schema.contains("maxItems")) return fmt::format("{} {}", schema["maxItems"].get<int>(), plural(each));
@@ -121,7 +134,7 @@ void write_schema(const std::string& path, const Schema& schema, int level, std:
 /// Tables of the maps that stand inside a map.
 void write_inner(const std::string& path, const Schema& object, int level, std::string& out) {
   for (const auto& [key, property] : object["properties"].items()) {
-    if (property.value("type", "") != "object") continue;
+    if (type_of(property) != "object") continue;
     const std::string inner = path.empty() ? key : path + "." + key;
     if (property.contains("properties")) write_schema(inner, property, level, out);
     const bool is_named =
@@ -181,8 +194,7 @@ std::string reference(std::string_view beginning, const std::string& title, cons
   out += "\n## " + title + "\n";
   write_table(schema, out);
   for (const auto& [key, property] : schema["properties"].items()) {
-    if (property.value("type", "") == "object" && property.contains("properties"))
-      write_schema(key, property, 2, out);
+    if (type_of(property) == "object" && property.contains("properties")) write_schema(key, property, 2, out);
     for (const char* of_many : {"additionalProperties", "items"}) {
       if (!property.contains(of_many) || !property[of_many].is_object()) continue;
       const Schema& one = property[of_many];

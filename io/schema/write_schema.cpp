@@ -65,20 +65,6 @@ struct SchemaOf<NodeSelection> : WithoutDefault {
 };
 
 template <>
-struct SchemaOf<Curve> : WithoutDefault {
-  static Schema make(const Range&) {
-    Schema points{
-        {"type", "array"}, {"items", schema_of<std::array<double, 2>>(any_number)}, {"minItems", 1}};
-    points["title"] = "a list of [time, value]";
-    points["description"] =
-        "linear between the times, which grow; constant before the first and after the last";
-    return {
-        {"oneOf",
-         {{{"type", "number"}, {"title", "a number"}, {"description", "the same at all times"}}, points}}};
-  }
-};
-
-template <>
 struct SchemaOf<InitialCondition> : WithoutDefault {
   static Schema make(const Range&) {
     Schema object = object_of<InitialCondition>();
@@ -247,6 +233,10 @@ void define(Schema& definitions, const std::string& name, Schema& schema) {
 
 Schema whole_schema() {
   Schema schema = object_of<Deck>();
+  // Worked in before the deck is read (io/deck/deck_files.hpp).
+  schema["properties"]["include"] = {{"type", "array"}, {"items", {{"type", "string"}}}};
+  schema["properties"]["include"]["description"] =
+      "paths of files with keys of a deck, which are joined with those of this one; relative to this file";
   Schema definitions;
   define<Material>(definitions, "material", schema);
   define<MeshSource>(definitions, "mesh", schema);
@@ -256,6 +246,7 @@ Schema whole_schema() {
   define<NodeSelection>(definitions, "node_selection", schema);
   define<MotionComponents>(definitions, "components", schema);
   define<Curve>(definitions, "curve", schema);
+  define<SpaceTimeCurve>(definitions, "space_time_curve", schema);
   Schema whole{
       {"$schema", "http://json-schema.org/draft-07/schema#"},
       {"title", "Deck of Brio"},

@@ -107,7 +107,7 @@ CheckedStudy read_study(const std::string& path) {
     throw DeckError(root->place, "the study is " + describe(*root) + "; a map of keys is expected");
   CheckedStudy checked;
   const Deck none;
-  const KnownNames known(none);
+  const KnownNames known(none, *root);
   read_fields(*root, Slot{"study", any_number, known}, checked.study);
   check_settings(*root->find("knobs")->value);
   if (checked.study.quantities.empty())

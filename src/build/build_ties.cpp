@@ -212,7 +212,7 @@ class Tying {
 };
 
 bool same_motion(const PrescribedNodes& a, const PrescribedNodes& b) {
-  return a.kind == b.kind && a.axis == b.axis && a.curve.points == b.curve.points;
+  return a.kind == b.kind && a.axis == b.axis && a.curve == b.curve;
 }
 
 bool all_corners_follow(const Tie& tie, const PrescribedNodes& motion,

@@ -66,6 +66,7 @@ std::string_view ParticleMesh::fault() const {
 }
 
 double Curve::operator()(double time) const {
+  if (expression) return expression->at(time);
   const std::size_t next = next_point(points, time);
   if (next == 0) return points.front()[1];
   if (next == points.size()) return points.back()[1];
@@ -75,9 +76,24 @@ double Curve::operator()(double time) const {
 }
 
 double Curve::slope(double time) const {
+  if (expression) {
+    // Errors of truncation and of rounding are both about 1e-12 of the values over the time that is sampled.
+    const double h = 1e-3 * (points.back()[0] - points.front()[0]);
+    const Expression& f = *expression;
+    return (8 * (f.at(time + h) - f.at(time - h)) - (f.at(time + 2 * h) - f.at(time - 2 * h))) / (12 * h);
+  }
   const std::size_t next = next_point(points, time);
   if (next == 0 || next == points.size()) return 0;
   return (points[next][1] - points[next - 1][1]) / (points[next][0] - points[next - 1][0]);
+}
+
+bool Curve::operator==(const Curve& other) const {
+  if (!expression || !other.expression) return !expression && !other.expression && points == other.points;
+  return expression->text() == other.expression->text() && points == other.points;
+}
+
+double SpaceTimeCurve::at(const std::array<double, 3>& position, double time) const {
+  return varies_in_space ? expression->at(time, position) : (*this)(time);
 }
 
 }  // namespace brio

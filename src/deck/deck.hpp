@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 #include "elements/block.hpp"
 #include "materials/material.hpp"
 #include "src/base/fields.hpp"
+#include "src/deck/expression.hpp"
 #include "src/deck/force_output.hpp"
 #include "src/deck/mesh_source.hpp"
 
@@ -125,13 +127,31 @@ struct NodeSelection {
 // ---- when: curves
 // ----------------------------------------------------------------------------------------------
 
-/// Piecewise linear in time, constant beyond its ends. In a deck a number, or a list of [time, value].
+/// Piecewise linear in time, constant beyond its ends. In a deck a number, or a list of [time, value]; or an
+/// expression of time, of which the points are samples, for what asks where it bends.
 struct Curve {
   std::vector<std::array<double, 2>> points;
+  std::shared_ptr<const Expression> expression{};  ///< of t; null: the points are all
 
   double operator()(double time) const;
-  /// Its time derivative, from the right at a corner.
+  /// Its time derivative, from the right at a corner; of an expression a difference of fourth order.
   double slope(double time) const;
+
+  bool operator==(const Curve& other) const;
+};
+
+/// A curve, or an expression of position and time.
+struct SpaceTimeCurve : Curve {
+  SpaceTimeCurve() = default;
+  SpaceTimeCurve(Curve curve) : Curve(std::move(curve)) {}  // implicit: the same everywhere
+  bool varies_in_space = false;
+
+  double at(const std::array<double, 3>& position, double time) const;
+};
+
+/// Names for numbers, known to the expressions of a deck.
+struct Parameters {
+  std::vector<std::pair<std::string, double>> values;
 };
 
 // ---- conditions
@@ -253,7 +273,7 @@ struct Pressure {
   static constexpr std::string_view name = "pressure";
   static constexpr std::string_view meaning = "pressure on sides of elements";
   std::string side_set;  ///< "part.set"
-  Curve pressure;
+  SpaceTimeCurve pressure;
   std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(
@@ -482,6 +502,7 @@ struct Deck {
   std::string title;
   std::vector<std::pair<std::string, std::string>> units;  ///< labels only: nothing is converted
   std::string text;                                        ///< the deck as run, with overrides, as YAML
+  Parameters parameters;
   std::vector<std::pair<std::string, Material>> materials;
   std::vector<Part> parts;
   std::vector<Connection> connections;
@@ -496,6 +517,8 @@ struct Deck {
     return field_table(
         optional("title", &Deck::title, any_number, "one line, for people"),
         optional("units", &Deck::units, any_number, "labels such as {length: mm}; nothing is converted"),
+        optional("parameters", &Deck::parameters, any_number,
+                 "a map of names to numbers, for expressions in quotes; a later one may use those before it"),
         required("materials", &Deck::materials, any_number, "a map of names to laws"),
         required("parts", &Deck::parts, any_number, "a map of names to parts"),
         optional("connections", &Deck::connections, any_number,

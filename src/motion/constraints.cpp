@@ -14,17 +14,17 @@ Vector position_of(const Nodes& nodes, std::size_t node) {
 
 }  // namespace
 
-double given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times, double velocity_before) {
+GivenVelocity given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times) {
   switch (kind) {
     case MotionKind::displacement:
-      return times.next > 0 ? (curve(times.time + times.next) - curve(times.time)) / times.next
-                            : curve.slope(times.time);
+      return {times.next > 0 ? (curve(times.time + times.next) - curve(times.time)) / times.next
+                             : curve.slope(times.time)};
     case MotionKind::velocity:
-      return curve(times.time + 0.5 * times.next);
+      return {curve(times.time + 0.5 * times.next)};
     case MotionKind::acceleration:
-      return velocity_before + times.mean() * curve(times.time);
+      return {times.mean() * curve(times.time), true};
   }
-  return 0;
+  return {};
 }
 
 void mark(const PrescribedNodes& given, Nodes& nodes) {
@@ -37,6 +37,7 @@ Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& 
   Reaction reaction;
   const bool turns = given.axis >= 3;
   const auto axis = static_cast<std::size_t>(turns ? given.axis - 3 : given.axis);
+  const GivenVelocity velocity_given = given_velocity(given.kind, given.curve, times);
   for (int entry : given.nodes) {
     const auto node = static_cast<std::size_t>(entry);
     double& velocity =
@@ -44,7 +45,7 @@ Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& 
     const double inertia = turns ? nodes.rotational_inertia[node] : nodes.mass[node];
     const double before =
         (turns ? nodes.angular_velocity_before : nodes.velocity_before)[node].component[axis];
-    const double after = given_velocity(given.kind, given.curve, times, before);
+    const double after = velocity_given.after(before);
     Vector impulse{};
     impulse[axis] = inertia * (after - velocity);
     velocity = after;

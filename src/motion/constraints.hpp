@@ -41,8 +41,13 @@ inline Contribution of_support(const Reaction& support) {
   return {.external = {.before = support.before, .after = support.after}, .supports = support.impulse};
 }
 
-/// Velocity of a prescribed motion over the time step.
-double given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times, double velocity_before);
+/// Velocity of a prescribed motion over the time step, or its change.
+struct GivenVelocity {
+  double value = 0;
+  bool is_change = false;
+  double after(double before) const { return is_change ? before + value : value; }
+};
+GivenVelocity given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times);
 
 /// Marks nodes.prescribed.
 void mark(const PrescribedNodes& given, Nodes& nodes);

@@ -31,19 +31,22 @@ void forces_of(const NodalLoad& load, double time, const Nodes&, std::vector<Nod
 // Consistent forces of a uniform pressure on a bilinear side: integral of N_k (x_xi cross x_eta). With the
 // parallelogram part n0 and the linear variation of the normal along both edges it is exact for warped sides.
 void forces_of(const PressureLoad& load, double time, const Nodes& nodes, std::vector<NodeForce>& applied) {
-  const double pressure = load.pressure(time);
+  const bool varies = load.pressure.varies_in_space;
+  double pressure = varies ? 0 : load.pressure(time);
   applied.resize(4 * load.sides.size());
   constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   for (std::size_t s = 0; s < load.sides.size(); ++s) {
-    Vector along_xi{}, along_eta{}, twist{};
+    Vector along_xi{}, along_eta{}, twist{}, centre{};
     for (std::size_t k = 0; k < 4; ++k) {
       const Vector x = position_of(nodes, load.sides[s][k]);
       for (std::size_t i = 0; i < 3; ++i) {
         along_xi[i] += 0.25 * corner[k][0] * x[i];
         along_eta[i] += 0.25 * corner[k][1] * x[i];
         twist[i] += 0.25 * corner[k][0] * corner[k][1] * x[i];
+        centre[i] += 0.25 * x[i];
       }
     }
+    if (varies) pressure = load.pressure.at(centre, time);
     const Vector normal = cross(along_xi, along_eta);
     const Vector with_xi = cross(along_xi, twist);    // coefficient of xi in the area vector
     const Vector with_eta = cross(twist, along_eta);  // coefficient of eta

@@ -36,7 +36,7 @@ struct NodalLoad {
 /// shape functions.
 struct PressureLoad {
   std::vector<std::array<int, 4>> sides;
-  Curve pressure;
+  SpaceTimeCurve pressure;
   int part = 0;
   std::vector<int> element;  ///< of the part's mesh, that each side belongs to
 

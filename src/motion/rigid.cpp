@@ -240,7 +240,7 @@ Reaction accelerate(RigidBodies& bodies, const StepTimes& times) {
       double& rate = one.axis < 3 ? motion.velocity[one.axis] : angular[one.axis - 3];
       const double before =
           one.axis < 3 ? motion.velocity_before[one.axis] : motion.angular_velocity_before[one.axis - 3];
-      rate = given_velocity(one.kind, one.curve, times, before);
+      rate = given_velocity(one.kind, one.curve, times).after(before);
     }
     motion.angular_velocity = angular_velocity_of(motion, turning, angular);
     if (rotation_is_given(body)) body.angular_momentum = motion.inertia * motion.angular_velocity;

@@ -153,6 +153,10 @@ void expect_only_in(const std::string& what, const std::vector<std::string>& pla
 
 TEST(Architecture, FileFormatsStayInIo) { expect_only_in(R"(#include <(yaml-cpp|hdf5|H5))", {"io/"}); }
 
+TEST(Architecture, FormulasStayInExpression) {
+  expect_only_in(R"(#include <muParser)", {"src/deck/expression.cpp"});
+}
+
 TEST(Architecture, PrintingAndExitingStayInApps) {
   expect_only_in(R"(std::(cout|cerr|exit|abort|quick_exit)\b|[^sn]printf\(|fmt::print|std::puts)", {"apps/"});
 }

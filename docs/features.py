@@ -62,6 +62,9 @@ FEATURES = {
     "supports, rigid walls": (["src/motion/constraints.cpp", "src/motion/rigid_wall.cpp"], ["constraints"],
                               ["prescribed motion", "rigid wall"]),
     "loads": (["src/motion/loads.cpp"], ["loads"], ["loads"]),
+    "damping, relaxation": (["src/motion/damping.cpp", "src/step/relax.cpp"], [], ["damping"]),
+    "expressions": (["src/deck/expression.cpp"], [], []),
+    "tabulated plasticity": (["materials/tabulated/*"], [], []),
     "mass scaling": (["src/sweep/mass_scaling.cpp", "elements/scale_mass.hpp"], [], ["mass scaling"]),
 }
 

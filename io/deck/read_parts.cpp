@@ -93,6 +93,8 @@ void read_value(const YamlNode& node, const Slot& slot, Part& part) {
     if (nodes_per_element(part.mesh) <= 2) refuse_element(part, place);
     check_thickness(*rigid, part.mesh, place);
     if (part.deletion) check_deletion(*node.find("deletion"), part, material);
+    if (const YamlEntry* damping = node.find("damping"))
+      throw DeckError(damping->place, "'damping' of a rigid part; parts that deform are accepted");
     return;
   }
   if (nodes_per_element(part.element) != nodes_per_element(part.mesh)) refuse_element(part, place);

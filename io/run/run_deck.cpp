@@ -19,6 +19,7 @@
 #include "src/output/run_warnings.hpp"
 #include "src/step/advance.hpp"
 #include "src/step/diagnosis.hpp"
+#include "src/step/relax.hpp"
 
 namespace brio {
 
@@ -221,6 +222,7 @@ Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>
 }
 
 void make_first_step(const Deck& deck, Model& model, ThreadTeam& team) {
+  if (deck.time.relaxation) relax(*deck.time.relaxation, model, team);
   update_velocities(model, deck.numerics.energy_error_limit, team);
   constexpr double most_steps = 0x1p53;
   const double steps_to_end = deck.time.end / model.times.next;

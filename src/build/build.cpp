@@ -13,6 +13,8 @@
 #include "src/build/motion_through_walls.hpp"
 #include "src/build/wall_overlap.hpp"
 #include "src/deck/part_index.hpp"
+#include "src/model/part_damping.hpp"
+#include "src/model/start_balances.hpp"
 #include "src/sweep/particles.hpp"
 
 namespace brio {
@@ -119,6 +121,17 @@ std::vector<double> particle_volumes(const Mesh& mesh, const PartInModel& part) 
   return volume;
 }
 
+void add_point_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  for (const PointMass& point : deck.point_masses)
+    for (const int entry : select_nodes(point.where, deck, meshes, model)) {
+      double& mass = model.nodes.mass[static_cast<std::size_t>(entry)];
+      if (!(mass > 0))
+        throw BuildError("a point mass on a node of a rigid part; accepted are nodes of parts that deform",
+                         point.where.place);
+      mass += point.mass;
+    }
+}
+
 void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   Nodes& nodes = model.nodes;
   for (std::size_t p = 0; p < model.blocks.size(); ++p) {
@@ -140,6 +153,7 @@ void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
     for (std::size_t e = 0; e < block.element_count; ++e) part.mass += block.kernel.mass(block, e);
   }
   for (const RigidBody& body : model.rigid.body) model.parts[body.part].mass = body.mass;
+  add_point_masses(deck, meshes, model);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     nodes.record[i].inverse_mass = nodes.mass[i] > 0 ? 1 / nodes.mass[i] : 0;
     if (nodes.has_rotations())
@@ -341,25 +355,6 @@ void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   }
 }
 
-void start_balances(Model& model) {
-  if (!model.prescribed.empty() || !model.walls.empty() || !model.contacts.empty())
-    model.nodes.keep_velocities_before();
-  Momentum start = momentum(model.nodes);
-  add_momentum(model.rigid, start);
-  model.momentum.start = model.momentum.now = start.total;
-  model.momentum.linear_scale = start.linear_size;
-  model.momentum.angular_scale = start.angular_size;
-  double energy = kinetic_energy(model.rigid).half;
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    const double* v = model.nodes.record[i].velocity;
-    energy += 0.5 * model.nodes.mass[i] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!model.nodes.has_rotations()) continue;
-    const double* w = model.nodes.angular_velocity[i].component;
-    energy += 0.5 * model.nodes.rotational_inertia[i] * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
-  }
-  model.energy.kinetic_start = model.energy.kinetic_half = model.energy.kinetic = energy;
-}
-
 }  // namespace
 
 Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
@@ -379,6 +374,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   const std::size_t of_walls = model.initial_overlaps.size();
   make_contact(deck, meshes, connectivity, threads, model);
   if (model.initial_overlaps.size() > of_walls) follow_moved_nodes(deck, meshes, model);
+  model.damping = damping_of_parts(deck, model);
   if (!model.ties.empty()) condense(model.ties, model.nodes);
   expect_nothing_behind_walls(meshes, model);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)

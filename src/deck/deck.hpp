@@ -60,13 +60,16 @@ struct Part {
   std::string material;
   std::optional<Deletion> deletion{};
   std::string place{};  ///< in the deck
+  double damping = 0;
   static constexpr auto fields() {
     return field_table(required("mesh", &Part::mesh, any_number, "shape and number of elements"),
                        optional("placement", &Part::placement, any_number, "where the shape is put"),
                        required("element", &Part::element, any_number, "kind of element"),
                        required("material", &Part::material, any_number, "name of one of the materials"),
                        optional("deletion", &Part::deletion, any_number,
-                                "when elements are deleted, besides by failure of the material"));
+                                "when elements are deleted, besides by failure of the material"),
+                       optional("damping", &Part::damping, non_negative,
+                                "alpha of mass-proportional damping, a force -alpha m v, 1/time"));
   }
 };
 
@@ -320,6 +323,20 @@ struct TieToSurface {
 
 using Connection = std::variant<Merge, TieToSurface>;
 
+// ---- point masses
+// ----------------------------------------------------------------------------------------------
+
+/// `point_masses: [{set: frame.top, mass: 2}]`: mass on each node of a set, beside that of its elements.
+struct PointMass {
+  NodeSelection where;
+  double mass = 0;
+  static constexpr auto fields() {
+    return field_table(required("set", &PointMass::where, any_number, "nodes, of parts that deform"),
+                       required("mass", &PointMass::mass, positive,
+                                "added to each of the nodes, without inertia of rotation"));
+  }
+};
+
 // ---- the rest
 // --------------------------------------------------------------------------------------------------
 
@@ -362,6 +379,19 @@ struct MassScaling {
   }
 };
 
+/// The scene comes to rest under the loads of time 0 before the run.
+struct Relaxation {
+  double tolerance = 1e-4;
+  int steps = 1000000;
+  static constexpr auto fields() {
+    return field_table(
+        optional("tolerance", &Relaxation::tolerance, Range{.lower = 0, .upper = 0.1, .lower_open = true},
+                 "root of the kinetic over the internal energy below which the scene is at rest, -"),
+        optional("steps", &Relaxation::steps, at_least_one,
+                 "steps after which a scene that is not at rest ends the run with exit code 3, -"));
+  }
+};
+
 struct TimeSection {
   double end = 0;
   double step_scale = 0.9;
@@ -369,6 +399,7 @@ struct TimeSection {
   double step_growth = 1.05;
   std::optional<MassScaling> mass_scaling{};
   std::string place{};  ///< in the deck
+  std::optional<Relaxation> relaxation{};
   static constexpr auto fields() {
     return field_table(
         required("end", &TimeSection::end, positive, "time at which the run ends"),
@@ -379,7 +410,11 @@ struct TimeSection {
         optional("step_growth", &TimeSection::step_growth, Range{.lower = 1, .lower_open = true},
                  "largest ratio of a time step to the previous one, -"),
         optional("mass_scaling", &TimeSection::mass_scaling, any_number,
-                 "mass added to small elements so that they do not set the stable time step; absent: none"));
+                 "mass added to small elements so that they do not set the stable time step; absent: none"),
+        optional(
+            "relaxation", &TimeSection::relaxation, any_number,
+            "the scene comes to rest under the loads of time 0, with supports that stand, before initial "
+            "velocities are given to it; absent: it starts without stress"));
   }
 };
 
@@ -506,6 +541,7 @@ struct Deck {
   std::vector<std::pair<std::string, Material>> materials;
   std::vector<Part> parts;
   std::vector<Connection> connections;
+  std::vector<PointMass> point_masses;
   std::vector<InitialCondition> initial_conditions;
   std::vector<BoundaryCondition> boundary_conditions;
   std::vector<Load> loads;
@@ -523,6 +559,7 @@ struct Deck {
         required("parts", &Deck::parts, any_number, "a map of names to parts"),
         optional("connections", &Deck::connections, any_number,
                  "connections between parts: shared nodes and ties"),
+        optional("point_masses", &Deck::point_masses, any_number, "masses on nodes; absent: none"),
         optional("initial_conditions", &Deck::initial_conditions, any_number, "velocities at the start"),
         optional("boundary_conditions", &Deck::boundary_conditions, any_number,
                  "motions that are prescribed"),

@@ -162,6 +162,16 @@ void add_conditions(const Deck& deck, const Model& model, Features& features) {
   }
 }
 
+void add_damping(const Deck& deck, const Model& model, Features& features) {
+  if (!deck.point_masses.empty())
+    features.push_back({"point masses", "point_masses", counted(deck.point_masses.size(), "set"), 0});
+  if (!model.damping.empty())
+    features.push_back(
+        {"damping", listed(keys_of_parts(deck, "damping", [](const Part& part) { return part.damping > 0; })),
+         "", bytes_held(model.damping)});
+  if (deck.time.relaxation) features.push_back({"relaxation", "time.relaxation", "", 0});
+}
+
 void add_contact(const Deck& deck, std::vector<ContactScene>&& contacts, Features& features) {
   for (ContactScene& scene : contacts) {
     const Surface& surface = scene.surface;
@@ -193,6 +203,7 @@ std::vector<BuiltFeature> built_features(const Deck& deck, Model&& model) {
   add_failure(deck, model, features);
   add_joints(deck, model, features);
   add_conditions(deck, model, features);
+  add_damping(deck, model, features);
   add_contact(deck, std::move(model.contacts), features);
   return features;
 }
@@ -215,6 +226,7 @@ std::vector<std::string> features_not_built(const Model& model) {
       {"prescribed motion", model.prescribed.empty() && bodies_with_given_motion(model.rigid) == 0},
       {"rigid walls", model.walls.empty()},
       {"loads", model.loads.empty()},
+      {"damping", model.damping.empty()},
       {"mass scaling", !model.added_mass},
       {"contact", model.contacts.empty()}};
   std::vector<std::string> names;

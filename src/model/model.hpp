@@ -20,6 +20,7 @@
 #include "src/model/scene_extent.hpp"
 #include "src/model/stage_times.hpp"
 #include "src/motion/constraints.hpp"
+#include "src/motion/damping.hpp"
 #include "src/motion/energy_balance.hpp"
 #include "src/motion/loads.hpp"
 #include "src/motion/motion.hpp"
@@ -67,6 +68,7 @@ struct Model {
   std::vector<ParticleSearch>
       particle_searches;  ///< of blocks of particles with an updated-Lagrangian kernel
   std::vector<ActiveLoad> loads;
+  NodalDamping damping;  ///< empty unless a part is damped
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
   std::vector<ContactWall> contact_walls;  ///< the same, as contact takes them in a step

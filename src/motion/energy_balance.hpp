@@ -73,7 +73,7 @@ struct Contribution {
   double hourglass = 0;
   double viscous = 0;
   double deleted = 0;
-  Work external{}, contact{}, friction{};
+  Work external{}, contact{}, friction{}, damping{};
   Impulse loads{}, supports{}, walls{};
   Impulse dropped{};         ///< momentum of removed nodes
   double kinetic_start = 0;  ///< of mass that is there from the start
@@ -87,6 +87,7 @@ struct Contribution {
     external += other.external;
     contact += other.contact;
     friction += other.friction;
+    damping += other.damping;
     loads += other.loads;
     supports += other.supports;
     walls += other.walls;
@@ -103,17 +104,20 @@ struct EnergyBalance {
   double kinetic = 0;       ///< at the time of the step
   double internal = 0;      ///< elastic and plastic
   double hourglass = 0;
-  double viscous = 0;
+  double viscous = 0;  ///< of bulk and hourglass viscosity
   double deleted = 0;  ///< energy of deleted elements, and kinetic energy of removed nodes
   Work external;       ///< loads, supports, moving walls
   Work contact;        ///< normal impulses of contact and walls; negative: dissipated
   Work friction;
+  Work damping;                  ///< mass-proportional damping; negative: dissipated
   double reference = 0;          ///< largest sum of energies so far, at least that of rounding errors
   double contact_added_max = 0;  ///< largest work of contact so far; near 0 if contact adds no energy
   double error_max = 0;
 
+  /// Dissipated by viscosity and by damping.
+  double all_viscous() const { return viscous - damping.at_step(); }
   double sum() const {
-    return kinetic + internal + hourglass + viscous + deleted - contact.at_step() - friction.at_step();
+    return kinetic + internal + hourglass + all_viscous() + deleted - contact.at_step() - friction.at_step();
   }
   /// (Energy now - energy at the start - external work) / reference.
   double relative_error() const {
@@ -121,7 +125,7 @@ struct EnergyBalance {
   }
 
   void begin_step() {
-    for (Work* work : {&external, &contact, &friction}) work->begin_step();
+    for (Work* work : {&external, &contact, &friction, &damping}) work->begin_step();
   }
   EnergyBalance& operator+=(const Contribution& stage) {
     kinetic_start += stage.kinetic_start;
@@ -132,6 +136,7 @@ struct EnergyBalance {
     external += stage.external;
     contact += stage.contact;
     friction += stage.friction;
+    damping += stage.damping;
     return *this;
   }
   /// All contributions of the step are in: keeps the largest values so far.

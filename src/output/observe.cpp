@@ -303,9 +303,9 @@ void observe_history(Model& model, std::vector<double>& row) {
   const EnergyBalance& energy = model.energy;
   const MomentumBalance& balance = model.momentum;
   row.assign({model.times.time, static_cast<double>(model.step), model.times.next, energy.kinetic,
-              energy.internal, energy.hourglass, energy.viscous, energy.deleted, -energy.contact.at_step(),
-              -energy.friction.at_step(), energy.external.at_step(), energy.sum(), energy.relative_error(),
-              energy.contact_added_max});
+              energy.internal, energy.hourglass, energy.all_viscous(), energy.deleted,
+              -energy.contact.at_step(), -energy.friction.at_step(), energy.external.at_step(), energy.sum(),
+              energy.relative_error(), energy.contact_added_max});
   for (const Vector& vector : {balance.now.linear, balance.now.angular})
     row.insert(row.end(), vector.begin(), vector.end());
   row.push_back(balance.linear_imbalance());
@@ -411,7 +411,7 @@ Summary observe_end(Model& model) {
   summary.energy = {.kinetic = energy.kinetic,
                     .internal = energy.internal,
                     .hourglass = energy.hourglass,
-                    .viscous = energy.viscous,
+                    .viscous = energy.all_viscous(),
                     .contact = -energy.contact.at_step(),
                     .friction = -energy.friction.at_step(),
                     .external = energy.external.at_step(),

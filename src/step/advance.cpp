@@ -38,6 +38,23 @@ Impulse load_impulse(Model& model) {
   return force;
 }
 
+// All other forces of the step are known.
+Contribution damp_nodes(Model& model) {
+  if (model.damping.empty()) return {};
+  const StageTimer timer(model.stages, Stage::loads);
+  damp(model.damping, model.times.mean(), model.nodes);
+  return {.damping = {.before = model.times.mean() * power(model.damping, model.nodes)}};
+}
+
+// With the velocities at the end of the step.
+Contribution damping_done(Model& model) {
+  if (model.damping.empty()) return {};
+  const StageTimer timer(model.stages, Stage::loads);
+  Impulse impulse = resultant(model.damping, model.nodes);
+  impulse *= model.times.mean();
+  return {.damping = {.after = model.times.mean() * power(model.damping, model.nodes)}, .loads = impulse};
+}
+
 // Before velocities: forces on tied nodes are transferred to the corners of their main faces.
 void gather_tied_forces(Model& model) {
   if (model.ties.empty()) return;
@@ -155,6 +172,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   if (model.forces) begin_step(*model.forces, model.times.mean());
 
   balance += {.external = {.before = load_work(model)}};
+  balance += damp_nodes(model);
   const KineticEnergy accelerated = accelerate_nodes(model, team);
   expect_no_leap(model, accelerated);
   balance += constrain(model);
@@ -164,6 +182,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   balance += stop_at_walls(model);
   carry_rigid(model, team);
   balance += {.external = {.after = load_work(model)}, .loads = load_impulse(model)};
+  balance += damping_done(model);
 
   const KineticEnergy kinetic = kinetic_energy_of(model, accelerated, team);
   model.energy.kinetic = kinetic.now;

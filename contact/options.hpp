@@ -1,10 +1,35 @@
 #pragma once
 /// Settings of contact besides the list of surfaces. Every default states its reason.
 
+#include <cmath>
+#include <optional>
+#include <string_view>
+
 #include "contact/search/search.hpp"
 #include "src/base/fields.hpp"
 
 namespace brio {
+
+/// Static and kinetic friction: it falls with the sliding velocity, mu = mu_k + (mu_s - mu_k) exp(-c |v|),
+/// where mu_s is the coefficient without this.
+struct KineticFriction {
+  double coefficient = 0;
+  double decay = 0;
+
+  static constexpr auto fields() {
+    return field_table(
+        required("coefficient", &KineticFriction::coefficient, non_negative,
+                 "mu_k: Coulomb coefficient of fast sliding, -"),
+        required("decay", &KineticFriction::decay, positive,
+                 "c in mu_k + (friction - mu_k) exp(-c v) of the sliding velocity v, time per length"));
+  }
+
+  /// mu over mu_s. \param speed of sliding, length per time
+  double share(double static_coefficient, double speed) const {
+    const double kinetic = coefficient / static_coefficient;
+    return kinetic + (1 - kinetic) * std::exp(-decay * speed);
+  }
+};
 
 struct ContactOptions {
   /// Coulomb coefficient; none unless asked for.
@@ -36,10 +61,16 @@ struct ContactOptions {
   double initial_overlap_limit = 0.2;
   /// Contact audit: count undetected penetrations at every dump of fields (contact/audit/audit.hpp).
   bool audit = false;
+  /// Absent: friction does not depend on velocity.
+  std::optional<KineticFriction> kinetic_friction{};
 
   static constexpr auto fields() {
     return field_table(
-        optional("friction", &ContactOptions::friction, non_negative, "Coulomb coefficient, -"),
+        optional("friction", &ContactOptions::friction, non_negative,
+                 "Coulomb coefficient; with kinetic_friction that of sticking, -"),
+        optional("kinetic_friction", &ContactOptions::kinetic_friction, any_number,
+                 "friction that falls with the sliding velocity, of all pairs in the same ratio; absent: it "
+                 "does not depend on velocity"),
         optional("passes", &ContactOptions::passes, Range{.lower = 1, .upper = 1000},
                  "largest number of iterations over the contact constraints of a time step, in tens, -"),
         optional(
@@ -66,6 +97,11 @@ struct ContactOptions {
                  "deepest initial overlap removed by moving nodes, in edges or thicknesses, -"),
         optional("audit", &ContactOptions::audit, any_number,
                  "brute-force contact audit: count undetected penetrations at every dump"));
+  }
+  constexpr std::string_view fault() const {
+    return kinetic_friction && friction == 0
+               ? "kinetic_friction is a share of 'friction', which is 0; accepted is friction > 0"
+               : "";
   }
 };
 

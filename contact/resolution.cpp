@@ -139,8 +139,20 @@ class Resolution {
       scene_.row_of_contact.push_back(known + i - first);
     const auto contacts = std::span<const Contact>(scene_.contacts).subspan(first);
     add_rows(rows_, sources(), contacts);
+    if (scene_.options.kinetic_friction)
+      for (std::size_t i = first; i < scene_.contacts.size(); ++i) slow_friction(row_of(i));
     const std::span<const double> opening = scene_.loaded.opening_velocities(contacts, recovery(), dt_);
     for (std::size_t i = first; i < scene_.contacts.size(); ++i) set_target(row_of(i), opening[i - first]);
+  }
+  // Friction at the sliding velocity with which the time step begins.
+  void slow_friction(ConstraintRow& row) const {
+    if (row.friction_coefficient == 0) return;
+    const Vector3<double> velocity = RowMap(rows_.rows, row).velocity([&](int block) {
+      return rows_.before[static_cast<std::size_t>(block)];
+    });
+    const Vector3<double> sliding = velocity - dot(row.normal, velocity) * row.normal;
+    const double speed = std::sqrt(dot(sliding, sliding));
+    row.friction_coefficient *= scene_.options.kinetic_friction->share(scene_.options.friction, speed);
   }
   void add_wall_rows_from(std::size_t first) {
     const std::size_t known = rows_.rows.size();

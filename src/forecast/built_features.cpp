@@ -182,6 +182,8 @@ void add_contact(const Deck& deck, std::vector<ContactScene>&& contacts, Feature
     const bool audit = scene.options.audit;
     features.push_back({"contact", "contact.surfaces", detail, bytes_freed(std::move(scene))});
     if (deck.contact->options.friction > 0) features.push_back({"friction", "contact.friction", "", 0});
+    if (deck.contact->options.kinetic_friction)
+      features.push_back({"kinetic friction", "contact.kinetic_friction", "", 0});
     if (!deck.contact->pairs.empty())
       features.push_back({"pairs", "contact.pairs", counted(deck.contact->pairs.size(), "pair"), 0});
     if (audit) features.push_back({"audit", "contact.audit", "", 0});

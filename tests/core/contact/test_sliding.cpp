@@ -103,6 +103,35 @@ TEST(SlidingBlock, StopsOnAFloorAfterTheDistanceOfCoulomb) {
   }
 }
 
+// dv/dt = -g (a + b exp(-c v)) with a = mu_k, b = mu_s - mu_k has the integral
+// a exp(c v) + b = (a exp(c v0) + b) exp(-a c g t).
+TEST(SlidingBlock, SlowsByStaticAndKineticFriction) {
+  const double friction = 0.3, kinetic = 0.1, decay = 0.8, speed = 4;
+  Deck deck = on_floor(sliding_block({speed, 0, 0}), friction);
+  deck.contact->options.kinetic_friction = KineticFriction{kinetic, decay};
+  const double b = friction - kinetic, rate = kinetic * decay * gravity_acceleration;
+  const double start = kinetic * std::exp(decay * speed) + b;
+  const double stop = std::log(start / friction) / rate;
+  const auto velocity = [&](double time) {
+    return std::log((start * std::exp(-rate * std::min(time, stop)) - b) / kinetic) / decay;
+  };
+  deck.time.end = 1.3 * stop;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  const double begin = centre_of(model, 0)[0];
+  double travelled = 0, last = 0, largest = 0;
+  run(model, deck, team, [&](Model& m) {
+    const double time = m.times.time;
+    travelled += 0.5 * (velocity(last) + velocity(time)) * (time - last);
+    last = time;
+    largest = std::max(largest, std::abs(centre_of(m, 0)[0] - begin - travelled));
+  });
+  EXPECT_GT(stop,
+            1.5 * speed / (friction * gravity_acceleration));  // far longer than at the static coefficient
+  EXPECT_NEAR(velocity(stop), 0, 1e-12);
+  EXPECT_LE(largest, 0.005 * travelled);
+}
+
 // Two blocks on one floor, of which one has a coefficient of its own.
 TEST(SlidingBlock, HasTheFrictionOfItsPair) {
   Deck deck = on_floor(sliding_block({4, 0, 0}), 0.3);

@@ -162,6 +162,30 @@ TEST(StepAllocation, NoneInASceneOfHexahedraWithWallGravityAndPressure) {
       EXPECT_EQ(count(block_on_wall(element), threads, 100).allocations, 0u) << threads;
 }
 
+// Tables, expressions, damping, and friction that falls with the velocity.
+TEST(StepAllocation, NoneWithTablesExpressionsAndDamping) {
+  Deck deck = block_on_floor();
+  const std::array<double, 2> slow[] = {{0, 1e5}, {0.1, 2e5}}, fast[] = {{0, 3e5}, {0.2, 3e5}};
+  const YieldCurve curves[] = {{slow, 1}, {fast, 1e3}};
+  TabulatedPlasticity law{
+      1000, 1e9, 0.3, {std::make_shared<const YieldTable>(curves, BeyondTable::constant)}};
+  deck.materials = {{"material", law}};
+  SpaceTimeCurve pressure;
+  pressure.expression =
+      std::make_shared<const Expression>("1e5*(1 + x)*smooth_step(t, 0, 1e-2)", Expression::Parameters{},
+                                         Expression::Variables::time_and_position);
+  pressure.points = {{0, 0}, {1, 1e5}};
+  pressure.varies_in_space = true;
+  std::get<Pressure>(deck.loads[1]).pressure = pressure;
+  deck.parts[0].damping = 10;
+  deck.contact->options.kinetic_friction = KineticFriction{0.1, 0.1};
+  for (int threads : {1, 2}) {
+    const Counted counted = count(deck, threads, 900);
+    EXPECT_EQ(counted.allocations, 0u) << threads;
+    EXPECT_GT(counted.active, 200);
+  }
+}
+
 TEST(StepAllocation, NoneWhereBlocksSlideOverEachOther) {
   for (int threads : {1, 2}) {
     const Counted counted = count(block_on_floor(), threads, 900);

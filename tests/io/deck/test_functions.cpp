@@ -272,5 +272,15 @@ TEST(Includes, JoinSectionsAndNameTheirFile) {
             std::string::npos);
 }
 
+TEST(KineticFriction, NeedsFriction) {
+  const auto with = [](const std::string& friction) { return plain_with("friction: 0.1", friction); };
+  const Deck deck =
+      parse_deck(with("friction: 0.3, kinetic_friction: {coefficient: 0.1, decay: 2}"), "a.yaml");
+  EXPECT_NEAR(deck.contact->options.kinetic_friction->share(0.3, 0.5) * 0.3, 0.1 + 0.2 * std::exp(-1), 1e-15);
+  EXPECT_NE(refusal_of_text(with("kinetic_friction: {coefficient: 0.1, decay: 2}"))
+                .find("accepted is friction > 0"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace brio

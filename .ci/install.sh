@@ -3,7 +3,7 @@
 # Usage: .ci/install.sh [build|test|study|paraview|tidy]...     (default: build)
 set -euo pipefail
 
-build="g++ cmake ninja-build libeigen3-dev libhdf5-dev libyaml-cpp-dev nlohmann-json3-dev libfmt-dev libcli11-dev libmuparser-dev"
+build="g++ cmake ninja-build libeigen3-dev libhdf5-dev libnetcdf-dev libyaml-cpp-dev nlohmann-json3-dev libfmt-dev libcli11-dev libmuparser-dev"
 test="libgtest-dev libgmp-dev libboost-dev clang clang-format python3 python3-jsonschema python3-yaml python3-h5py locales-all"
 study="gnuplot-nox"
 paraview="paraview python3-paraview xvfb xauth"

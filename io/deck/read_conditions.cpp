@@ -11,10 +11,15 @@ using SetNames = std::vector<std::string_view> (*)(const MeshSource&);
 /// Checks `part.set`, or `part` alone.
 void check_set(const YamlNode& node, const Slot& slot, SetNames names_of_sets) {
   const std::size_t dot = node.text.find('.');
-  const Part& part = slot.known.part(node, std::string_view(node.text).substr(0, dot));
+  const std::vector<const Part*> parts =
+      slot.known.parts_called(node, std::string_view(node.text).substr(0, dot));
   if (dot == std::string::npos) return;
   const std::string_view set = std::string_view(node.text).substr(dot + 1);
-  const std::vector<std::string_view> names = names_of_sets(part.mesh);
+  std::vector<std::string_view> names;
+  for (const Part* each : parts)
+    for (const std::string_view name : names_of_sets(each->mesh))
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  const Part& part = *parts.front();
   if (names.empty())
     throw DeckError(node.place, "part '" + part.name +
                                     "' has no sides: it is a line of beams; parts of solids or "
@@ -35,10 +40,10 @@ int axis_of(const YamlNode& node, const std::string& word) {
 /// Prescribed rotations need nodes, or a body, that can turn.
 void check_component(const YamlNode& node, const Slot& slot, const NodeSelection& where, int axis) {
   if (axis < 3 || where.set.empty()) return;
-  const Part& part = slot.known.part(node, where.set.substr(0, where.set.find('.')));
-  if (!has_rotations(part.element) && !std::holds_alternative<Rigid>(part.element))
-    throw DeckError(node.place, "the nodes of '" + part.name + "' do not turn: its elements are '" +
-                                    std::string(name_of(part.element)) + "'; accepted: x, y, z");
+  for (const Part* part : slot.known.parts_called(node, where.set.substr(0, where.set.find('.'))))
+    if (!has_rotations(part->element) && !std::holds_alternative<Rigid>(part->element))
+      throw DeckError(node.place, "the nodes of '" + part->name + "' do not turn: its elements are '" +
+                                      std::string(name_of(part->element)) + "'; accepted: x, y, z");
 }
 
 void add_component(const YamlNode& node, const Slot& slot, PrescribedMotion& motion, const std::string& word,

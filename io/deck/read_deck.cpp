@@ -62,6 +62,7 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
         root->find("parts")->value->place,
         "'parts' is empty; at least one part is expected, such as {cube: {mesh: ..., element: ..., "
         "material: ...}}");
+  known.file_meshes().describe(deck.mesh_checksums, deck.mesh_notices);
   check_precision(deck, *root);
   read_variables(deck, *root);
   deck.text = root == as_said ? text : write_yaml(*root);

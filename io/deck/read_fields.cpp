@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/deck/condition_words.hpp"
+#include "src/deck/part_index.hpp"
 
 namespace brio {
 
@@ -131,6 +132,26 @@ double KnownNames::end_time() const {
   double value = 0;
   read_value(*end->value, Slot{"end", positive, *this}, value);
   return value;
+}
+
+std::vector<const Part*> KnownNames::parts_called(const YamlNode& node, std::string_view name) const {
+  std::vector<const Part*> parts;
+  for (const std::size_t p : brio::parts_called(name, deck_)) parts.push_back(&deck_.parts[p]);
+  if (!parts.empty()) return parts;
+  for (const MeshFile& file : deck_.meshes)
+    if (file.name == name)
+      throw DeckError(node.place, "no part is of the mesh file '" + std::string(name) + "'");
+  return {&part(node, name)};
+}
+
+const MeshFile& KnownNames::mesh_file(const YamlNode& node) const {
+  std::vector<std::string_view> names;
+  for (const MeshFile& file : deck_.meshes) {
+    if (file.name == node.text) return file;
+    names.push_back(file.name);
+  }
+  throw DeckError(node.place, "no mesh file is called '" + node.text + "' in 'meshes'; " +
+                                  accepted_words(node.text, names));
 }
 
 const Material& KnownNames::material(const YamlNode& node) const {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +16,7 @@
 
 #include "io/deck/closest_word.hpp"
 #include "io/deck/yaml_source.hpp"
+#include "io/mesh_format/file_meshes.hpp"
 #include "src/deck/deck.hpp"
 
 namespace brio {
@@ -25,10 +28,17 @@ class KnownNames {
 
   /// \throws DeckError if no part is called so.
   const Part& part(const YamlNode& node, std::string_view name) const;
+  /// The part of that name, or the parts of the mesh file of that name. \throws DeckError if there are none.
+  std::vector<const Part*> parts_called(const YamlNode& node, std::string_view name) const;
   /// \throws DeckError if no boundary condition is called so.
   void expect_condition(const YamlNode& node, std::string_view name) const;
   /// \throws DeckError if no material is called so.
   const Material& material(const YamlNode& node) const;
+  /// \throws DeckError if no mesh file is called so.
+  const MeshFile& mesh_file(const YamlNode& node) const;
+  const Deck& deck() const { return deck_; }
+  /// Contents of mesh files, each read once.
+  FileMeshes& file_meshes() const { return *file_meshes_; }
   /// What expressions may name.
   const Parameters& parameters() const { return deck_.parameters; }
   /// Of the run, which may be read later: curves are sampled up to it.
@@ -37,6 +47,7 @@ class KnownNames {
  private:
   const Deck& deck_;
   const YamlNode& root_;
+  std::shared_ptr<FileMeshes> file_meshes_ = std::make_shared<FileMeshes>();
   mutable std::unordered_map<std::string_view, const Part*> parts_;  ///< filled when all parts are read
 };
 

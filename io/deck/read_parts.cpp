@@ -1,4 +1,5 @@
 #include "io/deck/read_fields.hpp"
+#include "io/deck/read_mesh_from_file.hpp"
 #include "io/mesh/generate_mesh.hpp"
 
 namespace brio {
@@ -26,6 +27,11 @@ std::vector<std::string_view> laws_accepted_by(const Element& element) {
 }
 
 [[noreturn]] void refuse_element(const Part& part, const Place& place) {
+  if (const auto* file = std::get_if<MeshFromFile>(&part.mesh))
+    throw DeckError(place, "the block of the mesh file has elements of " +
+                               std::to_string(file->mesh->nodes_per_element) + " nodes, not '" +
+                               std::string(name_of(part.element)) + "'; " +
+                               accepted_words("", elements_with_nodes(nodes_per_element(part.mesh))));
   const std::string shape(std::visit([](const auto& source) { return source.name; }, part.mesh));
   throw DeckError(place, "the mesh '" + shape + "' cannot be made of '" + std::string(name_of(part.element)) +
                              "' elements; " +
@@ -77,7 +83,10 @@ void read_value(const YamlNode& node, const Slot& slot, Element& element) {
 }
 
 void read_value(const YamlNode& node, const Slot& slot, MeshSource& mesh) {
-  read_single_key_choice(node, slot, mesh);
+  if (node.is_map() && (node.find("file") != nullptr || node.find("from") != nullptr))
+    read_mesh_from_file(node, slot, mesh.emplace<MeshFromFile>());
+  else
+    read_single_key_choice(node, slot, mesh, {"from"});
 }
 
 void read_value(const YamlNode& node, const Slot& slot, BeamSection& section) {
@@ -86,6 +95,10 @@ void read_value(const YamlNode& node, const Slot& slot, BeamSection& section) {
 
 void read_value(const YamlNode& node, const Slot& slot, Part& part) {
   read_fields(node, slot, part);
+  for (const MeshFile& file : slot.known.deck().meshes)
+    if (file.name == part.name)
+      throw DeckError(node.place, "part '" + part.name + "' has the name of a mesh file; '" + part.name +
+                                      ".SET' would be of either; another name is accepted");
   const Material& material = slot.known.material(*node.find("material")->value);
   const Place& place = node.find("element")->value->place;
   const std::string kind(name_of(part.element));

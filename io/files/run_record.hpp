@@ -16,6 +16,7 @@ struct RunRecord {
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE, in order
   std::string version;
   int threads = 1;
+  std::vector<std::string> mesh_checksums{};  ///< of each mesh file: its name and checksum
 };
 
 /// Its texts, each followed by a NUL: what checksums of a record are of.

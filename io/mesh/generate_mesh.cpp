@@ -153,6 +153,7 @@ Mesh mesh_of(const LineMesh& line) {
 }
 
 Mesh mesh_of(const ParticleMesh& fill) { return particle_mesh(fill); }
+Mesh mesh_of(const MeshFromFile& source) { return *source.mesh; }
 
 /// Cosine and sine of an angle in degrees; exact for quarter turns.
 std::array<double, 2> cosine_and_sine(double degrees) {
@@ -196,6 +197,15 @@ Names node_names(const SphereMesh&) { return {"all", "outside"}; }
 Names node_names(const HollowSphereMesh&) { return {"all"}; }
 Names node_names(const LineMesh&) { return {"all", "end", "start"}; }
 Names node_names(const ParticleMesh& fill) { return particle_set_names(fill); }
+template <class Set>
+Names names_of(const std::map<std::string, Set>& sets) {
+  Names names;
+  for (const auto& [name, set] : sets) names.push_back(name);
+  return names;
+}
+Names node_names(const MeshFromFile& source) {
+  return source.mesh ? names_of(source.mesh->node_sets) : Names{};
+}
 
 }  // namespace
 
@@ -212,6 +222,7 @@ Mesh generate_mesh(const MeshSource& source, const Placement& placement) {
 }
 
 int nodes_per_element(const MeshSource& source) {
+  if (const auto* file = std::get_if<MeshFromFile>(&source)) return file->mesh->nodes_per_element;
   if (std::holds_alternative<LineMesh>(source)) return 2;
   if (std::holds_alternative<ParticleMesh>(source)) return 1;
   const bool shell = std::holds_alternative<PlateMesh>(source) ||
@@ -225,6 +236,7 @@ std::vector<std::string_view> node_set_names(const MeshSource& source) {
 }
 
 std::vector<std::string_view> side_set_names(const MeshSource& source) {
+  if (const auto* file = std::get_if<MeshFromFile>(&source)) return names_of(file->mesh->side_sets);
   if (nodes_per_element(source) <= 2) return {};  // lines and particles have no sides
   if (nodes_per_element(source) == 4) return {"all"};
   return node_set_names(source);

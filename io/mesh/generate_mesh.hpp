@@ -14,7 +14,7 @@ namespace brio {
 /// side.
 Mesh generate_mesh(const MeshSource& source, const Placement& placement);
 
-/// 8 for solid shapes, 4 for shells, 2 for lines, 1 for particles.
+/// 8 for solid shapes, 4 for shells, 2 for lines, 1 for particles. Of a mesh file what was read.
 int nodes_per_element(const MeshSource& source);
 
 /// Names of the node sets that `generate_mesh` makes of a shape, in alphabetical order.

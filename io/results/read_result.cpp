@@ -15,7 +15,7 @@ namespace brio {
 namespace {
 
 const std::string root_group = "/VTKHDF/";
-const std::string steps = "/VTKHDF/Steps/";
+const std::string steps_group = "/VTKHDF/Steps/";
 
 std::int64_t number(const Hdf5File& file, const std::string& table, std::size_t row) {
   const std::vector<std::int64_t> values = file.read_integers(table, static_cast<std::int64_t>(row), 1);
@@ -25,7 +25,8 @@ std::int64_t number(const Hdf5File& file, const std::string& table, std::size_t 
 
 // Numbers of points, cells and corners stand by part of the file, of which a new topology makes a new one.
 std::int64_t count(const Hdf5File& file, const std::string& what, std::size_t dump) {
-  return number(file, root_group + what, static_cast<std::size_t>(number(file, steps + "PartOffsets", dump)));
+  return number(file, root_group + what,
+                static_cast<std::size_t>(number(file, steps_group + "PartOffsets", dump)));
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -48,8 +49,8 @@ ResultReader::ResultReader(std::filesystem::path file_name) : file_(std::move(fi
   const Hdf5File file = Hdf5File::open_to_read(file_);
   // The process may have been killed before the time of the last dump, which then is not complete.
   const std::int64_t dumps =
-      std::min(file.read_integer_attribute("/VTKHDF/Steps", "NSteps"), file.rows_of(steps + "Values"));
-  times_ = file.read_rows(steps + "Values", 0, dumps);
+      std::min(file.read_integer_attribute("/VTKHDF/Steps", "NSteps"), file.rows_of(steps_group + "Values"));
+  times_ = file.read_rows(steps_group + "Values", 0, dumps);
   if (times_.empty()) throw FileError(file_, "the result holds no dump");
 }
 
@@ -69,7 +70,8 @@ ReadField ResultReader::field(const std::string& name, std::size_t dump) const {
   ReadField result;
   std::int64_t rows = points;
   if (name == "position") {
-    result.values = file.read_rows(root_group + "Points", number(file, steps + "PointOffsets", dump), points);
+    result.values =
+        file.read_rows(root_group + "Points", number(file, steps_group + "PointOffsets", dump), points);
   } else {
     std::string group = "PointData";
     if (!file.contains(root_group + group + "/" + name)) {
@@ -82,7 +84,7 @@ ReadField ResultReader::field(const std::string& name, std::size_t dump) const {
                                  listed(file.members(root_group + "PointData")) + "; of cells " +
                                  listed(file.members(root_group + "CellData")));
     result.values = file.read_rows(root_group + group + "/" + name,
-                                   number(file, steps + group + "Offsets/" + name, dump), rows);
+                                   number(file, steps_group + group + "Offsets/" + name, dump), rows);
   }
   result.rows = static_cast<std::size_t>(rows);
   result.components = rows > 0 ? result.values.size() / result.rows : 1;
@@ -93,15 +95,15 @@ ReadCells ResultReader::cells(std::size_t dump) const {
   const Hdf5File file = Hdf5File::open_to_read(file_);
   const std::int64_t cells = count(file, "NumberOfCells", dump);
   ReadCells result;
-  result.connectivity =
-      file.read_integers(root_group + "Connectivity", number(file, steps + "ConnectivityIdOffsets", dump),
-                         count(file, "NumberOfConnectivityIds", dump));
+  result.connectivity = file.read_integers(root_group + "Connectivity",
+                                           number(file, steps_group + "ConnectivityIdOffsets", dump),
+                                           count(file, "NumberOfConnectivityIds", dump));
   // Each part of the file has one offset more than cells.
-  const std::int64_t before = number(file, steps + "PartOffsets", dump);
+  const std::int64_t before = number(file, steps_group + "PartOffsets", dump);
   result.offset = file.read_integers(root_group + "Offsets",
-                                     number(file, steps + "CellOffsets", dump) + before, cells + 1);
+                                     number(file, steps_group + "CellOffsets", dump) + before, cells + 1);
   result.part = file.read_integers(root_group + "CellData/part",
-                                   number(file, steps + "CellDataOffsets/part", dump), cells);
+                                   number(file, steps_group + "CellDataOffsets/part", dump), cells);
   return result;
 }
 

@@ -126,6 +126,13 @@ class Exploration {
   double start_;
 };
 
+/// Of which no coarser mesh can be made.
+bool has_mesh_file(const Deck& deck) {
+  return std::any_of(deck.parts.begin(), deck.parts.end(), [](const Part& part) {
+    return std::holds_alternative<MeshFromFile>(part.mesh) && !std::holds_alternative<Rigid>(part.element);
+  });
+}
+
 }  // namespace
 
 ScenePrepared prepare_scene(const ForecastOptions& options) {
@@ -157,6 +164,9 @@ Forecast forecast(const ForecastOptions& options, ScenePrepared& scene) {
       options.coarse_run_s > 0 && options.coarse_run_fraction > 0 && !forecast.timed_run.reached_end;
   if (is_asked_for && (scene.deck.time.step || scene.deck.time.mass_scaling)) {
     forecast.coarse_run_fault = "none is made where the deck prescribes the time step";
+  } else if (is_asked_for && has_mesh_file(scene.deck)) {
+    forecast.coarse_run_fault = "none is made of meshes from files; time steps are timed for longer";
+    exploration.time_scene(1);
   } else if (is_asked_for && forecast.timed_run.breakdown.empty()) {
     exploration.make_coarse_runs();
     exploration.time_scene(0.5);  // changes the predicted wall time and by that the budget

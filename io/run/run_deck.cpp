@@ -53,13 +53,15 @@ class ProgressReporter {
     time_ = model.times.time;
     const std::size_t part = part_of_largest_ratio(model.part_energy);
     const PartEnergy& worst = model.part_energy[part];
+    const PartInModel& critical = model.parts[model.control.critical_block];
     const bool hourglasses = worst.time_of_warning >= 0;
     options_.progress({.time = model.times.time,
                        .end = end_,
                        .step = model.step,
                        .dt = model.times.next,
-                       .critical_part = model.parts[model.control.critical_block].name,
-                       .critical_element = model.control.critical_element,
+                       .critical_part = critical.name,
+                       .critical_element = static_cast<std::size_t>(
+                           critical.number_of_element(model.control.critical_element)),
                        .energy_error = model.energy.relative_error(),
                        .deleted = model.erosion ? model.erosion->total_deleted() : 0,
                        .hourglassing = hourglasses ? model.parts[part].name : "",
@@ -162,6 +164,16 @@ class Run {
   Clock::time_point start_;
 };
 
+// A state fits the mesh that it was saved with, and no other.
+void expect_same_meshes(const RestartFile& restart, const Deck& deck) {
+  const std::vector<std::string>& saved = restart.header.record.mesh_checksums;
+  for (const std::string& mesh : deck.mesh_checksums)
+    if (std::find(saved.begin(), saved.end(), mesh) == saved.end())
+      throw DeckError(deck.file + ": the mesh file '" + mesh.substr(0, mesh.rfind(' ')) +
+                      "' has changed since " + restart.path.string() +
+                      " was saved; accepted is the file as it was");
+}
+
 /// The restart file, if one is given. \throws DeckError where the deck is not that of the saved run,
 /// FileError
 std::optional<RestartFile> restart_of(const RunOptions& options, const Deck& deck) {
@@ -174,6 +186,7 @@ std::optional<RestartFile> restart_of(const RunOptions& options, const Deck& dec
     throw DeckError(deck.file + ": a saved run goes on with the deck that it was saved with: " + difference +
                     " in " + restart.path.string() +
                     "; accepted are changes of title, units, output and time.end");
+  expect_same_meshes(restart, deck);
   if (restart.header.time > deck.time.end)
     throw DeckError(deck.file + ": the run that " + restart.path.string() + " has saved is at time " +
                     written(restart.header.time) + " already; accepted is a time.end that is not before it");
@@ -183,7 +196,7 @@ std::optional<RestartFile> restart_of(const RunOptions& options, const Deck& dec
 // Rows of other tables cannot be appended.
 void expect_same_columns(const std::filesystem::path& results, const RestartFile& restart,
                          const std::vector<std::string>& columns, const Deck& deck) {
-  const Deck saved = parse_deck(restart.header.record.deck_text, restart.path.string());
+  const Deck saved = parse_deck(restart.header.record.deck_text, deck.file);  // meshes are beside the deck
   if (ResultReader(results).history_columns() == columns &&
       saved.output.fields_.variables == deck.output.fields_.variables)
     return;
@@ -238,6 +251,8 @@ RunOutcome run_deck(const RunOptions& options) {
   Model model;
   const Deck deck = load_deck(options.deck, options.overrides, options.threads, model);
   const std::optional<RestartFile> restart = restart_of(options, deck);
+  if (options.notice)
+    for (const std::string& notice : deck.mesh_notices) options.notice(notice);
   if (options.built) options.built();
   ThreadTeam team(options.threads);
   // A first step finds what is wrong with a scene, and what a restored state does not hold.
@@ -250,7 +265,8 @@ RunOutcome run_deck(const RunOptions& options) {
                          .deck_text = deck.text,
                          .overrides = options.overrides,
                          .version = BRIO_VERSION,
-                         .threads = options.threads};
+                         .threads = options.threads,
+                         .mesh_checksums = deck.mesh_checksums};
   const ResultSettings settings{
       .sync = deck.output.sync, .overwrite = options.overwrite, .moved_aside = options.moved_aside};
   const std::filesystem::path results = outcome.folder / (name + ".vtkhdf");

@@ -23,7 +23,7 @@ struct Progress {
   std::int64_t step = 0;
   double dt = 0;
   std::string critical_part;         ///< whose element sets the stable time step
-  std::size_t critical_element = 0;  ///< of that part's mesh
+  std::size_t critical_element = 0;  ///< of that part's mesh, by its number in a mesh file
   double energy_error = 0;
   std::int64_t deleted = 0;  ///< elements
   std::string hourglassing;  ///< part whose hourglass energy is beyond the limit most; empty: none
@@ -40,7 +40,8 @@ struct RunOptions {
   bool overwrite = false;                ///< whether results of an earlier run are removed, not moved aside
   std::filesystem::path restart;         ///< restart file of a run that goes on; empty: one that begins
   std::optional<double> stop_after_s{};  ///< wall time after which the run is saved and stops
-  std::function<void(const std::string&)> notice{};  ///< called with what the user should know of a restart
+  std::function<void(const std::string&)>
+      notice{};  ///< called with what the user should know of meshes and a restart
   std::function<void(const std::filesystem::path& to, bool lost)> moved_aside{};  ///< as of ResultSettings
   const std::atomic<int>* stop = nullptr;  ///< set to a signal's number to end the run after the present step
   std::function<void()> built;             ///< called before the first file is made

@@ -63,6 +63,17 @@ Count count(const ParticleMesh& mesh) {
   return lattice(4 * std::numbers::pi / 3 * std::pow(mesh.sphere->radius / mesh.sphere->spacing, 3));
 }
 
+// Of a mesh of hexahedra without holes each element has a node of its own but for those of half of its
+// surface.
+Count count(const MeshFromFile& source) {
+  const Mesh& mesh = *source.mesh;
+  const auto elements = static_cast<double>(mesh.element_count()),
+             nodes = static_cast<double>(mesh.position.size());
+  if (mesh.nodes_per_element == 8)
+    return {elements, nodes, std::max(2 * (nodes - elements), 6 * std::cbrt(elements * elements))};
+  return {elements, nodes, mesh.nodes_per_element == 4 ? elements : 0, mesh.nodes_per_element == 4};
+}
+
 Count count(const Part& part) {
   return std::visit([](const auto& mesh) { return count(mesh); }, part.mesh);
 }

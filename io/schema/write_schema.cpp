@@ -33,10 +33,23 @@ struct SchemaOf<Element> : WithoutDefault {
   }
 };
 
+// Its keys stand beside each other.
+template <>
+struct SchemaOf<MeshFromFile> : WithoutDefault {
+  static Schema make(const Range&) {
+    Schema object = object_of<MeshFromFile>();
+    object["oneOf"] = {{{"required", {"from"}}}, {{"required", {"file"}}}};
+    add_meaning<MeshFromFile>(object);
+    return object;
+  }
+};
+
 template <>
 struct SchemaOf<MeshSource> : WithoutDefault {
   static Schema make(const Range&) {
     Schema choice = single_key_choice<MeshSource>();
+    for (Schema& one : choice["oneOf"])
+      if (one["title"] == MeshFromFile::name) one = schema_of<MeshFromFile>(any_number);
     std::size_t i = 0;
     for_each_alternative(static_cast<const MeshSource*>(nullptr),
                          [&]<class Shape>(std::type_identity<Shape>) {

@@ -94,6 +94,8 @@ void read_decks(CheckedStudy& checked) {
   for (const StudyRun& run : checked.runs) {
     const Deck deck = parse_deck(text, checked.deck, run.overrides);
     checked.texts.push_back(deck.text);
+    std::string& meshes = checked.meshes.emplace_back();
+    for (const std::string& mesh : deck.mesh_checksums) meshes += mesh + "\n";
     if (!checked.parts.empty()) continue;
     for (const Part& part : deck.parts) checked.parts.push_back(part.name);
   }

@@ -14,8 +14,9 @@ struct CheckedStudy {
   Study study;
   std::string deck;  ///< path of the deck
   std::vector<StudyRun> runs;
-  std::vector<std::string> texts;  ///< of the deck of each run, with its overrides
-  std::vector<std::string> parts;  ///< names, in the order of the deck
+  std::vector<std::string> texts;     ///< of the deck of each run, with its overrides
+  std::vector<std::string> meshes{};  ///< of each run: names and checksums of its mesh files
+  std::vector<std::string> parts;     ///< names, in the order of the deck
 };
 
 /// \throws DeckError naming the place, what is wrong and what is accepted: of the study, of its deck, or of

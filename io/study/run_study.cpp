@@ -114,7 +114,8 @@ class StudyInRun {
   }
   std::string key(std::size_t run) const {
     const std::string settings =
-        fmt::format("{} {} {}", checked_.texts[run], checked_.study.threads, checked_.study.repeats);
+        fmt::format("{} {} {}", checked_.texts[run], checked_.study.threads, checked_.study.repeats) +
+        checked_.meshes[run];
     return fmt::format("{:016x}", fingerprint(settings, program_print_));
   }
 

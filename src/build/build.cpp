@@ -56,6 +56,8 @@ std::size_t place_parts(const Deck& deck, std::span<const Mesh> meshes, const Sh
     part.element_order = locality_order(mesh.position, mesh.connectivity, mesh.nodes_per_element);
     part.element_slot.resize(part.element_order.size());
     part.node.assign(mesh.position.size(), -1);
+    part.node_id = mesh.node_id;
+    part.element_id = mesh.element_id;
     std::vector<int> nodes;
     for (std::size_t slot = 0; slot < part.element_order.size(); ++slot) {
       const auto e = static_cast<std::size_t>(part.element_order[slot]);
@@ -141,8 +143,10 @@ void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
         find_neighbours(model.blocks[p], particle_volumes(meshes[p], model.parts[p]), nodes);
       model.blocks[p].kernel.initialize(model.blocks[p], nodes);
     } catch (const BadElement& fault) {
-      throw BuildError("element " + std::to_string(model.parts[p].element_order[fault.place]) + " of part '" +
-                           model.parts[p].name + "' " + fault.rule,
+      const PartInModel& part = model.parts[p];
+      const auto element = static_cast<std::size_t>(part.element_order[fault.place]);
+      throw BuildError("element " + std::to_string(part.number_of_element(element)) + " of part '" +
+                           part.name + "' " + fault.rule,
                        deck.parts[p].place);
     } catch (const std::invalid_argument& fault) {
       throw BuildError(fault.what(), deck.parts[p].place);
@@ -229,16 +233,17 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   }
 }
 
-PressureLoad pressure_on(const Pressure& load_entry, const Deck& deck, std::span<const Mesh> meshes,
-                         const Model& model) {
+// One a part, of those that a set of a mesh file reaches into.
+std::vector<PressureLoad> pressures_on(const Pressure& load_entry, const Deck& deck,
+                                       std::span<const Mesh> meshes, const Model& model) {
   const std::string& side_set = load_entry.side_set;
   const std::size_t dot_at = side_set.find('.');
-  const std::string name = side_set.substr(0, dot_at);
-  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
-    if (deck.parts[p].name != name || dot_at == std::string::npos) continue;
+  std::vector<PressureLoad> loads;
+  for (const std::size_t p : parts_called(side_set.substr(0, dot_at), deck)) {
+    if (dot_at == std::string::npos) break;
     const Mesh& mesh = meshes[p];
     const auto found = mesh.side_sets.find(side_set.substr(dot_at + 1));
-    if (found == mesh.side_sets.end()) break;
+    if (found == mesh.side_sets.end()) continue;
     const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
     PressureLoad load{{}, load_entry.pressure, static_cast<int>(p), {}};
     for (const ElementSide& side : found->second) {
@@ -253,9 +258,10 @@ PressureLoad pressure_on(const Pressure& load_entry, const Deck& deck, std::span
       load.sides.push_back(nodes);
       load.element.push_back(side.element);
     }
-    return load;
+    loads.push_back(std::move(load));
   }
-  throw BuildError("no side set is named '" + side_set + "'", load_entry.place);
+  if (loads.empty()) throw BuildError("no side set is named '" + side_set + "'", load_entry.place);
+  return loads;
 }
 
 double debris_radius(const Part& part) {
@@ -351,7 +357,8 @@ void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
       model.loads.push_back(
           {NodalLoad{select_nodes(force->where, deck, meshes, model), force->force, force->factor}, {}});
     if (const auto* pressure = std::get_if<Pressure>(&entry))
-      model.loads.push_back({pressure_on(*pressure, deck, meshes, model), {}});
+      for (PressureLoad& load : pressures_on(*pressure, deck, meshes, model))
+        model.loads.push_back({std::move(load), {}});
   }
 }
 

@@ -90,7 +90,8 @@ MassProperties mass_properties(const Mesh& mesh, double density, double thicknes
     for (std::size_t k = 0; k < corners; ++k)
       corner[k] = point(static_cast<std::size_t>(mesh.connectivity[e * corners + k])) - origin;
     if (!(corners == 8 ? add_hexahedron(corner, moments) : add_shell(corner, thickness, moments)))
-      throw std::invalid_argument("element " + std::to_string(e) + " is inverted or has no volume");
+      throw std::invalid_argument("element " + std::to_string(mesh.number_of_element(e)) +
+                                  " is inverted or has no volume");
   }
   const Vector3d centre = moments.first / moments.volume;
   const Matrix3d about_centre = moments.second - moments.volume * centre * centre.transpose();

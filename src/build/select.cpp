@@ -25,6 +25,15 @@ bool inside(const SphereRegion& sphere, const Vector& x) {
   return distance <= sphere.radius * sphere.radius;
 }
 
+// The part of that name, or those of the mesh file of that name.
+std::vector<std::size_t> parts_called(const std::string& name, const Deck& deck, const Model& model,
+                                      const std::string& place) {
+  if (const auto part = model.part_number.find(name); part != model.part_number.end()) return {part->second};
+  std::vector<std::size_t> found = parts_called(name, deck);
+  if (found.empty()) throw no_part(name, place);
+  return found;
+}
+
 }  // namespace
 
 std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std::span<const Mesh> meshes,
@@ -33,18 +42,18 @@ std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std:
   if (!where.set.empty()) {
     const std::size_t dot_at = where.set.find('.');
     const std::string name = where.set.substr(0, dot_at);
-    const auto numbered = model.part_number.find(name);
-    if (numbered == model.part_number.end()) throw no_part(name, where.place);
-    const std::size_t part = numbered->second;
     const std::string set = dot_at == std::string::npos ? "all" : where.set.substr(dot_at + 1);
-    if (set == "all") {
-      chosen = model.parts[part].node;
-    } else {
-      const auto found = meshes[part].node_sets.find(set);
-      if (found == meshes[part].node_sets.end())
-        throw BuildError("part '" + deck.parts[part].name + "' has no set '" + set + "'", where.place);
-      for (int node : found->second) chosen.push_back(model.parts[part].node[static_cast<std::size_t>(node)]);
+    bool is_there = false;
+    for (const std::size_t p : parts_called(name, deck, model, where.place)) {
+      const std::vector<int>& node = model.parts[p].node;
+      const auto found = meshes[p].node_sets.find(set);
+      is_there = is_there || set == "all" || found != meshes[p].node_sets.end();
+      if (set == "all")
+        chosen.insert(chosen.end(), node.begin(), node.end());
+      else if (found != meshes[p].node_sets.end())
+        for (const int of_mesh : found->second) chosen.push_back(node[static_cast<std::size_t>(of_mesh)]);
     }
+    if (!is_there) throw BuildError("part '" + name + "' has no set '" + set + "'", where.place);
   } else {
     for (std::size_t p = 0; p < deck.parts.size(); ++p) {
       if (!where.part.empty() && deck.parts[p].name != where.part) continue;

@@ -52,6 +52,20 @@ struct Placement {
   }
 };
 
+/// A mesh file, of which parts take blocks.
+struct MeshFile {
+  std::string name{};
+  std::string file{};
+  std::optional<MeshFormat> format{};
+  std::string place{};  ///< in the deck
+  static constexpr auto fields() {
+    return field_table(
+        required("file", &MeshFile::file, any_number, "mesh file, relative to the folder of the deck"),
+        optional("format", &MeshFile::format, any_number,
+                 "default: by the suffix of the file (.msh, .inp, .k, .key, .dyn, .e, .exo, .g)"));
+  }
+};
+
 struct Part {
   std::string name;
   MeshSource mesh;
@@ -539,6 +553,9 @@ struct Deck {
   std::string text;                                        ///< the deck as run, with overrides, as YAML
   Parameters parameters;
   std::vector<std::pair<std::string, Material>> materials;
+  std::vector<MeshFile> meshes;
+  std::vector<std::string> mesh_checksums{};  ///< of each mesh file that was read: its name and checksum
+  std::vector<std::string> mesh_notices{};    ///< what was left out of mesh files
   std::vector<Part> parts;
   std::vector<Connection> connections;
   std::vector<PointMass> point_masses;
@@ -556,6 +573,8 @@ struct Deck {
         optional("parameters", &Deck::parameters, any_number,
                  "a map of names to numbers, for expressions in quotes; a later one may use those before it"),
         required("materials", &Deck::materials, any_number, "a map of names to laws"),
+        optional("meshes", &Deck::meshes, any_number,
+                 "a map of names to mesh files, of which parts take blocks"),
         required("parts", &Deck::parts, any_number, "a map of names to parts"),
         optional("connections", &Deck::connections, any_number,
                  "connections between parts: shared nodes and ties"),

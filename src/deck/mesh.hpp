@@ -2,6 +2,7 @@
 /// What a mesh holds, before it is part of a model.
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -21,7 +22,12 @@ struct Mesh {
   std::vector<double> volume;                         ///< of each particle; empty for other elements
   std::map<std::string, std::vector<int>> node_sets;  ///< ascending node indices
   std::map<std::string, std::vector<ElementSide>> side_sets;
+  std::vector<std::int64_t> node_id;     ///< in the file that the mesh is from; empty: it is generated
+  std::vector<std::int64_t> element_id;  ///< likewise
 
+  std::int64_t number_of_element(std::size_t element) const {
+    return element_id.empty() ? static_cast<std::int64_t>(element) : element_id[element];
+  }
   std::size_t element_count() const {
     return connectivity.size() / static_cast<std::size_t>(nodes_per_element);
   }

@@ -3,11 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 
 #include "src/base/fields.hpp"
+#include "src/deck/mesh.hpp"
 
 namespace brio {
 
@@ -263,7 +266,48 @@ struct ParticleMesh {
   std::string_view fault() const;
 };
 
+/// Formats of mesh files.
+enum class MeshFormat { gmsh, abaqus, ls_dyna, exodus };
+constexpr std::array<NamedValue<MeshFormat>, 4> named_values(MeshFormat) {
+  return {{{"gmsh", MeshFormat::gmsh},
+           {"abaqus", MeshFormat::abaqus},
+           {"ls_dyna", MeshFormat::ls_dyna},
+           {"exodus", MeshFormat::exodus}}};
+}
+
+/// A block of a mesh file: one named in `meshes`, or a file of its own.
+struct MeshFromFile {
+  static constexpr std::string_view name = "file";
+  static constexpr std::string_view meaning =
+      "a block of a mesh file; sets: those of the file that have nodes in the block, and all";
+  std::string from{};
+  std::string file{};
+  std::optional<MeshFormat> format{};
+  std::string block{};
+  double scale = 1;
+  std::optional<double> particle_volume{};
+  std::shared_ptr<const Mesh> mesh{};  ///< what was read, scaled, before it is placed; no entry of a deck
+  static constexpr auto fields() {
+    return field_table(
+        optional("from", &MeshFromFile::from, any_number, "name of one of the meshes"),
+        optional("file", &MeshFromFile::file, any_number,
+                 "mesh file, in place of `from`; relative to the folder of the deck"),
+        optional("format", &MeshFromFile::format, any_number,
+                 "of `file`; default: by its suffix (.msh, .inp, .k, .key, .dyn, .e, .exo, .g)"),
+        optional("block", &MeshFromFile::block, any_number,
+                 "name or number of a block of the file; default: the one of the highest dimension"),
+        optional("scale", &MeshFromFile::scale, positive, "multiplies the coordinates of the file"),
+        optional("particle_volume", &MeshFromFile::particle_volume, positive,
+                 "of each particle, for particles whose file gives none, length^3"));
+  }
+  constexpr std::string_view fault() const {
+    if (from.empty() == file.empty())
+      return "the mesh is not said once; accepted is one of from (a name in meshes) and file";
+    return format && file.empty() ? "format without file; that of `from` stands in meshes" : "";
+  }
+};
+
 using MeshSource = std::variant<BoxMesh, PlateMesh, CylinderMesh, TubeMesh, RodMesh, WedgeMesh, SphereMesh,
-                                HollowSphereMesh, LineMesh, ParticleMesh>;
+                                HollowSphereMesh, LineMesh, ParticleMesh, MeshFromFile>;
 
 }  // namespace brio

@@ -12,6 +12,16 @@ std::size_t part_index(const std::string& name, const Deck& deck) {
   throw no_part(name);
 }
 
+std::vector<std::size_t> parts_called(std::string_view name, const Deck& deck) {
+  std::vector<std::size_t> found;
+  for (std::size_t p = 0; p < deck.parts.size(); ++p) {
+    const auto* file = std::get_if<MeshFromFile>(&deck.parts[p].mesh);
+    if (deck.parts[p].name == name || (file != nullptr && file->from == name && !name.empty()))
+      found.push_back(p);
+  }
+  return found;
+}
+
 const Material* material_of(const Deck& deck, const Part& part) {
   for (const auto& [name, material] : deck.materials)
     if (name == part.material) return &material;

@@ -40,6 +40,7 @@ struct Coarsen {
   void operator()(SphereMesh& mesh) const { mesh.elements = fewer_even(mesh.elements, factor); }
   void operator()(HollowSphereMesh& mesh) const { mesh.elements = fewer(mesh.elements, factor); }
   void operator()(LineMesh& mesh) const { mesh.elements = fewer(mesh.elements, factor); }
+  void operator()(MeshFromFile&) const {}  // as it is
   // At least two particles have to stand side by side everywhere: shapes that become too thin stay.
   void operator()(ParticleMesh& mesh) const {
     ParticleMesh coarse = mesh;

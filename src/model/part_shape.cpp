@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "src/deck/element_quality.hpp"
 #include "src/deck/mesh.hpp"
 
 namespace brio {
@@ -20,34 +21,13 @@ double distance(const Vector& a, const Vector& b) {
   return std::sqrt(dot(d, d));
 }
 
-constexpr std::array<std::array<int, 2>, 12> edges_of_hex{{{0, 1},
-                                                           {3, 2},
-                                                           {4, 5},
-                                                           {7, 6},  // first direction
-                                                           {0, 3},
-                                                           {1, 2},
-                                                           {4, 7},
-                                                           {5, 6},  // second
-                                                           {0, 4},
-                                                           {1, 5},
-                                                           {2, 6},
-                                                           {3, 7}}};  // third
 // Sides of sides_of_hex at both ends of each direction.
 constexpr std::array<std::array<int, 2>, 3> ends_of_direction{{{5, 3}, {2, 4}, {0, 1}}};
 
-std::vector<double> edge_lengths(const Model& model, const std::vector<int>& nodes) {
-  std::vector<double> lengths;
-  const auto add = [&](int a, int b) {
-    lengths.push_back(distance(position_of(model, nodes[static_cast<std::size_t>(a)]),
-                               position_of(model, nodes[static_cast<std::size_t>(b)])));
-  };
-  if (nodes.size() == 8)
-    for (const auto& [a, b] : edges_of_hex) add(a, b);
-  if (nodes.size() == 4)
-    for (int k = 0; k < 4; ++k) add(k, (k + 1) % 4);
-  if (nodes.size() == 2) add(0, 1);
-  std::erase(lengths, 0.0);  // of degenerate elements
-  return lengths;
+std::vector<double> edges_of(const Model& model, const std::vector<int>& nodes) {
+  std::vector<Vector> corners;
+  for (const int node : nodes) corners.push_back(position_of(model, node));
+  return edge_lengths(corners);
 }
 
 std::array<int, 4> sorted_side(const std::vector<int>& nodes, int side) {
@@ -137,7 +117,7 @@ PartShape shape_of(const Model& model, const PartInModel& part) {
   for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
     if (nodes_of_element(model, part, e).empty()) continue;  // deleted
     elements.push_back(nodes_of_element(model, part, e));
-    const std::vector<double> edges = edge_lengths(model, elements.back());
+    const std::vector<double> edges = edges_of(model, elements.back());
     if (edges.empty()) continue;
     const auto [shortest, longest] = std::minmax_element(edges.begin(), edges.end());
     shape.length.push_back(*shortest);

@@ -68,6 +68,11 @@ bool can_be_damaged(const Model& model) {
 }
 std::int64_t deleted_so_far(const Model& model) { return model.erosion ? model.erosion->total_deleted() : 0; }
 
+bool has_ids(const Model& model) {
+  return std::any_of(model.parts.begin(), model.parts.end(),
+                     [](const PartInModel& part) { return !part.node_id.empty(); });
+}
+
 // Of each node its number in the results, by parts; -1 of those that no part names.
 std::vector<std::int64_t> points_of_nodes(const Model& model) {
   std::vector<std::int64_t> points(model.nodes.size(), -1);
@@ -93,9 +98,11 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> va
   snapshot_.point_fields = {field("displacement", 3, points, Storage::double_precision),
                             field("velocity", 3, points)};
   if (!model.contacts.empty()) snapshot_.point_fields.push_back(field("contact_force", 3, points));
+  if (has_ids(model)) snapshot_.point_fields.push_back(field("node_id", 1, points, Storage::integer, true));
   add_cell_fields(model, variables);
   take_topology(model);
   fill_points(model);
+  if (has_ids(model)) fill_node_ids(model);
   reference_ = snapshot_.points;
 }
 
@@ -178,9 +185,21 @@ void FieldObserver::fill_points(const Model& model) {
   }
 }
 
+// A node that parts share has its number in the first of them.
+void FieldObserver::fill_node_ids(const Model& model) {
+  std::vector<double>& values = snapshot_.point_fields.back().values;
+  std::vector<bool> is_known(values.size());
+  for (const PartInModel& part : model.parts)
+    for (std::size_t i = 0; i < part.node.size(); ++i) {
+      const auto point = static_cast<std::size_t>(point_of_node_[static_cast<std::size_t>(part.node[i])]);
+      if (!is_known[point]) values[point] = static_cast<double>(part.number_of_node(i));
+      is_known[point] = true;
+    }
+}
+
 // Impulse of contact over the step, by the step: the mean force.
 void FieldObserver::fill_contact_force(const Model& model) {
-  std::vector<double>& values = snapshot_.point_fields.back().values;
+  std::vector<double>& values = snapshot_.point_fields[2].values;
   for (std::size_t p = 0; p < node_of_point_.size(); ++p) {
     for (std::size_t i = 0; i < 3; ++i) values[3 * p + i] = 0;
     for (const ContactScene& scene : model.contacts) {
@@ -231,7 +250,7 @@ void FieldObserver::fill_cells(const Model& model) {
       if (part.element_slot[e] < 0 && part.rigid < 0) continue;
       const ElementSample sample = sample_of(model, part, e);
       for (std::size_t k = 0; k < cell_source_.size(); ++k)
-        fill_cell(cell_source_[k], sample, {p, e, cell}, snapshot_.cell_fields[k]);
+        fill_cell(cell_source_[k], sample, {p, part.number_of_element(e), cell}, snapshot_.cell_fields[k]);
       ++cell;
     }
   }

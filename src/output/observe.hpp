@@ -43,7 +43,9 @@ class FieldObserver {
 
   /// Of which part, which of its elements, and which of all cells.
   struct Cell {
-    std::size_t part, element, number;
+    std::size_t part;
+    std::int64_t element;  ///< its number in the mesh
+    std::size_t number;
   };
 
   static void fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
@@ -52,6 +54,7 @@ class FieldObserver {
   void add_cell_field(std::string_view name, CellSource source);
   void take_topology(const Model& model);
   void fill_points(const Model& model);
+  void fill_node_ids(const Model& model);
   void fill_contact_force(const Model& model);
   void fill_cells(const Model& model);
 

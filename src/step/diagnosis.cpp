@@ -64,7 +64,7 @@ std::string element_at(const Model& model, const PartInModel& part, int node) {
   for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
     const std::vector<int> nodes = nodes_of_element(model, part, e);
     if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
-      return "element " + std::to_string(e) + " of part '" + part.name + "'";
+      return "element " + std::to_string(part.number_of_element(e)) + " of part '" + part.name + "'";
   }
   return "a node of part '" + part.name + "' whose elements are deleted";
 }
@@ -120,7 +120,8 @@ std::string written(double number) {
 }
 
 std::string element_name(const Model& model, std::size_t block, std::size_t element) {
-  return "element " + std::to_string(element) + " of part '" + model.parts[block].name + "'";
+  const PartInModel& part = model.parts[block];
+  return "element " + std::to_string(part.number_of_element(element)) + " of part '" + part.name + "'";
 }
 
 std::string cause_of_energy_error(const Model& model) {

@@ -28,6 +28,15 @@ struct PartInModel {
   std::vector<int> element_slot;   ///< element of the part's mesh -> place in the block; -1: deleted
   int rigid = -1;                  ///< the rigid body that it is; its block is empty
   double mass = 0;                 ///< at the start
+  std::vector<std::int64_t> node_id, element_id;  ///< in its mesh file; empty: the mesh is generated
+
+  /// Numbers that users know: of the mesh file, or of the part's mesh, from 0.
+  std::int64_t number_of_node(std::size_t of_mesh) const {
+    return node_id.empty() ? static_cast<std::int64_t>(of_mesh) : node_id[of_mesh];
+  }
+  std::int64_t number_of_element(std::size_t of_mesh) const {
+    return element_id.empty() ? static_cast<std::int64_t>(of_mesh) : element_id[of_mesh];
+  }
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>

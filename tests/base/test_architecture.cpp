@@ -95,7 +95,8 @@ const std::vector<Rooms> rooms_of_folders{
      "",
      "particle"},
     {"src", {"deck", "motion", "sweep", "model", "build", "step", "output", "forecast"}},
-    {"io", {"files", "mesh", "deck", "schema", "results", "restart", "run", "study", "plot"}},
+    {"io",
+     {"files", "mesh_file", "mesh_format", "mesh", "deck", "schema", "results", "restart", "run", "study", "plot"}},
 };
 
 std::ptrdiff_t place_of(const std::string& path, const Rooms& rooms) {
@@ -151,7 +152,7 @@ void expect_only_in(const std::string& what, const std::vector<std::string>& pla
   }
 }
 
-TEST(Architecture, FileFormatsStayInIo) { expect_only_in(R"(#include <(yaml-cpp|hdf5|H5))", {"io/"}); }
+TEST(Architecture, FileFormatsStayInIo) { expect_only_in(R"(#include <(yaml-cpp|hdf5|H5|netcdf))", {"io/"}); }
 
 TEST(Architecture, FormulasStayInExpression) {
   expect_only_in(R"(#include <muParser)", {"src/deck/expression.cpp"});

@@ -331,7 +331,8 @@ class Campaign:
         for file in files:
             tree = yaml.safe_load(file.read_text())
             if isinstance(tree, dict) and "parts" in tree and "time" in tree:
-                decks.append((file.stem, file.read_text(), float(tree["time"]["end"])))
+                text = file.read_text().replace("file: meshes/", f"file: {file.parent}/meshes/")
+                decks.append((file.stem, text, float(tree["time"]["end"])))
         # The small one names nearly all that a deck can name, and is quick.
         return [("small", SMALL_DECK, 1e-3)] * len(decks) + decks
 

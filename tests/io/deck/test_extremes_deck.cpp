@@ -27,9 +27,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string fault_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+/// \param name of the deck, beside which its meshes are
+std::string fault_of(const std::string& text, const std::vector<std::string>& overrides = {},
+                     const std::string& name = "a.yaml") {
   try {
-    parse_deck(text, "a.yaml", overrides);
+    parse_deck(text, name, overrides);
   } catch (const DeckError& fault) {
     return fault.what();
   }
@@ -65,7 +67,8 @@ TEST(ExtremesDeck, EveryNumberOfEveryShippedDeckIsRefusedWhereItIsNone) {
   for (const auto& entry : fs::directory_iterator(BRIO_SOURCE_DIR "/inputs")) {
     if (entry.path().extension() != ".yaml") continue;
     const std::string text = test::text_of(entry.path());
-    ASSERT_EQ(fault_of(text), "") << entry.path();
+    const std::string name = entry.path().string();
+    ASSERT_EQ(fault_of(text, {}, name), "") << name;
     ++decks;
     for (const Number& number : numbers_of(text)) {
       ++numbers;
@@ -73,8 +76,8 @@ TEST(ExtremesDeck, EveryNumberOfEveryShippedDeckIsRefusedWhereItIsNone) {
            {".nan", ".inf", "-.inf", "1e999", "-1e999", "nan", "inf", "1e", "0x", "--1", "1,5,"}) {
         std::string damaged = text;
         damaged.replace(number.at, number.size, wrong);
-        const std::string fault = fault_of(damaged);
-        const std::string place = "a.yaml:" + std::to_string(number.line) + ":";
+        const std::string fault = fault_of(damaged, {}, name);
+        const std::string place = name + ":" + std::to_string(number.line) + ":";
         EXPECT_EQ(fault.substr(0, place.size()), place)
             << entry.path().filename() << " line " << number.line << ' '
             << text.substr(number.at, number.size) << " -> " << wrong << ": " << fault;

@@ -1,0 +1,104 @@
+// The same mesh in all formats is the same to the last bit: nodes, elements, numbers, sets.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include "io/mesh/generate_mesh.hpp"
+#include "io/mesh_format/read_abaqus.hpp"
+#include "io/mesh_format/read_exodus.hpp"
+#include "io/mesh_format/read_gmsh.hpp"
+#include "io/mesh_format/read_ls_dyna.hpp"
+#include "io/mesh_format/read_mesh_file.hpp"
+#include "tests/io/mesh_format/committed_meshes.hpp"
+#include "tests/io/results/result_scene.hpp"
+
+namespace brio::test {
+namespace {
+
+template <class Sides>
+std::vector<std::pair<int, int>> pairs(const Sides& sides) {
+  std::vector<std::pair<int, int>> found;
+  for (const auto& [element, side] : sides) found.emplace_back(element, side);
+  return found;
+}
+
+void expect_same(const Mesh& a, const Mesh& b, const std::string& what) {
+  EXPECT_EQ(a.nodes_per_element, b.nodes_per_element) << what;
+  EXPECT_TRUE(a.position == b.position) << what;
+  EXPECT_EQ(a.connectivity, b.connectivity) << what;
+  EXPECT_EQ(a.node_id, b.node_id) << what;
+  EXPECT_EQ(a.element_id, b.element_id) << what;
+  EXPECT_EQ(a.node_sets, b.node_sets) << what;
+  ASSERT_EQ(a.side_sets.size(), b.side_sets.size()) << what;
+  for (const auto& [name, sides] : a.side_sets)
+    EXPECT_EQ(pairs(sides), pairs(b.side_sets.at(name))) << what << name;
+}
+
+class FormatsAgree : public testing::TestWithParam<const char*> {};
+
+TEST_P(FormatsAgree, OnEveryNodeElementAndSet) {
+  const Mesh mesh = committed(GetParam());
+  EXPECT_GE(mesh.node_sets.size(), 2u);
+  expect_same(mesh_of(read_gmsh(as_gmsh(mesh, false), "a.msh")), mesh, "ASCII ");
+  expect_same(mesh_of(read_gmsh(as_gmsh(mesh, true), "a.msh")), mesh, "binary ");
+  expect_same(mesh_of(read_abaqus(as_abaqus(mesh), "a.inp")), mesh, "Abaqus ");
+  expect_same(mesh_of(read_ls_dyna(as_ls_dyna(mesh), "a.k")), mesh, "LS-DYNA ");
+  const Folder folder;
+  write_exodus(mesh, folder / "a.exo");
+  expect_same(mesh_of(read_exodus(folder / "a.exo", "a.exo")), mesh, "Exodus ");
+  write_classic_exodus(mesh, folder / "b.exo");
+  expect_same(mesh_of(read_exodus(folder / "b.exo", "b.exo")), mesh, "classic Exodus ");
+}
+INSTANTIATE_TEST_SUITE_P(Meshes, FormatsAgree, testing::Values("box", "bracket", "crash_box", "bottle"));
+
+// Gmsh numbers nodes and elements in its own way: sorted, they are those of the generator.
+TEST(MeshFormats, AgreeWithTheGeneratorOnABox) {
+  const Mesh drawn = committed("box");
+  const Mesh generated = generate_mesh(BoxMesh{.size = {2, 1, 3}, .elements = {4, 2, 6}}, {});
+  const auto sorted_points = [](std::vector<std::array<double, 3>> points) {
+    for (auto& point : points)
+      for (double& x : point) x = std::round(x * 1e9) / 1e9 + 0.0;
+    std::sort(points.begin(), points.end());
+    return points;
+  };
+  EXPECT_EQ(sorted_points(drawn.position), sorted_points(generated.position));
+  const auto centres = [&](const Mesh& mesh) {
+    std::vector<std::array<double, 3>> points;
+    for (std::size_t e = 0; e < mesh.element_count(); ++e) {
+      points.emplace_back();
+      for (std::size_t k = 0; k < 8; ++k)
+        for (std::size_t i = 0; i < 3; ++i)
+          points.back()[i] += mesh.position[static_cast<std::size_t>(mesh.connectivity[8 * e + k])][i] / 8;
+    }
+    return sorted_points(points);
+  };
+  EXPECT_EQ(centres(drawn), centres(generated));
+  for (const char* set : {"bottom", "top", "all"}) {
+    EXPECT_EQ(drawn.node_sets.at(set).size(), generated.node_sets.at(set).size()) << set;
+    EXPECT_EQ(drawn.side_sets.at(set).size(), generated.side_sets.at(set).size()) << set;
+  }
+  for (const int node : drawn.node_sets.at("bottom"))
+    EXPECT_EQ(drawn.position[static_cast<std::size_t>(node)][2], -1.5);
+}
+
+TEST(MeshFormats, AgreeOnBeamsAndParticles) {
+  const Mesh line = generate_mesh(LineMesh{.start = {0, 0, 0}, .end = {1, 2, 3}, .elements = 5}, {});
+  const auto expect_line = [&](const Mesh& mesh) {
+    EXPECT_TRUE(mesh.position == line.position);
+    EXPECT_EQ(mesh.connectivity, line.connectivity);
+    EXPECT_EQ(mesh.node_sets, line.node_sets);
+  };
+  expect_line(mesh_of(read_gmsh(as_gmsh(line, true), "a.msh")));
+  expect_line(mesh_of(read_abaqus(as_abaqus(line), "a.inp")));
+  expect_line(mesh_of(read_ls_dyna(as_ls_dyna(line), "a.k")));
+  const Folder folder;
+  write_exodus(line, folder / "a.exo");
+  expect_line(mesh_of(read_exodus(folder / "a.exo", "a.exo")));
+}
+
+}  // namespace
+}  // namespace brio::test

@@ -26,6 +26,18 @@ void print_parts(const CheckReport& report) {
   write_out(line, "all", "", "", "", report.nodes, mass);
 }
 
+void print_quality(const CheckReport& report) {
+  write_out("\n{:<20} {:>10} {:>10} {:>10} {:>12} {:>10}\n", "element quality", "aspect", "warp", "Jacobian",
+            "stable step", "degenerate");
+  for (const PartReport& part : report.parts) {
+    const MeshQuality& quality = part.quality;
+    const std::string step = std::isfinite(quality.step) ? fmt::format("{:.4g}", quality.step) : "rigid";
+    write_out("{:<20} {:>10.3g} {:>10.3g} {:>10.3g} {:>12} {:>10}\n", part.name, quality.aspect, quality.warp,
+              quality.jacobian, step, quality.degenerate);
+  }
+  for (const std::string& notice : report.mesh_notices) write_out("mesh: {}\n", notice);
+}
+
 void print_joints(const CheckReport& report) {
   for (const MergedParts& merged : report.merged)
     write_out("merged: {} nodes of '{}' are equivalenced with nodes of '{}', at distances up to {:.3g}\n",
@@ -168,6 +180,7 @@ void check(const ForecastOptions& options, bool json) {
   const CheckReport report = check_deck(options, [&options](const CheckReport& scene) {
     if (!scene.title.empty()) write_out("{}\n\n", scene.title);
     print_parts(scene);
+    print_quality(scene);
     print_joints(scene);
     print_step(scene);
     print_overlaps(scene.initial_overlaps);

@@ -17,8 +17,10 @@ CheckReport check_deck(const ForecastOptions& options, const std::function<void(
                             .material = deck.parts[p].material,
                             .elements = part.element_slot.size(),
                             .nodes = part.node.size(),
-                            .mass = part.mass});
+                            .mass = part.mass,
+                            .quality = quality_of(model, p)});
   }
+  report.mesh_notices = deck.mesh_notices;
   report.nodes = model.nodes.size();
   report.merged = model.merged;
   report.tied = model.ties.found;
@@ -28,7 +30,8 @@ CheckReport check_deck(const ForecastOptions& options, const std::function<void(
   report.stable_step = model.control.stable;
   report.first_step = model.times.next;
   report.critical_part = model.parts[model.control.critical_block].name;
-  report.critical_element = model.control.critical_element;
+  report.critical_element = static_cast<std::size_t>(
+      model.parts[model.control.critical_block].number_of_element(model.control.critical_element));
   report.active_features = active_features(model);
   report.not_built = features_not_built(model);
   report.warnings = scene_warnings(deck, model);

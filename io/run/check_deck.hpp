@@ -7,6 +7,7 @@
 
 #include "io/run/forecast_deck.hpp"
 #include "src/forecast/built_features.hpp"
+#include "src/forecast/mesh_quality.hpp"
 #include "src/forecast/warnings.hpp"
 
 namespace brio {
@@ -15,11 +16,13 @@ struct PartReport {
   std::string name, element, material;
   std::size_t elements = 0, nodes = 0;
   double mass = 0;
+  MeshQuality quality;
 };
 
 struct CheckReport {
   std::string title;
   std::vector<PartReport> parts;
+  std::vector<std::string> mesh_notices;  ///< what was left out of mesh files
   std::size_t nodes = 0;
   std::vector<MergedParts> merged;
   std::vector<TiedParts> tied;

@@ -15,7 +15,13 @@ Json parts(const CheckReport& report) {
                     {"material", part.material},
                     {"elements", part.elements},
                     {"nodes", part.nodes},
-                    {"mass", part.mass}});
+                    {"mass", part.mass},
+                    {"quality",
+                     {{"aspect_max", part.quality.aspect},
+                      {"warp_max_degrees", part.quality.warp},
+                      {"scaled_jacobian_min", part.quality.jacobian},
+                      {"stable_step_min", part.quality.step},
+                      {"degenerate_elements", part.quality.degenerate}}}});
   return list;
 }
 
@@ -103,6 +109,7 @@ std::string check_json(const CheckReport& report) {
   const Json json{{"title", report.title},
                   {"parts", parts(report)},
                   {"nodes", report.nodes},
+                  {"mesh_notices", report.mesh_notices},
                   {"connections", joints(report)},
                   {"initial_overlaps", overlaps(report)},
                   {"step",

@@ -48,7 +48,8 @@ constexpr TwoArguments of_two[] = {{"atan2", [](double y, double x) { return std
 std::string trimmed(const std::string& token) { return token.substr(0, token.find_last_not_of(' ') + 1); }
 
 std::string fault_of(const mu::ParserError& error) {
-  const std::string token = "'" + trimmed(error.GetToken()) + "'";
+  std::string token = "'";  // GCC 12 warns of an insertion in front of a text
+  token += trimmed(error.GetToken()) + "'";
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN:
       return token + " means nothing here";

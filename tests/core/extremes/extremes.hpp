@@ -147,7 +147,7 @@ inline Material in_units(Material material, const Units& u) {
         law.density *= u.mass / (u.length * u.length * u.length);
         const double stress = u.mass / (u.length * u.time * u.time);
         if constexpr (requires { law.youngs_modulus; }) law.youngs_modulus *= stress;
-        if constexpr (requires { law.yield_stress; }) law.yield_stress *= stress;
+        if constexpr (requires { law.yield_stress *= stress; }) law.yield_stress *= stress;
         if constexpr (requires { law.hardening_modulus; }) law.hardening_modulus *= stress;
         if constexpr (requires { law.hardening_constant; }) law.hardening_constant *= stress;
       },

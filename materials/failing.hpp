@@ -23,6 +23,82 @@
 
 namespace brio {
 
+/// Damage of a point, part of its history.
+template <class T>
+struct DamageState {
+  T damage;
+  T measure;         ///< tearing parameter or D; 0 where the deck names a strain
+  T opening_strain;  ///< at which damage is 1
+
+  BRIO_INLINE MaskOf<T> has_failed(const Failure& f) const { return damage >= T(f.end_of_damage()); }
+  BRIO_INLINE void add(T growth) { damage = min(damage + growth, T(1.0)); }
+};
+
+/// Plastic flow of a step, of which damage grows.
+template <class T>
+struct DamagingFlow {
+  const SymmetricTensor<T>& strain_increment;
+  const SymmetricTensor<T>& stress;          ///< of the law
+  T flow;                                    ///< increment of the equivalent plastic strain
+  T before, plastic_strain;                  ///< at the start and at the end of the step
+  T rate_logarithm, homologous_temperature;  ///< 0 where the failure asks for neither
+};
+
+/// < 2 sigma_1 / (3 (sigma_1 - sigma_m)) >^4, 1 in uniaxial tension; 0 where nothing but pressure acts.
+template <class T>
+BRIO_INLINE T tearing(const SymmetricTensor<T>& stress, T largest) {
+  const T deviatoric = largest - trace(stress) * (1.0 / 3.0);
+  const auto sheared = (deviatoric > T(0.0)) & (largest > T(0.0));
+  const T ratio = where(sheared, (2.0 / 3.0) * largest / where(sheared, deviatoric, T(1.0)), T(0.0));
+  return square(square(ratio));
+}
+
+/// Of the tearing parameter or of D.
+template <class T>
+BRIO_INLINE T growth_of_measure(const Failure& f, double youngs_modulus, const DamagingFlow<T>& of) {
+  if (f.tearing_parameter) return tearing(of.stress, largest_principal(of.stress).value) * of.flow;
+  const double least_stress = 1e-9 * youngs_modulus;
+  if (f.hosford_coulomb) return hosford_coulomb_damage(*f.hosford_coulomb, of.stress, of.flow, least_stress);
+  return johnson_cook_damage(*f.johnson_cook, of.stress, of.flow, of.rate_logarithm,
+                             of.homologous_temperature, least_stress);
+}
+
+/// Whatever the law: compiled once.
+template <class T>
+BRIO_CALLED void grow_damage(const Failure& f, double youngs_modulus, const DamagingFlow<T>& of,
+                             DamageState<T>& state) {
+  if (f.damage_growth == DamageGrowth::plastic_strain_in_tension) {
+    if (!any(of.flow > T(0.0))) return;
+    const T tension = largest_principal(of.stress).value;
+    state.add(where(tension > T(0.0), of.flow * T(1 / *f.strain), T(0.0)));
+    return;
+  }
+  T measure_before = of.before;
+  T measure = of.plastic_strain;
+  double bound = f.strain.value_or(0);
+  if (!f.strain) {
+    measure_before = state.measure;
+    const auto flows = of.flow > T(0.0);
+    if (any(flows)) state.measure += where(flows, growth_of_measure(f, youngs_modulus, of), T(0.0));
+    measure = state.measure;
+    bound = f.tearing_parameter.value_or(1);
+  }
+  if (f.damage_growth == DamageGrowth::sudden) {
+    state.damage = min(measure / T(bound), T(1.0));
+    return;
+  }
+  const auto fails = (measure > T(bound)) & !state.has_failed(f);
+  if (!any(fails)) return;
+  // The share of the step beyond the bound.
+  const T step = measure - measure_before;
+  const auto crosses = fails & (measure_before < T(bound));
+  const T share = where(crosses, (measure - T(bound)) / where(crosses, step, T(1.0)), T(1.0));
+  const PrincipalValue<T> principal = largest_principal(of.stress);
+  const T opening = max(along(of.strain_increment, principal.direction), T(0.0));
+  const auto opens = fails & (principal.value > T(0.0));
+  state.add(where(opens, share * opening / state.opening_strain, T(0.0)));
+}
+
 /// \tparam Law with traits.failure
 template <class Law>
 struct Failing : Law {
@@ -33,11 +109,7 @@ struct Failing : Law {
   }();
 
   template <class T>
-  struct History : Law::template History<T> {
-    T damage;
-    T measure;         ///< tearing parameter or D; 0 where the deck names a strain
-    T opening_strain;  ///< at which damage is 1
-  };
+  struct History : Law::template History<T>, DamageState<T> {};
 
   /// Those of the law, and damage.
   static constexpr auto named_history() {
@@ -62,7 +134,7 @@ struct Failing : Law {
 
   template <class T>
   BRIO_INLINE MaskOf<T> has_failed(const History<T>& history) const {
-    return history.damage >= T(this->failure->end_of_damage());
+    return history.DamageState<T>::has_failed(*this->failure);
   }
 
   /// Of the stress of the law.
@@ -124,73 +196,21 @@ struct Failing : Law {
 
   /// \param before equivalent plastic strain at the start of the step
   template <class T>
-  BRIO_CALLED void grow_damage(const SymmetricTensor<T>& strain_increment, const SymmetricTensor<T>& stress,
+  BRIO_INLINE void grow_damage(const SymmetricTensor<T>& strain_increment, const SymmetricTensor<T>& stress,
                                T before, History<T>& history) const {
     const Failure& f = *this->failure;
-    const auto failed = has_failed(history);
     // What a failed point does is no longer that of the material.
-    history.equivalent_plastic_strain = where(failed, before, history.equivalent_plastic_strain);
-    const T flow = history.equivalent_plastic_strain - before;
-    if (f.damage_growth == DamageGrowth::plastic_strain_in_tension) {
-      if (!any(flow > T(0.0))) return;
-      const T tension = largest_principal(stress).value;
-      add_damage(where(tension > T(0.0), flow * T(1 / *f.strain), T(0.0)), history);
-      return;
-    }
-    T measure_before = before;
-    T measure = history.equivalent_plastic_strain;
-    double bound = f.strain.value_or(0);
-    if (!f.strain) {
-      measure_before = history.measure;
-      const auto flows = flow > T(0.0);
-      if (any(flows)) history.measure += where(flows, growth_of_measure(stress, flow, history), T(0.0));
-      measure = history.measure;
-      bound = f.tearing_parameter.value_or(1);
-    }
-    if (f.damage_growth == DamageGrowth::sudden) {
-      history.damage = min(measure / T(bound), T(1.0));
-      return;
-    }
-    const auto fails = (measure > T(bound)) & !failed;
-    if (!any(fails)) return;
-    // The share of the step beyond the bound.
-    const T step = measure - measure_before;
-    const auto crosses = fails & (measure_before < T(bound));
-    const T share = where(crosses, (measure - T(bound)) / where(crosses, step, T(1.0)), T(1.0));
-    const PrincipalValue<T> principal = largest_principal(stress);
-    const T opening = max(along(strain_increment, principal.direction), T(0.0));
-    const auto opens = fails & (principal.value > T(0.0));
-    add_damage(where(opens, share * opening / history.opening_strain, T(0.0)), history);
-  }
-
-  /// Of the tearing parameter or of D.
-  template <class T>
-  BRIO_INLINE T growth_of_measure(const SymmetricTensor<T>& stress, T flow, const History<T>& history) const {
-    const Failure& f = *this->failure;
-    if (f.tearing_parameter) return tearing(stress, largest_principal(stress).value) * flow;
-    const double least_stress = 1e-9 * this->youngs_modulus;
-    if (f.hosford_coulomb) return hosford_coulomb_damage(*f.hosford_coulomb, stress, flow, least_stress);
-    T rate_logarithm(0.0), homologous_temperature(0.0);
+    history.equivalent_plastic_strain = where(has_failed(history), before, history.equivalent_plastic_strain);
+    const T plastic_strain = history.equivalent_plastic_strain;
+    DamagingFlow<T> of{strain_increment, stress, plastic_strain - before, before, plastic_strain,
+                       T(0.0),           T(0.0)};
     if constexpr (Law::traits.rate_logarithm) {
-      if (f.johnson_cook->d4 != 0) rate_logarithm = Law::rate_logarithm(flow);
-      if (f.johnson_cook->d5 != 0) homologous_temperature = Law::homologous_temperature(history);
+      if (f.johnson_cook && any(of.flow > T(0.0))) {
+        if (f.johnson_cook->d4 != 0) of.rate_logarithm = Law::rate_logarithm(of.flow);
+        if (f.johnson_cook->d5 != 0) of.homologous_temperature = Law::homologous_temperature(history);
+      }
     }
-    return johnson_cook_damage(*f.johnson_cook, stress, flow, rate_logarithm, homologous_temperature,
-                               least_stress);
-  }
-
-  template <class T>
-  BRIO_INLINE static void add_damage(T growth, History<T>& history) {
-    history.damage = min(history.damage + growth, T(1.0));
-  }
-
-  /// < 2 sigma_1 / (3 (sigma_1 - sigma_m)) >^4, 1 in uniaxial tension; 0 where nothing but pressure acts.
-  template <class T>
-  BRIO_INLINE static T tearing(const SymmetricTensor<T>& stress, T largest) {
-    const T deviatoric = largest - trace(stress) * (1.0 / 3.0);
-    const auto sheared = (deviatoric > T(0.0)) & (largest > T(0.0));
-    const T ratio = where(sheared, (2.0 / 3.0) * largest / where(sheared, deviatoric, T(1.0)), T(0.0));
-    return square(square(ratio));
+    brio::grow_damage<T>(f, this->youngs_modulus, of, history);
   }
 };
 

@@ -202,7 +202,7 @@ TEST(Warnings, OfParticlesOfNowThatAreSolid) {
 TEST(Warnings, OfTablesThatFall) {
   Deck deck = blocks();
   std::vector<std::array<double, 2>> rows{{0, 1e6}, {0.1, 2e6}};
-  deck.materials.push_back({"tabulated", TabulatedPlasticity{1000, 1e9, 0.3, yield_table(rows)}});
+  deck.materials = {{"tabulated", TabulatedPlasticity{1000, 1e9, 0.3, yield_table(rows)}}};
   for (Part& part : deck.parts) part.material = "tabulated";
   expect_none(deck);
   rows.push_back({0.2, 1.9e6});
@@ -245,7 +245,7 @@ TEST(BuiltFeatures, NameTheKeyThatAskedForThem) {
 #endif
   EXPECT_EQ(not_built,
             (std::vector<std::string>{"shells", "beams", "particles", "rigid bodies", "merged nodes", "ties",
-                                      "deletion", "rigid walls", "loads", "mass scaling"}));
+                                      "deletion", "rigid walls", "loads", "damping", "mass scaling"}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <filesystem>
+#include <unordered_map>
 #include <vector>
 
 #include "io/deck/closest_word.hpp"
@@ -165,22 +166,48 @@ std::string path_from(const Place& place, const std::string& deck_file, const st
   return (std::filesystem::path(file).parent_path() / given).lexically_normal().string();
 }
 
+namespace {
+
+/// Puts the rows of files in place of their names. Nodes that aliases share are visited once: their number
+/// can be exponential in that of the lines.
+class TablePlacer {
+ public:
+  explicit TablePlacer(const std::string& deck_file) : deck_file_(deck_file) {}
+
+  NodePointer place(const NodePointer& node) {
+    if (const auto known = placed_.find(node.get()); known != placed_.end()) return known->second;
+    const NodePointer result = place_new(node);
+    placed_.emplace(node.get(), result);
+    return result;
+  }
+
+ private:
+  NodePointer place_new(const NodePointer& node) {
+    if (const YamlNode* file = file_of_table(*node))
+      return TableReader(*file, node->find("columns"), path_from(file->place, deck_file_, file->text)).read();
+    std::shared_ptr<YamlNode> changed;
+    const auto replace = [&](const NodePointer& old, const auto& place_in) {
+      const NodePointer now = place(old);
+      if (now == old) return;
+      if (!changed) changed = std::make_shared<YamlNode>(*node);
+      place_in(*changed) = now;
+    };
+    for (std::size_t i = 0; i < node->items.size(); ++i)
+      replace(node->items[i], [i](YamlNode& copy) -> NodePointer& { return copy.items[i]; });
+    for (std::size_t i = 0; i < node->entries.size(); ++i)
+      replace(node->entries[i].value, [i](YamlNode& copy) -> NodePointer& { return copy.entries[i].value; });
+    if (changed) return changed;
+    return node;
+  }
+
+  const std::string& deck_file_;
+  std::unordered_map<const YamlNode*, NodePointer> placed_;
+};
+
+}  // namespace
+
 NodePointer with_tables(const NodePointer& root, const std::string& deck_file) {
-  if (const YamlNode* file = file_of_table(*root))
-    return TableReader(*file, root->find("columns"), path_from(file->place, deck_file, file->text)).read();
-  std::shared_ptr<YamlNode> changed;
-  const auto replace = [&](const NodePointer& old, const auto& place_in) {
-    const NodePointer now = with_tables(old, deck_file);
-    if (now == old) return;
-    if (!changed) changed = std::make_shared<YamlNode>(*root);
-    place_in(*changed) = now;
-  };
-  for (std::size_t i = 0; i < root->items.size(); ++i)
-    replace(root->items[i], [i](YamlNode& node) -> NodePointer& { return node.items[i]; });
-  for (std::size_t i = 0; i < root->entries.size(); ++i)
-    replace(root->entries[i].value, [i](YamlNode& node) -> NodePointer& { return node.entries[i].value; });
-  if (changed) return changed;
-  return root;
+  return TablePlacer(deck_file).place(root);
 }
 
 namespace {

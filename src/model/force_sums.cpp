@@ -97,8 +97,7 @@ SectionSum make_section(const ForceSection& wanted, const Deck& deck, const Mode
                          "'; a plane between nodes of the part is accepted",
                      wanted.place);
   std::ranges::sort(section.cut);
-  const auto repeated = std::ranges::unique(section.cut);
-  section.cut.erase(repeated.begin(), repeated.end());
+  section.cut.erase(std::unique(section.cut.begin(), section.cut.end()), section.cut.end());
   for (const int node : nodes_connected_to(p, model))
     if (height(node) > 0) section.ahead.push_back(node);
   section.point = difference(wanted.point, mean_position(section.cut, model.nodes));
@@ -180,8 +179,7 @@ ImpulseLog make_impulse_log(const ForceOutput& wanted, const Deck& deck, const M
   for (const std::array<int, 2>& pair : pairs_of(wanted.contact, deck, model))
     log.wanted.push_back(ascending(pair));
   std::ranges::sort(log.wanted);
-  const auto repeated = std::ranges::unique(log.wanted);
-  log.wanted.erase(repeated.begin(), repeated.end());
+  log.wanted.erase(std::unique(log.wanted.begin(), log.wanted.end()), log.wanted.end());
   return log;
 }
 

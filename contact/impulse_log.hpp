@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "src/base/tensor.hpp"
+
 namespace brio {
 
 struct ContactScene;
@@ -25,6 +27,7 @@ struct ImpulseLog {
   std::vector<std::array<int, 2>> wanted;  ///< pairs of parts; each ascending, and all of them
   std::vector<Eigen::Vector3d> impulse;    ///< of each pair: of the second part on the first
   std::vector<SupportImpulse> supports;
+  std::vector<Vector3<double>> reaction;  ///< scratch: of each velocity block
 
   void begin_step();
   /// An impulse of the second part on the first; of a part on itself the sizes of the components are added.

@@ -381,7 +381,8 @@ class Resolution {
   }
 
   void log_supports() {
-    std::vector<Vector3<double>> reaction(rows_.block.size(), {0, 0, 0});
+    std::vector<Vector3<double>>& reaction = scene_.log->reaction;
+    reaction.assign(rows_.block.size(), {0, 0, 0});
     sum_reactions(rows_.rows, rows_.block, rows_.place, reaction);
     for (std::size_t b = 0; b < reaction.size(); ++b) {
       const Vector3d impulse = to_eigen(reaction[b]);

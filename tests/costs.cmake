@@ -1,8 +1,6 @@
 # Seconds that the longest tests take, roughly; read by ctest once tests are known. A test that began last would keep one
 # processor busy and the others idle.
 foreach(test_cost
-    ParticleTaylorBarSlow.KernelOfTheStartGivesTheShapeOfHexahedra=150
-    ParticleTaylorBarSlow.KernelOfNowGivesTheShapeOfHexahedra=60
     ProgramSlow.CutsAPipe=50
     ExtremesStripSlow.StripsOfShortShellsBendWithoutGivingWay=40
     TransactionSlow.NoRowIsLostWhereverAnIndexNodeSplits=40

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Brio and runs its tests; the fast ones a second time under the address and
 # undefined-behaviour sanitizers. Builds the program with clang and runs a deck with it.
-# Usage: tests/run.sh [--fast]       --fast leaves out the slow tests, the sanitizers and clang
+# Usage: tests/run.sh [--fast | --long]       --fast leaves out the slow tests, the sanitizers and clang; --long adds the
+# tests that take minutes each
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -31,7 +32,9 @@ stage "build with clang"
 build clang
 build/clang/brio run inputs/bar_impact.yaml --quiet --overwrite --output build/clang/bar_impact.results
 stage "all tests"
-ctest --test-dir build/release --output-on-failure -j "$jobs"
+without=(-LE long)
+if [ "${1:-}" = --long ]; then without=(); fi
+ctest --test-dir build/release --output-on-failure -j "$jobs" "${without[@]}"
 stage "build with sanitizers"
 build debug-sanitized -DBRIO_TESTS=ON -DBRIO_BENCH=OFF
 stage "fast tests with sanitizers"

@@ -19,7 +19,7 @@ TEST(FoldingStripSlow, NeverPassesThroughItself) {
     const double length = 6;
     model.stiffness = 50.0 / refine;
     model.damping = 1;
-    model.add_sheet({columns, 2 * refine}, {length, 0.5}, 0.25, 1, [&](const Vector3d& x) -> Vector3d {
+    model.add_sheet({columns, refine}, {length, 0.5}, 0.25, 1, [&](const Vector3d& x) -> Vector3d {
       return {x[0], x[1], 0.05 * std::sin(std::numbers::pi * x[0] / length)};
     });
     model.start({});

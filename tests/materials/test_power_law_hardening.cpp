@@ -122,7 +122,7 @@ void expect_fifty_digits(unsigned seed, int cases) {
 }
 
 TEST(PowerHardening, MeetsTheFallingLineToRoundOffOfFiftyDigits) { expect_fifty_digits(11, 200); }
-TEST(PowerHardeningSlow, MeetsTheFallingLineToRoundOffOfFiftyDigits) { expect_fifty_digits(17, 3000); }
+TEST(PowerHardeningSlow, MeetsTheFallingLineToRoundOffOfFiftyDigits) { expect_fifty_digits(17, 1500); }
 
 TEST(PowerHardening, LanesAgreeWithPlainNumbers) {
   RandomPath random(12);

@@ -75,7 +75,7 @@ TEST_F(ExtremesStripSlow, StripsOfShortShellsBendWithoutGivingWay) {
   struct Case {
     std::string mesh, force;
   };
-  for (const auto& [mesh, force] : {Case{"64,1", "2"}, Case{"128,2", "1.3333333333333333"}}) {
+  for (const auto& [mesh, force] : {Case{"64,1", "2"}, Case{"128,1", "2"}}) {
     const Ending ending = brio("run '" BRIO_SOURCE_DIR
                                "/inputs/verification/cantilever_end_shear.yaml' --threads 1 --output strip "
                                "--set loads.0.force=[0,0," +

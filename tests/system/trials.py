@@ -29,7 +29,7 @@ parts:
 boundary_conditions: [{set: bar.xmin, fix: [x, y, z]}]
 initial_conditions: [{set: bar.xmax, velocity: [1, 0, 0]}]
 time: {end: 2e-2}
-output: {fields: {every: 1e-4}, history: {every: 1e-5}}
+output: {fields: {every: 5e-4}, history: {every: 1e-5}}
 """
 STUDY = """
 title: 'A bar `touch run_by_title`'

@@ -408,7 +408,7 @@ TEST(TransactionSlow, NoRowIsLostWhereverAnIndexNodeSplits) {
   const auto file_path = folder / "table.h5";
   const auto before_path = folder / "before.h5";
   const auto victim_path = folder / "victim.h5";
-  constexpr int first_between = 500, last_between = 3500;
+  constexpr int first_between = 150, last_between = 3650;
   const auto append = [](const std::filesystem::path& path, int first, int last) {
     Hdf5File file = Hdf5File::open_to_append(path);
     for (double value = first; value <= last; ++value)

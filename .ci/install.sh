@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs what Brio needs to be built and tested on Debian 12, if it is missing. Needs root or sudo for that.
-# Usage: .ci/install.sh [build|test|study|paraview|tidy]...     (default: build)
+# Usage: .ci/install.sh [build|test|study|gmsh|paraview|tidy]...     (default: build)
 set -euo pipefail
 
 build="g++ cmake ninja-build libeigen3-dev libhdf5-dev libnetcdf-dev libyaml-cpp-dev nlohmann-json3-dev libfmt-dev libcli11-dev libmuparser-dev"
 test="libgtest-dev libgmp-dev libboost-dev clang clang-format python3 python3-jsonschema python3-yaml python3-h5py locales-all"
 study="gnuplot-nox"
+gmsh="gmsh"
 paraview="paraview python3-paraview xvfb xauth"
 tidy="clang-tidy"
 
@@ -15,9 +16,10 @@ for group in "${@:-build}"; do
     build) packages+=" $build" ;;
     test) packages+=" $build $test $study" ;;
     study) packages+=" $study" ;;
+    gmsh) packages+=" $gmsh" ;;
     paraview) packages+=" $paraview" ;;
     tidy) packages+=" $build $tidy" ;;
-    *) echo "install.sh: unknown group '$group'; build, test, study, paraview and tidy are known" >&2; exit 2 ;;
+    *) echo "install.sh: unknown group '$group'; build, test, study, gmsh, paraview and tidy are known" >&2; exit 2 ;;
   esac
 done
 

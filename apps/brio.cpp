@@ -48,6 +48,25 @@ int end_of_parsing(const CLI::App& program, const CLI::ParseError& end, int argu
 // Each subcommand adds itself to the command line and, if it is chosen, runs while the command line is
 // parsed.
 
+/// The command line as a shell would take it.
+std::string quoted(int argument_count, char** arguments) {
+  std::string line;
+  for (int i = 0; i < argument_count; ++i) {
+    const std::string word = arguments[i];
+    const bool is_plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$`*?[]{}()<>|&;#~!") == std::string::npos;
+    if (i > 0) line += ' ';
+    if (is_plain) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
 void add_overrides(CLI::App* command, std::vector<std::string>& overrides) {
   command->add_option("--set", overrides, "KEY.PATH=VALUE, overrides a value of the deck")
       ->allow_extra_args(false);
@@ -59,7 +78,7 @@ void add_threads(CLI::App* command, int& threads) {
   threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-void add_run_command(CLI::App& program, int& exit_code) {
+void add_run_command(CLI::App& program, const std::string& command_line, int& exit_code) {
   auto arguments = std::make_shared<brio::RunArguments>();
   brio::RunOptions& options = arguments->options;
   CLI::App* command = program.add_subcommand("run", "Run a deck and write its results");
@@ -80,6 +99,7 @@ void add_run_command(CLI::App& program, int& exit_code) {
                     "remove the results of an earlier run; default: they are moved to FOLDER.previous");
   command->add_flag("--quiet", arguments->quiet, "print errors only");
   command->add_flag("--json", arguments->json, "print the summary as JSON");
+  arguments->command = command_line;
   command->callback([arguments, &exit_code] { exit_code = brio::run(*arguments); });
 }
 
@@ -183,6 +203,13 @@ void add_plot_command(CLI::App& program) {
   command->callback([arguments] { brio::plot(arguments->options, arguments->words); });
 }
 
+void add_new_command(CLI::App& program) {
+  auto name = std::make_shared<std::filesystem::path>();
+  CLI::App* command = program.add_subcommand("new", "Write a first deck with comments, NAME.yaml");
+  command->add_option("name", *name, "name of the deck; a file that is there stays as it is")->required();
+  command->callback([name] { brio::write_new_deck(*name); });
+}
+
 void add_schema_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "schema", "print the JSON schema of decks, for completion and checking in editors");
@@ -197,7 +224,8 @@ int run_command(int argument_count, char** arguments) {
   CLI::App program("Brio: explicit transient dynamics of solids, shells and beams with contact", "brio");
   int exit_code = brio::exit_good;
   program.require_subcommand(1);
-  add_run_command(program, exit_code);
+  add_new_command(program);
+  add_run_command(program, quoted(argument_count, arguments), exit_code);
   add_check_command(program);
   add_study_command(program, exit_code);
   add_info_command(program);

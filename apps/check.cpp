@@ -150,12 +150,13 @@ void tell_wait(const ForecastOptions& options) {
 
 }  // namespace
 
-void print_overlaps(std::span<const InitialOverlap> overlaps) {
+std::string overlaps_text(std::span<const InitialOverlap> overlaps) {
+  std::string text;
   const InitialOverlap* first = nullptr;  // that only touches
   double gap = 0, moved = 0;
   for (const InitialOverlap& overlap : overlaps) {
     if (overlap.is_overlap()) {
-      write_out(
+      text += fmt::format(
           "initial overlap: {} nodes of '{}' lay in '{}', the deepest by {:.3g}; nodes were moved by up to "
           "{:.3g}\n",
           overlap.nodes, overlap.node_part, overlap.face_part, overlap.depth, overlap.moved);
@@ -165,11 +166,11 @@ void print_overlaps(std::span<const InitialOverlap> overlaps) {
     gap = std::max(gap, overlap.gap);
     moved = std::max(moved, overlap.moved);
   }
-  if (first == nullptr) return;
-  write_out(
-      "contact gap: parts touched, '{}' and '{}' among them; nodes were moved by up to {:.3g} to make "
-      "a gap of {:.3g}\n",
-      first->node_part, first->face_part, moved, gap);
+  if (first == nullptr) return text;
+  return text + fmt::format(
+                    "contact gap: parts touched, '{}' and '{}' among them; nodes were moved by up to {:.3g} "
+                    "to make a gap of {:.3g}\n",
+                    first->node_part, first->face_part, moved, gap);
 }
 
 void check(const ForecastOptions& options, bool json) {
@@ -183,7 +184,7 @@ void check(const ForecastOptions& options, bool json) {
     print_quality(scene);
     print_joints(scene);
     print_step(scene);
-    print_overlaps(scene.initial_overlaps);
+    write_out_text(overlaps_text(scene.initial_overlaps));
     for (const SceneWarning& warning : scene.warnings)
       write_out("warning: {}: {}; {}\n", warning.subject, warning.what, warning.advice);
     flush_output();

@@ -24,10 +24,11 @@ inline constexpr int exit_file_failure = 4;       ///< the system refused a file
 inline constexpr int exit_defect = 70;            ///< the program itself is at fault
 
 /// A line for each pair of parts whose nodes were moved apart before the first step.
-void print_overlaps(std::span<const InitialOverlap> overlaps);
+std::string overlaps_text(std::span<const InitialOverlap> overlaps);
 
 struct RunArguments {
   RunOptions options;
+  std::string command;  ///< as it was given, for the log
   bool quiet = false;
   bool json = false;
 };
@@ -44,6 +45,8 @@ void check(const ForecastOptions& options, bool json);
 void print_info(const std::filesystem::path& result, bool verify);
 /// \param words results, which exist, and columns of their histories
 void plot(PlotOptions options, const std::vector<std::string>& words);
+/// A first deck, NAME.yaml. \throws DeckError where the name is taken, FileError
+void write_new_deck(const std::filesystem::path& name);
 void print_schema(bool of_study, bool markdown);
 
 }  // namespace brio

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/commands.hpp"
+#include "apps/run_log.hpp"
 #include "apps/streams.hpp"
 
 namespace brio {
@@ -21,60 +22,95 @@ std::string duration(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-// One line that is written over on a terminal; a plain line every ten seconds elsewhere.
+std::string progress_line(const Progress& progress) {
+  std::string line =
+      fmt::format("time {:.4e}  step {}  dt {:.3e} ({} {})  {:5.1f} %  {}  left {}  energy error {:+.3f} %",
+                  progress.time, progress.step, progress.dt, progress.critical_part,
+                  progress.critical_element, 100 * progress.time / progress.end, duration(progress.elapsed_s),
+                  duration(progress.remaining_s), 100 * progress.energy_error);
+  if (progress.deleted > 0) line += fmt::format("  deleted {}", progress.deleted);
+  if (!progress.hourglassing.empty())
+    line += fmt::format("  hourglass {:.0f} % of '{}'", std::min(100 * progress.hourglass_ratio, 999.0),
+                        progress.hourglassing);
+  return line;
+}
+
+// On a terminal one line that is written over; in the log, and elsewhere, a line every ten seconds.
 class ProgressLine {
  public:
+  ProgressLine(RunLog& log, bool quiet) : log_(log), quiet_(quiet) {}
+
   void operator()(const Progress& progress) {
     const bool finished = progress.time >= progress.end;
-    if (!on_terminal_ && !finished && progress.elapsed_s - printed_ < 10) return;
-    printed_ = progress.elapsed_s;
-    std::string line = fmt::format(
-        "time {:.4e}  step {}  dt {:.3e} ({} {})  {:5.1f} %  {}  left {}  energy error {:+.3f} %",
-        progress.time, progress.step, progress.dt, progress.critical_part, progress.critical_element,
-        100 * progress.time / progress.end, duration(progress.elapsed_s), duration(progress.remaining_s),
-        100 * progress.energy_error);
-    if (progress.deleted > 0) line += fmt::format("  deleted {}", progress.deleted);
-    if (!progress.hourglassing.empty())
-      line += fmt::format("  hourglass {:.0f} % of '{}'", std::min(100 * progress.hourglass_ratio, 999.0),
-                          progress.hourglassing);
-    if (on_terminal_) {
-      write_error("\r{:<118}", line);
-      if (finished) write_error("\n");
-    } else {
-      write_error("{}\n", line);
+    const bool is_due = finished || progress.elapsed_s - noted_ >= 10;
+    if (!is_due && (quiet_ || !on_terminal_)) return;
+    const std::string line = progress_line(progress);
+    if (is_due) {
+      noted_ = progress.elapsed_s;
+      log_.add(line + "\n");
     }
+    if (quiet_) return;
+    if (!on_terminal_) return write_error("{}\n", line);
+    write_error("\r{:<118}", line);
+    if (finished) write_error("\n");
   }
 
  private:
+  RunLog& log_;
+  bool quiet_;
   bool on_terminal_ = isatty(STDERR_FILENO) != 0;
-  double printed_ = -10;
+  double noted_ = -10;
 };
 
-void print_outcome(const RunOutcome& outcome) {
-  print_overlaps(outcome.initial_overlaps);
+std::string outcome_text(const RunOutcome& outcome) {
+  std::string text = overlaps_text(outcome.initial_overlaps);
   const Summary& summary = outcome.summary;
-  write_out("{} at time {:.6g} after {} steps, {} ({:.3g} million element updates a second)\n",
-            summary.status, summary.time, summary.steps, duration(summary.wall_s.total),
-            summary.element_updates_per_s * 1e-6);
+  text += fmt::format("{} at time {:.6g} after {} steps, {} ({:.3g} million element updates a second)\n",
+                      summary.status, summary.time, summary.steps, duration(summary.wall_s.total),
+                      summary.element_updates_per_s * 1e-6);
   const Summary::Energies& energy = summary.energy;
-  write_out(
+  text += fmt::format(
       "energy: kinetic {:.4g}, internal {:.4g}, hourglass {:.3g}, viscous {:.3g}, contact {:.3g}, friction "
-      "{:.3g}; "
-      "error {:+.3f} %\n",
+      "{:.3g}; error {:+.3f} %\n",
       energy.kinetic, energy.internal, energy.hourglass, energy.viscous, energy.contact, energy.friction,
       100 * energy.error_relative);
   const std::int64_t deleted = summary.deleted.total();
   if (deleted > 0)
-    write_out("deleted: {} elements, energy {:.4g}; free nodes: mass {:.4g} retained, {:.4g} removed\n",
-              deleted, energy.deleted, summary.mass.debris, summary.mass.deleted);
+    text +=
+        fmt::format("deleted: {} elements, energy {:.4g}; free nodes: mass {:.4g} retained, {:.4g} removed\n",
+                    deleted, energy.deleted, summary.mass.debris, summary.mass.deleted);
   if (summary.mass_scaling)
-    write_out("mass added to small elements: {:.4g}, {:.3g} % of the mass\n", summary.mass_scaling->added,
-              100 * summary.mass_scaling->share);
-  write_out("wall time by stage:");
+    text += fmt::format("mass added to small elements: {:.4g}, {:.3g} % of the mass\n",
+                        summary.mass_scaling->added, 100 * summary.mass_scaling->share);
+  text += "wall time by stage:";
   for (const auto& [stage, seconds] : summary.wall_s.by_stage)
-    if (seconds > 0) write_out(" {} {:.2f} s", stage, seconds);
-  write_out("\nresults: {} (ParaView 5.12 or later), {} (ParaView 5.11)\n", outcome.vtkhdf.string(),
-            outcome.xdmf.string());
+    if (seconds > 0) text += fmt::format(" {} {:.2f} s", stage, seconds);
+  return text + fmt::format("\nresults: {} (ParaView 5.12 or later), {} (ParaView 5.11)\n",
+                            outcome.vtkhdf.string(), outcome.xdmf.string());
+}
+
+/// To standard error and to the log.
+void tell(RunLog& log, const std::string& text) {
+  write_error_text(text);
+  log.add(text);
+}
+
+RunOutcome run_with_log(RunOptions& options, RunLog& log, bool quiet) {
+  ProgressLine line(log, quiet);
+  options.progress = [&](const Progress& progress) { line(progress); };
+  options.moved_aside = [&](const std::filesystem::path& to, bool lost) {
+    if (quiet && !lost) return;
+    tell(log, fmt::format("results of an earlier run were moved to {}{}\n", to.string(),
+                          lost ? ", in place of those that were there" : ""));
+  };
+  options.notice = [&](const std::string& text) { tell(log, "brio: " + text + "\n"); };
+  options.published = [&](const std::filesystem::path& path, bool goes_on) { log.open(path, goes_on); };
+  try {
+    return run_deck(options);
+  } catch (const std::exception& fault) {
+    log.add(std::string("brio: ") + fault.what() + "\n");
+    throw;
+  }
 }
 
 }  // namespace
@@ -82,18 +118,13 @@ void print_outcome(const RunOutcome& outcome) {
 int run(RunArguments& arguments) {
   arguments.options.stop = &noted_signal();
   arguments.options.built = note_signals;  // until then there is nothing to close
-  ProgressLine line;
-  if (!arguments.quiet) arguments.options.progress = [&](const Progress& progress) { line(progress); };
-  arguments.options.moved_aside = [&](const std::filesystem::path& to, bool lost) {
-    if (arguments.quiet && !lost) return;
-    write_error("results of an earlier run were moved to {}{}\n", to.string(),
-                lost ? ", in place of those that were there" : "");
-  };
-  arguments.options.notice = [](const std::string& text) { write_error("brio: {}\n", text); };
-  const RunOutcome outcome = run_deck(arguments.options);
-  if (!outcome.message.empty()) write_error("\nbrio: {}\n", outcome.message);
-  for (const std::string& warning : outcome.summary.warnings) write_error("brio: warning: {}\n", warning);
-  if (!arguments.quiet && !arguments.json) print_outcome(outcome);
+  RunLog log(arguments.command, arguments.options.threads);
+  const RunOutcome outcome = run_with_log(arguments.options, log, arguments.quiet);
+  if (!outcome.message.empty()) tell(log, "\nbrio: " + outcome.message + "\n");
+  for (const std::string& warning : outcome.summary.warnings) tell(log, "brio: warning: " + warning + "\n");
+  const std::string text = outcome_text(outcome);
+  log.add(text);
+  if (!arguments.quiet && !arguments.json) write_out_text(text);
   if (arguments.json) {
     std::ostringstream summary;
     summary << std::ifstream(outcome.summary_file).rdbuf();

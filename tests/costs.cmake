@@ -9,7 +9,7 @@ foreach(test_cost
     HertzSlow.AccurateMeetsForceAndDurationNoWorseThanTheDefault=30
     AuditPredicate.AgreesWithExactArithmetic=10
     ExtremesDeck.AHundredThousandPartsAreReadBuiltAndSteppedInProportionateTime=10
-    MemoryOfScenes.AreForetoldWithinAThird=10
+    MemoryOfScenes.ArePredictedWithinAThird=10
     Passes.FindWhatALookAtEveryPairFinds=10)
   string(REPLACE "=" ";" test_cost ${test_cost})
   list(GET test_cost 0 test)

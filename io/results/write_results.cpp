@@ -17,8 +17,8 @@ namespace brio {
 namespace {
 
 /// The data last of all: what describes them must not stand beside others.
-constexpr std::array endings{".restart.h5",   ".restart.previous.h5", ".xdmf2",
-                             ".summary.json", ".history.csv",         ".vtkhdf"};
+constexpr std::array endings{".restart.h5", ".restart.previous.h5", ".xdmf2", ".summary.json",
+                             ".log",        ".history.csv",         ".vtkhdf"};
 
 }  // namespace
 
@@ -116,6 +116,7 @@ void ResultWriter::publish() {
   rename_file(current(".vtkhdf"), vtkhdf());
   rename_file(current(".history.csv"), history_csv());
   published_ = true;
+  if (settings_.published) settings_.published();
   if (sync_each_time()) sync_to_disk(folder_);
 }
 

@@ -4,6 +4,7 @@
 ///   NAME.xdmf2         the same dumps for ParaView versions that do not read a transient VTKHDF file
 ///   NAME.history.csv   the history as a table
 ///   NAME.summary.json  the end state
+///   NAME.log           what the program said, written by whoever runs it
 ///
 /// Every call opens, appends and closes, so that a running job can be looked at; a process that is killed at
 /// any moment leaves files that read up to the last complete dump, and a full disk takes back only the dump
@@ -38,6 +39,7 @@ struct ResultSettings {
   /// Called when results of an earlier run were moved aside. \param lost whether others, which had been moved
   /// aside before, were removed for them.
   std::function<void(const std::filesystem::path& to, bool lost)> moved_aside{};
+  std::function<void()> published{};  ///< called when the files have their names, at the first dump
 };
 
 class ResultWriter {
@@ -74,6 +76,7 @@ class ResultWriter {
   std::filesystem::path xdmf() const { return path(".xdmf2"); }
   std::filesystem::path history_csv() const { return path(".history.csv"); }
   std::filesystem::path summary() const { return path(".summary.json"); }
+  std::filesystem::path log() const { return path(".log"); }
 
  private:
   std::filesystem::path path(const char* ending) const { return folder_ / (name_ + ending); }

@@ -267,12 +267,20 @@ RunOutcome run_deck(const RunOptions& options) {
                          .version = BRIO_VERSION,
                          .threads = options.threads,
                          .mesh_checksums = deck.mesh_checksums};
-  const ResultSettings settings{
-      .sync = deck.output.sync, .overwrite = options.overwrite, .moved_aside = options.moved_aside};
+  const auto published = [&options, log = outcome.folder / (name + ".log")](bool goes_on) {
+    if (options.published) options.published(log, goes_on);
+  };
+  const ResultSettings settings{.sync = deck.output.sync,
+                                .overwrite = options.overwrite,
+                                .moved_aside = options.moved_aside,
+                                .published = [published] { published(false); }};
   const std::filesystem::path results = outcome.folder / (name + ".vtkhdf");
   const bool continues_results = restart && is_same_folder(restart->path.parent_path(), outcome.folder) &&
                                  std::filesystem::exists(results);
-  if (continues_results) expect_same_columns(results, *restart, history_columns(model), deck);
+  if (continues_results) {
+    expect_same_columns(results, *restart, history_columns(model), deck);
+    published(true);
+  }
   ResultWriter writer = continues_results
                             ? ResultWriter(outcome.folder, name, settings)
                             : ResultWriter(outcome.folder, name, record, history_columns(model), settings);

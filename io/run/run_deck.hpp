@@ -43,6 +43,8 @@ struct RunOptions {
   std::function<void(const std::string&)>
       notice{};  ///< called with what the user should know of meshes and a restart
   std::function<void(const std::filesystem::path& to, bool lost)> moved_aside{};  ///< as of ResultSettings
+  /// Called when the results stand under their names: where a log goes, and whether it goes on.
+  std::function<void(const std::filesystem::path& log, bool goes_on)> published{};
   const std::atomic<int>* stop = nullptr;  ///< set to a signal's number to end the run after the present step
   std::function<void()> built;             ///< called before the first file is made
   std::function<void(const Progress&)> progress;  ///< called about ten times a second

@@ -44,7 +44,10 @@ class FailingRuns : public Program {
     const Ending info = brio("info cube.results");
     const bool has_dump = fs::exists(folder_ / "cube.results/cube.xdmf2");
     EXPECT_EQ(info.exit_code, has_dump ? 0 : 4);
-    if (!has_dump) {
+    if (has_dump) {
+      const std::string why = ending.faults.substr(ending.faults.find("brio: "));
+      EXPECT_NE(read("cube.results/cube.log").find(why), std::string::npos) << read("cube.results/cube.log");
+    } else {
       EXPECT_NE(info.faults.find("the result holds no dump"), std::string::npos) << info.faults;
     }
     return ending.faults;

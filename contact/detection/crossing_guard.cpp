@@ -33,7 +33,10 @@ class Look {
     range.hits.clear();
     range.certified = range.renewed = range.checked = 0;
     PairsOfRange uncertain;
-    for (std::size_t i = begin; i < end; ++i) certify(OnePair<Kind>(kind_, pairs[i]), uncertain, range);
+    for (std::size_t i = begin; i < end; ++i) {
+      prefetch_pairs(kind_, pairs.data(), i, end);
+      certify(OnePair<Kind>(kind_, pairs[i]), uncertain, range);
+    }
     std::array<int, pairs_a_range> left;
     int* last = left.data();
     renew<false>(uncertain, range, last);

@@ -44,23 +44,32 @@ class Finder {
         band_(proximity_band * kind.features.smallest_edge),
         least_square_(square(no_distance * kind.features.smallest_edge)) {}
 
-  void find(const std::vector<int>& active, std::size_t begin, std::size_t end,
-            Proximity::Range& range) const {
+  // Active pairs of the range that are not near are dropped: the others close up from its beginning.
+  void find(std::vector<int>& active, std::size_t begin, std::size_t end, Proximity::Range& range) const {
     PairsOfRange near;
-    for (std::size_t i = begin; i < end; ++i)
-      if (is_near(OnePair<Kind>(kind_, active[i]))) near.add(kind_.list, active[i]);
+    std::size_t last = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      prefetch_pairs(kind_, active.data(), i, end);
+      if (!is_near(OnePair<Kind>(kind_, active[i]))) continue;
+      near.add(kind_.list, active[i]);
+      active[last++] = active[i];
+    }
     range.found.clear();
-    range.closest_points = near.count[0] + near.count[1];
+    range.closest_points = last - begin;
     find_closest<false>(near, range.found);
     find_closest<true>(near, range.found);
   }
 
  private:
-  // Whether its stored direction does not separate it by enough.
+  // Whether its stored direction does not separate it by enough. Of a pair that has been as near as the band
+  // the direction is not asked: it would be answered so in every step of a contact.
   BRIO_INLINE bool is_near(const OnePair<Kind>& one) const {
-    const auto at = one.points(rows_);
     Vector3<double> direction = one.direction();
-    if (dot(direction, direction) < 0.5) {
+    const bool is_known = !(dot(direction, direction) < 0.5);
+    if (is_known && one.record.spacing != Spacing::waiting && kind_.list.wake[one.pair] <= one.path())
+      return true;
+    const auto at = one.points(rows_);
+    if (!is_known) {
       direction = between_middles(at);
       kind_.list.set_direction(one.pair, direction.x, direction.y, direction.z);
     }
@@ -105,8 +114,10 @@ class Finder {
       const Vector3<Pack> normal = (Pack(1.0) / where(has_direction, length, Pack(1.0))) * closest.offset;
       const unsigned lanes = lane_bits(has_direction) & pack.lanes();
       store_directions(kind_.list, pack, lanes, normal);
+      const unsigned wanted = lanes & candidates(closest);
+      if (wanted == 0) continue;
       const Pack approach = Pack(approach_factor) * longest_approach(points, points_of(pack, end_rows_));
-      for_lanes(lane_bits(!(left > approach)) & lanes & candidates(closest), [&](int lane) {
+      for_lanes(lane_bits(!(left > approach)) & wanted, [&](int lane) {
         filter(closest, lane, pack.pair[lane], {normal.x[lane], normal.y[lane], normal.z[lane]}, length[lane],
                ways.reach[lane], found);
       });
@@ -172,9 +183,19 @@ void take_over(Proximity& proximity, std::size_t ranges, std::vector<Contact>& c
   for (auto entry = found.begin(); entry != last; ++entry) contacts.push_back((*entry)->contact);
 }
 
+// What the ranges have kept, without gaps.
+void close_up(const Proximity& proximity, std::size_t ranges, std::vector<int>& active) {
+  auto last = active.begin();
+  for (std::size_t r = 0; r < ranges; ++r) {
+    const auto first = active.begin() + static_cast<std::ptrdiff_t>(r * pairs_a_range);
+    last = std::copy_n(first, proximity.range[r].closest_points, last);
+  }
+  active.erase(last, active.end());
+}
+
 template <class Kind>
 void find_of_kind(Proximity& proximity, const Kind& kind, const ProximityFilter& filter,
-                  const std::vector<int>& active, ThreadTeam& team, std::vector<Contact>& contacts) {
+                  std::vector<int>& active, ThreadTeam& team, std::vector<Contact>& contacts) {
   if (active.empty()) return;
   const std::size_t ranges = (active.size() + pairs_a_range - 1) / pairs_a_range;
   while (proximity.range.size() < ranges) proximity.range.emplace_back().found.reserve(pairs_a_range / 8);
@@ -184,12 +205,16 @@ void find_of_kind(Proximity& proximity, const Kind& kind, const ProximityFilter&
   });
   take_over(proximity, ranges, contacts);
   proximity.looked_at += active.size();
+  close_up(proximity, ranges, active);
 }
 
 }  // namespace
 
+// Of both nodes less than the band: pairs that are not near cannot meet within the limits.
 double allowed_surplus(const SurfaceFeatures& features) {
-  return 0.25 * proximity_band * features.smallest_edge;
+  constexpr double share_of_band = 0.25;
+  static_assert(2 * share_of_band < 1);
+  return share_of_band * proximity_band * features.smallest_edge;
 }
 
 void select_active(Proximity& proximity, const SurfaceFeatures& features, const FeaturePairs& pairs,

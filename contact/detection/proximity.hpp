@@ -31,9 +31,11 @@ struct FoundContact {
 
 /// Working data of detection in a step.
 struct Proximity {
-  std::vector<int> node_face, edge_edge;  ///< active pairs of this step, ascending
-  std::uint64_t looked_at = 0;            ///< active pairs, summed over steps
-  std::uint64_t closest_points = 0;       ///< sum over steps of closest points computed
+  /// Active pairs of this step, ascending; once constraints are found, those of them that may cross within
+  /// the limits of the motion.
+  std::vector<int> node_face, edge_edge;
+  std::uint64_t looked_at = 0;       ///< active pairs, summed over steps
+  std::uint64_t closest_points = 0;  ///< sum over steps of closest points computed
 
   PairBlocks node_face_blocks, edge_edge_blocks;
   struct Range {
@@ -55,7 +57,9 @@ void select_active(Proximity& proximity, const SurfaceFeatures& features, const 
                    const FeatureMotion& motion, ThreadTeam& team);
 
 /// Replace `contacts` by the constraints of this step, those of nodes and faces by node, then those of edges.
-/// Directions and motion bounds of the pairs are renewed. The same bits for any number of threads. \param
+/// Directions and motion bounds of the pairs are renewed. Active pairs that are not near are dropped: they
+/// are farther apart than twice their predicted motion, their radii and the band, which is more than what the
+/// limits of the motion allow. The same bits for any number of threads. \param
 /// excluded pairs of nodes and faces that are one piece
 void find_proximities(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
                       const Lists& excluded, const ContactOptions& options, FeaturePairs& pairs,

@@ -296,6 +296,33 @@ struct OnePair {
   }
 };
 
+/// In a pass over a list of pairs, at place i: brings what later places read into the cache, since the
+/// features of a pair and their nodes lie anywhere: records first, then the nodes of their features, then
+/// positions.
+template <class Kind>
+BRIO_INLINE void prefetch_pairs(const Kind& kind, const int* pairs, std::size_t i, std::size_t end) {
+  constexpr std::size_t to_nodes = 6, to_features = 12, to_records = 18;
+  const auto record = [&](std::size_t place) -> const PairRecord& {
+    return kind.list[static_cast<std::size_t>(pairs[place])];
+  };
+  if (i + to_records < end) __builtin_prefetch(&record(i + to_records));
+  if (i + to_features < end) {
+    const PairRecord& pair = record(i + to_features);
+    if constexpr (Kind::Pairs::first_points > 1) __builtin_prefetch(&kind.first_nodes(pair.first));
+    __builtin_prefetch(&kind.second_nodes(pair.second));
+    __builtin_prefetch(&kind.first_ways().path[static_cast<std::size_t>(pair.first)]);
+    __builtin_prefetch(&kind.second_ways().path[static_cast<std::size_t>(pair.second)]);
+  }
+  if (i + to_nodes < end) {
+    const PairRecord& pair = record(i + to_nodes);
+    const auto fetch = [&](int node) {
+      __builtin_prefetch(kind.motion.node.data() + static_cast<std::size_t>(node));
+    };
+    for (int node : kind.first_nodes(pair.first)) fetch(node);
+    for (int node : kind.second_nodes(pair.second)) fetch(node);
+  }
+}
+
 /// Pairs that a pass takes at once: one task of a team of threads.
 inline constexpr std::size_t pairs_a_range = 512;
 

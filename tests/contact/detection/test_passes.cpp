@@ -20,12 +20,14 @@ struct Detector {
   CrossingGuard guard{};
   std::vector<Contact> contacts{};
   std::vector<Eigen::Vector3d> corrected{};
+  std::array<std::vector<int>, 2> active{};  ///< before constraints were found
 
   void begin() {
     motion.begin(scene.features, scene.surface, scene.nodes, team);
     motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
     if (pairs.is_due(scene.features, scene.surface, motion, team)) search();
     select_active(proximity, scene.features, pairs, motion, team);
+    active = {proximity.node_face, proximity.edge_edge};
     motion.set_limits(2, allowed_surplus(scene.features));
     find_proximities(proximity, scene.features, scene.surface, scene.excluded, scene.options, pairs, motion,
                      team, contacts);
@@ -188,6 +190,49 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
   EXPECT_EQ(count.count(), 0U);
   EXPECT_EQ(detector.contacts.size(), contacts);
   EXPECT_EQ(detector.guard.hits.size(), hits);
+}
+
+// Pairs that are active but are not checked for crossings are farther apart than the limits of motion allow
+// them to come nearer.
+TEST(Passes, WhatIsNotCheckedCannotCrossWithinTheLimits) {
+  Random random(7);
+  ThreadTeam team(2);
+  std::size_t dropped = 0, checked = 0;
+  RandomScene scene({.sheets = 4, .cells = 9, .cubes = 60, .beams = 20, .particles = 20, .room = 3}, random);
+  Detector detector{scene, team};
+  for (int step = 0; step < 200; ++step) {
+    scene.push(random.integer(0, 19) == 0 ? 2 : 0.1, random);
+    detector.begin();
+    const Reference reference(scene, detector.pairs, detector.motion);
+    const auto judge = [&](const PairList& list, const std::vector<int>& before, const std::vector<int>& kept,
+                           const PathAndAhead& first, const PathAndAhead& second, const auto& distance) {
+      ASSERT_TRUE(std::is_sorted(kept.begin(), kept.end()));
+      ASSERT_TRUE(std::includes(before.begin(), before.end(), kept.begin(), kept.end()));
+      checked += kept.size();
+      const auto way = [](const PathAndAhead& ways, int i) {
+        return ways.ahead[static_cast<std::size_t>(i)] - ways.path[static_cast<std::size_t>(i)];
+      };
+      for (int i : before) {
+        if (std::binary_search(kept.begin(), kept.end(), i)) continue;
+        ++dropped;
+        const PairRecord& pair = list[static_cast<std::size_t>(i)];
+        const double approach = way(first, pair.first) + way(second, pair.second) +
+                                way(detector.motion.groups.relation, pair.relation);
+        ASSERT_GT(distance(static_cast<std::size_t>(i)), approach + 2 * allowed_surplus(scene.features))
+            << step << ' ' << i;
+      }
+    };
+    const FeatureMotion& motion = detector.motion;
+    const Proximity& proximity = detector.proximity;
+    judge(detector.pairs.node_face, detector.active[0], proximity.node_face, motion.of_node, motion.of_face,
+          [&](std::size_t i) { return reference.node_face_distance(i); });
+    judge(detector.pairs.edge_edge, detector.active[1], proximity.edge_edge, motion.of_edge, motion.of_edge,
+          [&](std::size_t i) { return reference.edge_edge_distance(i); });
+    if (HasFatalFailure()) return;
+    scene.move(random);
+  }
+  EXPECT_GT(dropped, 1000U);
+  EXPECT_GT(checked, 1000U);
 }
 
 // Nodes walk at random, now and then one of them far.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what Brio needs to be built and tested on Debian 12, if it is missing. Needs root or sudo for that.
-# Usage: .ci/install.sh [build|test|study|gmsh|paraview|tidy]...     (default: build)
+# Usage: .ci/install.sh [build|test|study|gmsh|paraview|browser|tidy]...     (default: build)
 set -euo pipefail
 
 build="g++ cmake ninja-build libeigen3-dev libhdf5-dev libnetcdf-dev libyaml-cpp-dev nlohmann-json3-dev libfmt-dev libcli11-dev libmuparser-dev"
@@ -8,6 +8,7 @@ test="libgtest-dev libgmp-dev libboost-dev clang clang-format python3 python3-js
 study="gnuplot-nox"
 gmsh="gmsh"
 paraview="paraview python3-paraview xvfb xauth"
+browser="chromium"
 tidy="clang-tidy"
 
 packages=""
@@ -18,8 +19,9 @@ for group in "${@:-build}"; do
     study) packages+=" $study" ;;
     gmsh) packages+=" $gmsh" ;;
     paraview) packages+=" $paraview" ;;
+    browser) packages+=" $browser" ;;
     tidy) packages+=" $build $tidy" ;;
-    *) echo "install.sh: unknown group '$group'; build, test, study, gmsh, paraview and tidy are known" >&2; exit 2 ;;
+    *) echo "install.sh: unknown group '$group'; build, test, study, gmsh, paraview, browser and tidy are known" >&2; exit 2 ;;
   esac
 done
 

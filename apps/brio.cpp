@@ -210,6 +210,23 @@ void add_new_command(CLI::App& program) {
   command->callback([name] { brio::write_new_deck(*name); });
 }
 
+void add_report_command(CLI::App& program) {
+  auto arguments = std::make_shared<brio::ReportOptions>();
+  CLI::App* command = program.add_subcommand(
+      "report", "Write one page (HTML) that shows a result in a browser, without a network");
+  command->add_option("result", arguments->result, "result folder or .vtkhdf file")->required();
+  command->add_option("--output", arguments->output,
+                      "page; default: the name of the result with .html, beside it");
+  command->add_option("--frames", arguments->frames, "dumps to show at most; default 100")
+      ->check(CLI::Range(1, 65535));
+  command
+      ->add_option("--fields", arguments->fields,
+                   "fields to colour by, such as von_mises,velocity; default: all that are not zero")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  command->callback([arguments] { brio::report(*arguments); });
+}
+
 void add_schema_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "schema", "print the JSON schema of decks, for completion and checking in editors");
@@ -230,6 +247,7 @@ int run_command(int argument_count, char** arguments) {
   add_study_command(program, exit_code);
   add_info_command(program);
   add_plot_command(program);
+  add_report_command(program);
   add_schema_command(program);
   for (CLI::App* command : program.get_subcommands({}))
     command->set_version_flag("--version", "brio " BRIO_VERSION);

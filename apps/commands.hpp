@@ -9,6 +9,7 @@
 
 #include "contact/start/initial_gap.hpp"
 #include "io/plot/plot_history.hpp"
+#include "io/report/write_report.hpp"
 #include "io/run/forecast_deck.hpp"
 #include "io/run/run_deck.hpp"
 #include "io/study/run_study.hpp"
@@ -47,6 +48,7 @@ void print_info(const std::filesystem::path& result, bool verify);
 void plot(PlotOptions options, const std::vector<std::string>& words);
 /// A first deck, NAME.yaml. \throws DeckError where the name is taken, FileError
 void write_new_deck(const std::filesystem::path& name);
+void report(const ReportOptions& options);
 void print_schema(bool of_study, bool markdown);
 
 }  // namespace brio

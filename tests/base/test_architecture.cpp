@@ -97,7 +97,7 @@ const std::vector<Rooms> rooms_of_folders{
     {"src", {"deck", "motion", "sweep", "model", "build", "step", "output", "forecast"}},
     {"io",
      {"files", "mesh_file", "mesh_format", "mesh", "deck", "schema", "results", "restart", "run", "study",
-      "plot"}},
+      "plot", "report"}},
 };
 
 std::ptrdiff_t place_of(const std::string& path, const Rooms& rooms) {

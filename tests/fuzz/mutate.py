@@ -494,7 +494,7 @@ class Campaign:
             except (IndexError, OSError):
                 pass
         target = rng.choice(["small.results", "small.results", "small.results/small.vtkhdf"])
-        self.try_one(name, ["info", target] + rng.choice([[], ["--verify"]]), folder, False, False)
+        self.try_one(name, rng.choice([["info"], ["info", "--verify"], ["report"]]) + [target], folder, False, False)
 
     def study(self, number):
         name = f"study:{number}"

@@ -8,9 +8,9 @@
 #include "src/build/build_rigid.hpp"
 #include "src/build/build_ties.hpp"
 #include "src/build/contact_thickness.hpp"
-#include "src/build/contradictory_motions.hpp"
 #include "src/build/merge.hpp"
-#include "src/build/motion_through_walls.hpp"
+#include "src/build/prepare_history.hpp"
+#include "src/build/refused_motions.hpp"
 #include "src/build/wall_overlap.hpp"
 #include "src/deck/part_index.hpp"
 #include "src/model/part_damping.hpp"
@@ -404,11 +404,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   load(deck, meshes, model);
   model.extent = scene_extent(model.nodes);
   start_balances(model);
-  model.probes = place_probes(deck, model.parts, model.nodes);
-  if (const auto& forces = deck.output.history.forces) {
-    for (ContactScene& scene : model.contacts) scene.log = make_impulse_log(*forces, deck, model);
-    model.forces = make_force_sums(*forces, deck, model);
-  }
+  prepare_history(deck, model);
   return model;
 }
 

@@ -1,4 +1,4 @@
-#include "src/build/contradictory_motions.hpp"
+#include "src/build/refused_motions.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "src/build/motion_through_walls.hpp"
+#include "src/build/refused_motions.hpp"
 
 #include <algorithm>
 #include <array>

@@ -468,6 +468,7 @@ struct HistoryOutput {
   std::optional<double> every;
   std::vector<Probe> probes;
   std::optional<ForceOutput> forces;
+  bool rigid_bodies = false;
   static constexpr auto fields() {
     return field_table(
         optional("every", &HistoryOutput::every, positive,
@@ -475,7 +476,10 @@ struct HistoryOutput {
         optional("probes", &HistoryOutput::probes, any_number,
                  "a map of names to nodes whose displacement and velocity are written as well"),
         optional("forces", &HistoryOutput::forces, any_number,
-                 "forces that are written as well: means over the time since the row before"));
+                 "forces that are written as well: means over the time since the row before"),
+        optional("rigid_bodies", &HistoryOutput::rigid_bodies, any_number,
+                 "true: columns PART.centre_x, _y, _z of the centre of mass and PART.rotation_x, _y, _z, the "
+                 "rotation vector from the start, in radians and at most pi long, of every rigid part"));
   }
 };
 struct RestartOutput {

@@ -88,6 +88,7 @@ struct Model {
   MomentumBalance momentum;
   std::vector<ProbeInRun> probes;           ///< one a probe of the deck
   std::optional<ForceSums> forces;          ///< if the deck asks for forces in the history
+  bool tells_rigid_bodies = false;          ///< whether the deck asks for their motion in the history
   std::vector<KineticEnergy> kinetic_sums;  ///< one a range of nodes
   StageTimes stages;
 };

@@ -204,6 +204,19 @@ TEST(StepAllocation, NoneInASceneOfShellsWithContactAndFriction) {
   }
 }
 
+// Reactions, contact forces and a section, of shells that are crushed.
+TEST(StepAllocation, NoneWhereForcesAreSummed) {
+  Deck deck = can_under_block();
+  ForceOutput& forces = deck.output.history.forces.emplace();
+  forces.reactions.all = forces.contact.all = true;
+  forces.sections = {{"waist", "can", {0, 0, 0.5}, {0, 0, 1}}};
+  for (int threads : {1, 2}) {
+    const Counted counted = count(deck, threads, 300);
+    EXPECT_EQ(counted.allocations, 0u) << threads;
+    EXPECT_GT(counted.active, 200);
+  }
+}
+
 TEST(StepAllocation, NoneWhereHeldNodesAreInContact) {
   for (int threads : {1, 2}) {
     const Counted counted = count(can_under_covered_block(), threads, 300);

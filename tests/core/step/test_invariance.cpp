@@ -194,7 +194,7 @@ TEST(Invariance, TurningAndVibratingCubeGainsNoEnergy) {
 }
 
 // At the default step, seven to a vibration, the energy grows by 0.07 % in 1,000 turns; at half of it by
-// 0.02 % in as many, 0.14 % in 2,500 and 1 % in 10,000, 1.7 million vibrations, which is as much as vibrates.
+// about 0.02 % in as many, 0.14 % in 2,500 and 1 % in 10,000, 1.7 million vibrations: as much as vibrates.
 // The cause is not shown: hourglass stiffness is that of the end of a step, half a step late.
 TEST(InvarianceSlow, TurningAndVibratingCubeGainsNoEnergyInThousandsOfTurns) {
   expect_no_gain_of_energy(ObjectiveRate::green_naghdi, 1000, 0.9, 3e-3);

@@ -1,0 +1,18 @@
+#include "src/build/prepare_history.hpp"
+
+#include "src/build/build.hpp"
+
+namespace brio {
+
+void prepare_history(const Deck& deck, Model& model) {
+  const HistoryOutput& history = deck.output.history;
+  model.probes = place_probes(deck, model.parts, model.nodes);
+  model.tells_rigid_bodies = history.rigid_bodies;
+  if (model.tells_rigid_bodies && model.rigid.empty())
+    throw BuildError("output.history.rigid_bodies: no part is rigid; accepted where one is");
+  if (!history.forces) return;
+  for (ContactScene& scene : model.contacts) scene.log = make_impulse_log(*history.forces, deck, model);
+  model.forces = make_force_sums(*history.forces, deck, model);
+}
+
+}  // namespace brio

@@ -1,0 +1,108 @@
+#include <algorithm>
+
+#include "src/output/observe.hpp"
+#include "src/output/result_order.hpp"
+#include "src/output/rigid_columns.hpp"
+
+namespace brio {
+
+namespace {
+
+constexpr std::size_t most_parts_in_history = 100;
+
+// Mean velocity of a part: momentum over mass.
+Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBodies& rigid,
+                     std::span<const double> moved_mass) {
+  if (part.rigid >= 0) {
+    const Eigen::Vector3d& v = rigid.motion[static_cast<std::size_t>(part.rigid)].velocity;
+    return {v[0], v[1], v[2]};
+  }
+  Vector sum{};
+  double mass = 0;
+  for (int entry : part.node) {
+    const auto node = static_cast<std::size_t>(entry);
+    const double own = nodes.mass[node] + (moved_mass.empty() ? 0 : moved_mass[node]);
+    mass += own;
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += own * nodes.record[node].velocity[i];
+  }
+  for (double& component : sum) component = mass > 0 ? component / mass : 0;
+  return sum;
+}
+
+}  // namespace
+
+std::vector<std::string> history_columns(const Model& model) {
+  std::vector<std::string> columns{"time",
+                                   "step",
+                                   "dt",
+                                   "kinetic",
+                                   "internal",
+                                   "hourglass",
+                                   "viscous",
+                                   "deleted",
+                                   "contact",
+                                   "friction",
+                                   "external",
+                                   "total",
+                                   "error_relative",
+                                   "contact_added_max",
+                                   "momentum_x",
+                                   "momentum_y",
+                                   "momentum_z",
+                                   "angular_momentum_x",
+                                   "angular_momentum_y",
+                                   "angular_momentum_z",
+                                   "linear_imbalance",
+                                   "angular_imbalance",
+                                   "support_impulse_x",
+                                   "support_impulse_y",
+                                   "support_impulse_z",
+                                   "wall_impulse_x",
+                                   "wall_impulse_y",
+                                   "wall_impulse_z",
+                                   "deleted_elements"};
+  for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p)
+    for (const char* axis : {".velocity_x", ".velocity_y", ".velocity_z"})
+      columns.push_back(model.parts[p].name + axis);
+  if (model.added_mass) columns.emplace_back("added_mass");
+  if (model.contact_audits) columns.insert(columns.end(), {"missed_contacts", "crossings"});
+  if (model.erosion)
+    for (const auto cause : deletion_causes) columns.push_back("deleted_by_" + std::string(cause));
+  add_columns(model.probes, columns);
+  if (model.tells_rigid_bodies) add_rigid_columns(model, columns);
+  if (model.forces) add_columns(*model.forces, columns);
+  return columns;
+}
+
+void observe_history(Model& model, std::vector<double>& row) {
+  balance_momentum(model);
+  const EnergyBalance& energy = model.energy;
+  const MomentumBalance& balance = model.momentum;
+  row.assign({model.times.time, static_cast<double>(model.step), model.times.next, energy.kinetic,
+              energy.internal, energy.hourglass, energy.all_viscous(), energy.deleted,
+              -energy.contact.at_step(), -energy.friction.at_step(), energy.external.at_step(), energy.sum(),
+              energy.relative_error(), energy.contact_added_max});
+  for (const Vector& vector : {balance.now.linear, balance.now.angular})
+    row.insert(row.end(), vector.begin(), vector.end());
+  row.push_back(balance.linear_imbalance());
+  row.push_back(balance.angular_imbalance());
+  for (const Vector& vector : {balance.supports.linear, balance.walls.linear})
+    row.insert(row.end(), vector.begin(), vector.end());
+  row.push_back(static_cast<double>(deleted_so_far(model)));
+  for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p) {
+    const Vector velocity = mean_velocity(model.parts[p], model.nodes, model.rigid, model.ties.moved_mass);
+    row.insert(row.end(), velocity.begin(), velocity.end());
+  }
+  if (model.added_mass) row.push_back(model.added_mass->total());
+  if (model.contact_audits)
+    for (const std::int64_t count :
+         {model.contact_audits->found.missed(), model.contact_audits->found.crossings})
+      row.push_back(static_cast<double>(count));
+  if (model.erosion)
+    for (const auto count : model.erosion->deleted_by_cause) row.push_back(static_cast<double>(count));
+  add_values(model.probes, model.nodes, row);
+  if (model.tells_rigid_bodies) add_rigid_values(model, row);
+  if (model.forces) add_values(*model.forces, row);
+}
+
+}  // namespace brio

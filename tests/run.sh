@@ -3,6 +3,7 @@
 # undefined-behaviour sanitizers. Builds the program with clang and runs a deck with it.
 # Usage: tests/run.sh [--fast | --long]       --fast leaves out the slow tests, the sanitizers and clang; --long adds the
 # tests that take minutes each
+# BRIO_TEST_MINUTES=N: where the time to build shows that a stage would not end within N minutes, it is left out, and said.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -15,6 +16,15 @@ build() {
   cmake --preset "$1" "${generator[@]}" "${@:2}"
   cmake --build --preset "$1" -j "$jobs"
 }
+# fits STAGE PERCENT: whether a stage that takes that share of the time of the release build ends within the limit.
+left_out=()
+fits() {
+  [ -n "${BRIO_TEST_MINUTES:-}" ] || return 0
+  [ $((SECONDS + build_seconds * $2 / 100)) -le $((60 * BRIO_TEST_MINUTES)) ] && return 0
+  left_out+=("$1")
+  return 1
+}
+run_tests() { ctest --test-dir "build/$1" --output-on-failure -j "$jobs" "${@:2}"; }
 
 stage "install"
 .ci/install.sh test
@@ -23,20 +33,36 @@ if [ "${1:-}" != --fast ]; then
   git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run -Werror
 fi
 stage "build"
+build_begin=$SECONDS
 build release -DBRIO_TESTS=ON -DBRIO_BENCH=ON
+build_seconds=$((SECONDS - build_begin))
 if [ "${1:-}" = --fast ]; then
   stage "fast tests"
-  exec ctest --test-dir build/release --output-on-failure -j "$jobs" -L fast
+  run_tests release -L fast
+  exit
 fi
-stage "build with clang"
-build clang
-build/clang/brio run inputs/bar_impact.yaml --quiet --overwrite --output build/clang/bar_impact.results
-stage "all tests"
-without=(-LE long)
-if [ "${1:-}" = --long ]; then without=(); fi
-ctest --test-dir build/release --output-on-failure -j "$jobs" "${without[@]}"
-stage "build with sanitizers"
-build debug-sanitized -DBRIO_TESTS=ON -DBRIO_BENCH=OFF
-stage "fast tests with sanitizers"
-ctest --test-dir build/debug-sanitized --output-on-failure -j "$jobs" -L fast
+if [ "${1:-}" = --long ]; then
+  stage "all tests"
+  run_tests release
+elif fits "slow tests" 80; then
+  stage "fast and slow tests"
+  run_tests release -LE long
+else
+  stage "fast tests"
+  run_tests release -L fast
+fi
+if fits "clang" 20; then
+  stage "build with clang"
+  build clang
+  build/clang/brio run inputs/bar_impact.yaml --quiet --overwrite --output build/clang/bar_impact.results
+fi
+if fits "sanitizers" 120; then
+  stage "build with sanitizers"
+  build debug-sanitized -DBRIO_TESTS=ON -DBRIO_BENCH=OFF
+  stage "fast tests with sanitizers"
+  run_tests debug-sanitized -L fast
+fi
 stage "done"
+for stage in "${left_out[@]}"; do
+  echo "LEFT OUT for want of time: $stage. The build took $((build_seconds / 60)) min; BRIO_TEST_MINUTES is $BRIO_TEST_MINUTES."
+done

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "src/output/cell_variables.hpp"
+
 namespace brio {
 
 namespace {
@@ -55,9 +57,11 @@ std::vector<ReportField> shown_by_default(const ResultInfo& info) {
   return fields;
 }
 
-double von_mises(const double* s) {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+// By the formula with which runs write it. \param s components of the stress
+double derived(std::string_view name, const double* s) {
+  ElementSample sample;
+  sample.stress = {s[0], s[1], s[2], s[3], s[4], s[5]};
+  return std::ranges::find(derived_variables(), name, &DerivedVariable::name)->value(sample);
 }
 
 double number_of(const ReportField& field, const double* row) {
@@ -65,9 +69,9 @@ double number_of(const ReportField& field, const double* row) {
     case Take::magnitude:
       return std::hypot(row[0], row[1], row[2]);
     case Take::von_mises:
-      return von_mises(row);
+      return derived("von_mises", row);
     case Take::pressure:
-      return -(row[0] + row[1] + row[2]) / 3;
+      return derived("pressure", row);
     default:
       return row[field.component];
   }

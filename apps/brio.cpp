@@ -15,9 +15,9 @@
 
 #include "apps/commands.hpp"
 #include "apps/streams.hpp"
-#include "io/deck/closest_word.hpp"
-#include "io/deck/deck_error.hpp"
 #include "io/files/file_error.hpp"
+#include "io/yaml/closest_word.hpp"
+#include "io/yaml/deck_error.hpp"
 #include "src/base/breakdown.hpp"
 
 namespace {

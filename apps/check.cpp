@@ -54,8 +54,12 @@ void print_joints(const CheckReport& report) {
 
 void print_step(const CheckReport& report) {
   if (std::isfinite(report.stable_step)) {
-    write_out("\nstable time step {:.4g}, set by element {} of part '{}'; first time step {:.4g}\n",
-              report.stable_step, report.critical_element, report.critical_part, report.first_step);
+    const std::string critical =
+        report.critical_spring.empty()
+            ? fmt::format("element {} of part '{}'", report.critical_element, report.critical_part)
+            : fmt::format("spring '{}'", report.critical_spring);
+    write_out("\nstable time step {:.4g}, set by {}; first time step {:.4g}\n", report.stable_step, critical,
+              report.first_step);
   } else {
     write_out("\nall parts are rigid; time step {:.4g}\n", report.first_step);
   }

@@ -3,8 +3,8 @@
 #include "apps/commands.hpp"
 #include "apps/first_deck.hpp"
 #include "apps/streams.hpp"
-#include "io/deck/deck_error.hpp"
 #include "io/files/text_file.hpp"
+#include "io/yaml/deck_error.hpp"
 
 namespace brio {
 

@@ -23,11 +23,10 @@ std::string duration(double seconds) {
 }
 
 std::string progress_line(const Progress& progress) {
-  std::string line =
-      fmt::format("time {:.4e}  step {}  dt {:.3e} ({} {})  {:5.1f} %  {}  left {}  energy error {:+.3f} %",
-                  progress.time, progress.step, progress.dt, progress.critical_part,
-                  progress.critical_element, 100 * progress.time / progress.end, duration(progress.elapsed_s),
-                  duration(progress.remaining_s), 100 * progress.energy_error);
+  std::string line = fmt::format(
+      "time {:.4e}  step {}  dt {:.3e} ({})  {:5.1f} %  {}  left {}  energy error {:+.3f} %", progress.time,
+      progress.step, progress.dt, progress.critical, 100 * progress.time / progress.end,
+      duration(progress.elapsed_s), duration(progress.remaining_s), 100 * progress.energy_error);
   if (progress.deleted > 0) line += fmt::format("  deleted {}", progress.deleted);
   if (!progress.hourglassing.empty())
     line += fmt::format("  hourglass {:.0f} % of '{}'", std::min(100 * progress.hourglass_ratio, 999.0),

@@ -204,6 +204,41 @@ NodeMotion release(Ties& ties, Nodes& nodes) {
   return lost;
 }
 
+Vector3d force_on_face(const TiedNode& tied, double mean_step, const Nodes& nodes) {
+  const Vector3d force = row(nodes.force, tied.tie.node);
+  if (!(mean_step > 0)) return force;
+  return force - tied.mass / mean_step * (brio::velocity(nodes, tied.tie.node) - tied.last_velocity);
+}
+
+namespace {
+
+// Direction in which the node comes off: away from the face. A node in the middle of a shell has none.
+bool exceeds(const TiedNode& tied, const TiedParts& parts, const Vector3d& force, const Nodes& nodes) {
+  const Tie& tie = tied.tie;
+  const Vector3d normal = normal_at(tie, corners_of(tie, nodes));
+  const double side = tie.turning ? tie.arm.dot(normal) : tie.gap;
+  const double along = normal.dot(force);
+  const double tension = side < 0 ? -along : side == 0 && tie.turning ? std::abs(along) : along;
+  const double shear = (force - along * normal).norm();
+  return std::pow(std::max(tension, 0.0) / parts.normal_force, 2) + std::pow(shear / parts.shear_force, 2) >=
+         1;
+}
+
+}  // namespace
+
+std::int64_t mark_failed(Ties& ties, double step, const Nodes& nodes) {
+  const double mean_step = 0.5 * (std::exchange(ties.last_step, step) + step);
+  std::int64_t count = 0;
+  for (TiedNode& tied : ties.node) {
+    const TiedParts& parts = ties.found[static_cast<std::size_t>(tied.connection)];
+    tied.released = parts.can_fail() && exceeds(tied, parts, force_on_face(tied, mean_step, nodes), nodes);
+    if (tied.released) ++count;
+    if (parts.can_fail()) tied.last_velocity = brio::velocity(nodes, tied.tie.node);
+  }
+  ties.failed += count;
+  return count;
+}
+
 void gather_forces(const Ties& ties, Nodes& nodes) {
   for (const TiedNode& tied : ties.node) {
     const Tie& tie = tied.tie;

@@ -8,7 +8,9 @@
 /// less than in the condensed mass matrix, so that the stable time step of the elements remains valid; where
 /// arms add more, `step_share` reduces it by a bound of their effect.
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,11 +28,13 @@ struct TiedNode {
   int element = 0;        ///< of that part's mesh, with the main face
   int connection = 0;     ///< index in Ties::found
   bool released = false;  ///< to be released
+  Eigen::Vector3d last_velocity =
+      Eigen::Vector3d::Zero();  ///< at the half step before, where the tie can fail
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(tie, mass, inertia, face_part, element, connection, released);
+    archive(tie, mass, inertia, face_part, element, connection, released, last_velocity);
   }
 };
 
@@ -40,6 +44,11 @@ struct TiedParts {
   std::string place;  ///< in the deck
   int count = 0;
   double largest_gap = 0;  ///< of a node from the surface
+  /// Tension and shear of a node at which its tie fails; infinite: never.
+  double normal_force = std::numeric_limits<double>::infinity();
+  double shear_force = std::numeric_limits<double>::infinity();
+
+  bool can_fail() const { return std::isfinite(normal_force) || std::isfinite(shear_force); }
 };
 
 /// All ties; empty without ties in the deck.
@@ -55,6 +64,8 @@ struct Ties {
       wall_friction;          ///< impulses of a wall on each tied node in this step
   double step_share = 1;      ///< ratio to the stable time step of the elements
   std::int64_t released = 0;  ///< nodes, since the start
+  std::int64_t failed = 0;    ///< of these: by force
+  double last_step = 0;       ///< time step before the last one, where ties can fail
 
   bool empty() const { return node.empty(); }
   bool is_tied(int global_node) const {
@@ -64,7 +75,8 @@ struct Ties {
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(node, of_node, moved_mass, concerned, own_mass, own_inertia, step_share, released);
+    archive(node, of_node, moved_mass, concerned, own_mass, own_inertia, step_share, released, failed,
+            last_step);
   }
 };
 
@@ -87,6 +99,14 @@ struct NodeMotion {
 /// Release the marked nodes: they get their mass back from the corners and keep their velocity.
 /// \returns the kinetic energy lost by that, for the energy balance.
 NodeMotion release(Ties& ties, Nodes& nodes);
+
+/// Force of a tied node on its face: what acts on the node, less its inertia in the last time step.
+/// \param mean_step time in which its velocity changed from the last one; 0: it did not
+Eigen::Vector3d force_on_face(const TiedNode& tied, double mean_step, const Nodes& nodes);
+
+/// Mark ties whose force reaches that of their connection. \param step the last time step; 0: there was none
+/// \returns their number
+std::int64_t mark_failed(Ties& ties, double step, const Nodes& nodes);
 
 /// Transfer forces and moments of tied nodes to the corners, in a fixed order.
 void gather_forces(const Ties& ties, Nodes& nodes);

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "io/deck/closest_word.hpp"
+#include "io/yaml/closest_word.hpp"
 
 namespace brio {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "io/deck/yaml_source.hpp"
+#include "io/yaml/yaml_source.hpp"
 
 namespace brio {
 

@@ -209,10 +209,19 @@ void read_value(const YamlNode& node, const Slot& slot, Load& load) {
   throw DeckError(node.place, "nothing is said about the load; " + accepted_words("", names_of(load)));
 }
 
-void read_value(const YamlNode& node, const Slot& slot, Probe& probe) {
-  read_fields(node, slot, probe);
-  if (probe.part) slot.known.part(*node.find("part")->value, *probe.part);
+namespace {
+
+/// A point whose nearest node is meant, of one part where it is named.
+template <class AtNode>
+void read_at_node(const YamlNode& node, const Slot& slot, AtNode& value) {
+  read_fields(node, slot, value);
+  if (value.part) slot.known.part(*node.find("part")->value, *value.part);
 }
+
+}  // namespace
+
+void read_value(const YamlNode& node, const Slot& slot, SpringEnd& end) { read_at_node(node, slot, end); }
+void read_value(const YamlNode& node, const Slot& slot, Probe& probe) { read_at_node(node, slot, probe); }
 
 namespace {
 
@@ -312,6 +321,7 @@ void KnownNames::expect_condition(const YamlNode& node, std::string_view name) c
   for (const BoundaryCondition& condition : deck_.boundary_conditions)
     if (!name_of(condition).empty()) names.push_back(name_of(condition));
   const auto count = std::ranges::count(names, name);
+  expect_complete(count > 0);
   if (count == 0)
     throw DeckError(node.place, "no boundary condition is called '" + std::string(name) + "'; " +
                                     (names.empty() ? "none has a name" : accepted_words(name, names)));

@@ -3,7 +3,7 @@
 #include "io/deck/deck_files.hpp"
 #include "io/deck/preset.hpp"
 #include "io/deck/read_fields.hpp"
-#include "io/deck/yaml_source.hpp"
+#include "io/yaml/yaml_source.hpp"
 #include "src/output/cell_variables.hpp"
 
 namespace brio {
@@ -55,8 +55,13 @@ Deck parse_deck(const std::string& text, const std::string& name, const std::vec
   root = with_preset(with_tables(root, name));
   Deck deck;
   deck.file = name;
-  const KnownNames known(deck, *root);
-  read_fields(*root, Slot{"deck", any_number, known}, deck);
+  FaultList faults;
+  const KnownNames known(deck, *root, &faults);
+  try {
+    read_fields(*root, Slot{"deck", any_number, known}, deck);
+  } catch (const FaultsTold&) {
+    faults.raise();
+  }
   if (deck.parts.empty())
     throw DeckError(
         root->find("parts")->value->place,

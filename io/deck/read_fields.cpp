@@ -82,10 +82,23 @@ void check_name(const YamlEntry& entry, std::string_view kind) {
                                    "'; accepted are letters, digits, _ and -");
 }
 
+void check_key(const YamlEntry& entry, const std::vector<std::string_view>& accepted) {
+  if (std::find(accepted.begin(), accepted.end(), entry.key) == accepted.end())
+    throw DeckError(entry.place, "unknown key '" + entry.key + "'; " + accepted_words(entry.key, accepted));
+}
+
 void check_keys(const YamlNode& map, const std::vector<std::string_view>& accepted) {
-  for (const YamlEntry& entry : map.entries)
-    if (std::find(accepted.begin(), accepted.end(), entry.key) == accepted.end())
-      throw DeckError(entry.place, "unknown key '" + entry.key + "'; " + accepted_words(entry.key, accepted));
+  for (const YamlEntry& entry : map.entries) check_key(entry, accepted);
+}
+
+void expect_value(const YamlNode& map, const YamlEntry* entry, const Slot& slot, std::string_view key,
+                  std::string_view meaning) {
+  if (entry == nullptr)
+    throw DeckError(map.place, "'" + std::string(slot.key) + "' has no '" + std::string(key) +
+                                   "'; it is required: " + std::string(meaning));
+  if (entry->value->is_null())
+    throw DeckError(entry->place,
+                    "'" + std::string(key) + "' has no value; expected: " + std::string(meaning));
 }
 
 void read_value(const YamlNode& node, const Slot& slot, double& value) {
@@ -113,12 +126,28 @@ void read_value(const YamlNode& node, const Slot& slot, std::string& value) {
   value = node.text;
 }
 
+bool KnownNames::attempt(std::string_view name, const std::function<void()>& read) const {
+  if (faults_ != nullptr) return faults_->attempt(name, read);
+  read();
+  return true;
+}
+
+void KnownNames::expect_read(std::string_view name) const {
+  if (faults_ != nullptr && faults_->concerns(name)) throw FaultsTold{};
+}
+
+void KnownNames::expect_complete(bool is_complete) const {
+  if (!is_complete && faults_ != nullptr && !faults_->empty()) throw FaultsTold{};
+}
+
 const Part& KnownNames::part(const YamlNode& node, std::string_view name) const {
+  expect_read(name);
   if (parts_.size() != deck_.parts.size()) {
     parts_.clear();
     for (const Part& part : deck_.parts) parts_[part.name] = &part;
   }
   if (const auto found = parts_.find(name); found != parts_.end()) return *found->second;
+  expect_complete(!deck_.parts.empty());
   std::vector<std::string_view> names;
   for (const Part& part : deck_.parts) names.push_back(part.name);
   throw DeckError(node.place,
@@ -135,6 +164,7 @@ double KnownNames::end_time() const {
 }
 
 std::vector<const Part*> KnownNames::parts_called(const YamlNode& node, std::string_view name) const {
+  expect_read(name);
   std::vector<const Part*> parts;
   for (const std::size_t p : brio::parts_called(name, deck_)) parts.push_back(&deck_.parts[p]);
   if (!parts.empty()) return parts;
@@ -145,21 +175,25 @@ std::vector<const Part*> KnownNames::parts_called(const YamlNode& node, std::str
 }
 
 const MeshFile& KnownNames::mesh_file(const YamlNode& node) const {
+  expect_read(node.text);
   std::vector<std::string_view> names;
   for (const MeshFile& file : deck_.meshes) {
     if (file.name == node.text) return file;
     names.push_back(file.name);
   }
+  expect_complete(!names.empty());
   throw DeckError(node.place, "no mesh file is called '" + node.text + "' in 'meshes'; " +
                                   accepted_words(node.text, names));
 }
 
 const Material& KnownNames::material(const YamlNode& node) const {
+  expect_read(node.text);
   std::vector<std::string_view> names;
   for (const auto& [name, material] : deck_.materials) {
     if (name == node.text) return material;
     names.push_back(name);
   }
+  expect_complete(!names.empty());
   throw DeckError(node.place,
                   "no material is called '" + node.text + "'; " + accepted_words(node.text, names));
 }

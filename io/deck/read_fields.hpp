@@ -14,9 +14,10 @@
 #include <variant>
 #include <vector>
 
-#include "io/deck/closest_word.hpp"
-#include "io/deck/yaml_source.hpp"
 #include "io/mesh_format/file_meshes.hpp"
+#include "io/yaml/closest_word.hpp"
+#include "io/yaml/fault_list.hpp"
+#include "io/yaml/yaml_source.hpp"
 #include "src/deck/deck.hpp"
 
 namespace brio {
@@ -24,7 +25,17 @@ namespace brio {
 /// Names that later entries of a deck may refer to: what of the deck has been read so far.
 class KnownNames {
  public:
-  KnownNames(const Deck& deck, const YamlNode& root) : deck_(deck), root_(root) {}
+  /// \param faults where they gather; null: the first one ends the reading
+  KnownNames(const Deck& deck, const YamlNode& root, FaultList* faults = nullptr)
+      : deck_(deck), root_(root), faults_(faults) {}
+
+  /// As FaultList has it; without a list a fault goes on to the caller.
+  bool attempt(std::string_view name, const std::function<void()>& read) const;
+  /// \throws FaultsTold where a thing of that name could not be read.
+  void expect_read(std::string_view name) const;
+  /// \throws FaultsTold where a list of names may lack some, as there are faults. \param is_complete whether
+  /// it cannot
+  void expect_complete(bool is_complete) const;
 
   /// \throws DeckError if no part is called so.
   const Part& part(const YamlNode& node, std::string_view name) const;
@@ -47,6 +58,7 @@ class KnownNames {
  private:
   const Deck& deck_;
   const YamlNode& root_;
+  FaultList* faults_;
   std::shared_ptr<FileMeshes> file_meshes_ = std::make_shared<FileMeshes>();
   mutable std::unordered_map<std::string_view, const Part*> parts_;  ///< filled when all parts are read
 };
@@ -86,6 +98,7 @@ void read_value(const YamlNode& node, const Slot& slot, Load& load);
 void read_value(const YamlNode& node, const Slot& slot, Connection& connection);
 void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair);
 void read_value(const YamlNode& node, const Slot& slot, ContactSection& contact);
+void read_value(const YamlNode& node, const Slot& slot, SpringEnd& end);
 void read_value(const YamlNode& node, const Slot& slot, Probe& probe);
 void read_value(const YamlNode& node, const Slot& slot, ReactionColumns& columns);
 void read_value(const YamlNode& node, const Slot& slot, ContactColumns& columns);
@@ -107,6 +120,12 @@ void require_map(const YamlNode& node, const Slot& slot);
 void check_name(const YamlEntry& entry, std::string_view kind);
 /// \throws DeckError at the first key that is not among the accepted.
 void check_keys(const YamlNode& map, const std::vector<std::string_view>& accepted);
+/// \throws DeckError unless the key is among the accepted.
+void check_key(const YamlEntry& entry, const std::vector<std::string_view>& accepted);
+
+/// \throws DeckError where the entry of a required key is not there, or has no value.
+void expect_value(const YamlNode& map, const YamlEntry* entry, const Slot& slot, std::string_view key,
+                  std::string_view meaning);
 
 template <class T>
 concept HasFault = requires(const T& value) {
@@ -148,31 +167,40 @@ void read_value(const YamlNode& node, const Slot& slot, std::array<T, N>& values
   for (std::size_t i = 0; i < N; ++i) read_value(*node.items[i], slot, values[i]);
 }
 
-/// A map of names, or a list.
+/// A map of names, or a list. Faults of one entry leave the others to be read.
 template <class T>
 void read_value(const YamlNode& node, const Slot& slot, std::vector<T>& values) {
+  bool complete = true;
   if constexpr (HasOwnName<T>) {
     require_map(node, slot);
     for (const YamlEntry& entry : node.entries) {
-      check_name(entry, slot.key);
       T& value = values.emplace_back();
       value.name = entry.key;
-      read_value(*entry.value, {entry.key, any_number, slot.known}, value);
-      if constexpr (HasPlace<T>) value.place = to_string(entry.place);
+      complete &= slot.known.attempt(entry.key, [&] {
+        check_name(entry, slot.key);
+        read_value(*entry.value, {entry.key, any_number, slot.known}, value);
+        if constexpr (HasPlace<T>) value.place = to_string(entry.place);
+      });
     }
   } else {
     if (!node.is_sequence()) refuse(node, slot, "a list");
-    for (const auto& item : node.items) read_value(*item, slot, values.emplace_back());
+    for (const auto& item : node.items)
+      complete &= slot.known.attempt("", [&] { read_value(*item, slot, values.emplace_back()); });
   }
+  if (!complete) throw FaultsTold{};
 }
 template <class T>
 void read_value(const YamlNode& node, const Slot& slot, std::vector<std::pair<std::string, T>>& values) {
   require_map(node, slot);
+  bool complete = true;
   for (const YamlEntry& entry : node.entries) {
-    check_name(entry, slot.key);
-    values.emplace_back(entry.key, T{});
-    read_value(*entry.value, {entry.key, any_number, slot.known}, values.back().second);
+    T& value = values.emplace_back(entry.key, T{}).second;
+    complete &= slot.known.attempt(entry.key, [&] {
+      check_name(entry, slot.key);
+      read_value(*entry.value, {entry.key, any_number, slot.known}, value);
+    });
   }
+  if (!complete) throw FaultsTold{};
 }
 
 template <class T>
@@ -188,8 +216,9 @@ std::vector<std::string_view> keys_of() {
   return keys;
 }
 
-/// Reads the entries of a map into a struct, in the order of its table.
-/// \param besides keys that the caller reads
+/// Reads the entries of a map into a struct, in the order of its table. Faults of one entry leave the others
+/// to be read; a key that is missing is not told where one is unknown, which it may be. \param besides keys
+/// that the caller reads
 template <HasFields T>
 void read_fields(const YamlNode& map, const Slot& slot, T& value,
                  const std::vector<std::string_view>& besides = {}) {
@@ -197,21 +226,20 @@ void read_fields(const YamlNode& map, const Slot& slot, T& value,
   if constexpr (HasPlace<T>) value.place = to_string(map.place);
   std::vector<std::string_view> accepted = besides;
   for (const std::string_view key : keys_of<T>()) accepted.push_back(key);
-  check_keys(map, accepted);
+  bool complete = true;
+  for (const YamlEntry& entry : map.entries)
+    complete &= slot.known.attempt("", [&] { check_key(entry, accepted); });
+  const bool knows_all = complete;
   const auto read_field = [&](const auto& field) {
     const YamlEntry* entry = map.find(field.key);
-    if (entry == nullptr) {
-      if (field.is_required)
-        throw DeckError(map.place, "'" + std::string(slot.key) + "' has no '" + std::string(field.key) +
-                                       "'; it is required: " + std::string(field.meaning));
-      return;
-    }
-    if (entry->value->is_null())
-      throw DeckError(entry->place, "'" + std::string(field.key) +
-                                        "' has no value; expected: " + std::string(field.meaning));
-    read_value(*entry->value, Slot{field.key, field.range, slot.known}, value.*field.member);
+    if (entry == nullptr && !(field.is_required && knows_all)) return;
+    complete &= slot.known.attempt("", [&] {
+      expect_value(map, entry, slot, field.key, field.meaning);
+      read_value(*entry->value, Slot{field.key, field.range, slot.known}, value.*field.member);
+    });
   };
   T::fields()(read_field);
+  if (!complete) throw FaultsTold{};
   if constexpr (HasFault<T>) {
     if (const std::string_view fault = value.fault(); !fault.empty())
       throw DeckError(map.place, std::string(fault));

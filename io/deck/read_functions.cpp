@@ -29,6 +29,7 @@ std::shared_ptr<const Expression> parse(const YamlNode& node, const Slot& slot,
     std::string message = fmt::format("in the expression \"{}\" of '{}', at character {}: {}", node.text,
                                       slot.key, error.position() + 1, error.what());
     if (!error.unknown().empty()) {
+      slot.known.expect_read(error.unknown());
       std::vector<std::string_view> names;
       for (const auto& [name, value] : parameters.values) names.push_back(name);
       for (const std::string_view name : Expression::names(variables)) names.push_back(name);
@@ -90,12 +91,15 @@ void read_value(const YamlNode& node, const Slot& slot, Parameters& parameters) 
         throw DeckError(entry.place,
                         "'" + entry.key + "' has a meaning in expressions; another name is accepted");
   };
-  for (const YamlEntry& entry : node.entries) {
-    check_name_of(entry);
-    double value = 0;
-    read_value(*entry.value, Slot{entry.key, any_number, slot.known}, value);
-    parameters.values.emplace_back(entry.key, value);
-  }
+  bool complete = true;
+  for (const YamlEntry& entry : node.entries)
+    complete &= slot.known.attempt(entry.key, [&] {
+      check_name_of(entry);
+      double value = 0;
+      read_value(*entry.value, Slot{entry.key, any_number, slot.known}, value);
+      parameters.values.emplace_back(entry.key, value);
+    });
+  if (!complete) throw FaultsTold{};
 }
 
 namespace {

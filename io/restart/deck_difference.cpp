@@ -5,7 +5,7 @@
 #include <charconv>
 #include <string_view>
 
-#include "io/deck/yaml_source.hpp"
+#include "io/yaml/yaml_source.hpp"
 
 namespace brio {
 

@@ -103,7 +103,10 @@ std::string summary_json(const Summary& summary) {
             {"warnings", summary.warnings}};
   if (!summary.restarted_from.empty()) json["restarted_from"] = summary.restarted_from;
   if (summary.contact.audits) json["crossings"] = summary.contact.audits->crossings;
-  if (summary.ties) json["ties"] = {{"nodes", summary.ties->nodes}, {"released", summary.ties->released}};
+  if (summary.ties)
+    json["ties"] = {{"nodes", summary.ties->nodes},
+                    {"released", summary.ties->released},
+                    {"failed", summary.ties->failed}};
   if (summary.mass_scaling)
     json["mass_scaling"] = {{"added", summary.mass_scaling->added},
                             {"share", summary.mass_scaling->share},

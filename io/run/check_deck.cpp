@@ -32,6 +32,8 @@ CheckReport check_deck(const ForecastOptions& options, const std::function<void(
   report.critical_part = model.parts[model.control.critical_block].name;
   report.critical_element = static_cast<std::size_t>(
       model.parts[model.control.critical_block].number_of_element(model.control.critical_element));
+  if (const int spring = model.springs.critical; spring >= 0)
+    report.critical_spring = model.springs.spring[static_cast<std::size_t>(spring)].name;
   report.active_features = active_features(model);
   report.not_built = features_not_built(model);
   report.warnings = scene_warnings(deck, model);

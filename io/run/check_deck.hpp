@@ -29,10 +29,11 @@ struct CheckReport {
   double step_share_of_ties = 1;
   std::vector<InitialOverlap> initial_overlaps;
   double end = 0;
-  double stable_step = 0;  ///< not finite: all parts are rigid
+  double stable_step = 0;  ///< not finite: all parts are rigid, and no spring bounds it
   double first_step = 0;
   std::string critical_part;
   std::size_t critical_element = 0;
+  std::string critical_spring;  ///< that sets the time step instead; empty: none
   std::vector<std::string> active_features;
   std::vector<BuiltFeature> built;
   std::vector<std::string> not_built;

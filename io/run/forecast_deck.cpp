@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "io/deck/deck_error.hpp"
 #include "io/files/file_error.hpp"
 #include "io/run/run_deck.hpp"
+#include "io/yaml/deck_error.hpp"
 #include "src/forecast/coarser.hpp"
 #include "src/output/output_schedule.hpp"
 #include "src/step/advance.hpp"

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <csignal>
 
-#include "io/deck/deck_error.hpp"
 #include "io/deck/read_deck.hpp"
 #include "io/mesh/generate_mesh.hpp"
 #include "io/restart/deck_difference.hpp"
@@ -14,6 +13,7 @@
 #include "io/results/write_results.hpp"
 #include "io/run/run_output.hpp"
 #include "io/run/scene_size.hpp"
+#include "io/yaml/deck_error.hpp"
 #include "src/build/build.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/run_warnings.hpp"
@@ -37,6 +37,13 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+std::string critical_of(const Model& model) {
+  if (const int spring = model.springs.critical; spring >= 0)
+    return "spring " + model.springs.spring[static_cast<std::size_t>(spring)].name;
+  const PartInModel& part = model.parts[model.control.critical_block];
+  return part.name + " " + std::to_string(part.number_of_element(model.control.critical_element));
+}
+
 // Calls back now and then, and foresees the end from the speed of the last stretch.
 class ProgressReporter {
  public:
@@ -53,15 +60,12 @@ class ProgressReporter {
     time_ = model.times.time;
     const std::size_t part = part_of_largest_ratio(model.part_energy);
     const PartEnergy& worst = model.part_energy[part];
-    const PartInModel& critical = model.parts[model.control.critical_block];
     const bool hourglasses = worst.time_of_warning >= 0;
     options_.progress({.time = model.times.time,
                        .end = end_,
                        .step = model.step,
                        .dt = model.times.next,
-                       .critical_part = critical.name,
-                       .critical_element = static_cast<std::size_t>(
-                           critical.number_of_element(model.control.critical_element)),
+                       .critical = critical_of(model),
                        .energy_error = model.energy.relative_error(),
                        .deleted = model.erosion ? model.erosion->total_deleted() : 0,
                        .hourglassing = hourglasses ? model.parts[part].name : "",

@@ -22,8 +22,7 @@ struct Progress {
   double end = 0;
   std::int64_t step = 0;
   double dt = 0;
-  std::string critical_part;         ///< whose element sets the stable time step
-  std::size_t critical_element = 0;  ///< of that part's mesh, by its number in a mesh file
+  std::string critical;  ///< what sets the stable time step: part and number of an element, or a spring
   double energy_error = 0;
   std::int64_t deleted = 0;  ///< elements
   std::string hourglassing;  ///< part whose hourglass energy is beyond the limit most; empty: none

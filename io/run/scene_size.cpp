@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "io/deck/deck_error.hpp"
+#include "io/yaml/deck_error.hpp"
 #include "src/build/build.hpp"
 #include "src/forecast/memory.hpp"
 

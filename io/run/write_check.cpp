@@ -106,23 +106,24 @@ Json forecast(const CheckReport& report) {
 }  // namespace
 
 std::string check_json(const CheckReport& report) {
-  const Json json{{"title", report.title},
-                  {"parts", parts(report)},
-                  {"nodes", report.nodes},
-                  {"mesh_notices", report.mesh_notices},
-                  {"connections", joints(report)},
-                  {"initial_overlaps", overlaps(report)},
-                  {"step",
-                   {{"stable", report.stable_step},
-                    {"first", report.first_step},
-                    {"part", report.critical_part},
-                    {"element", report.critical_element}}},
-                  {"end_time", report.end},
-                  {"active_features", report.active_features},
-                  {"built", built(report)},
-                  {"not_built", report.not_built},
-                  {"warnings", warnings(report)},
-                  {"forecast", forecast(report)}};
+  Json json{{"title", report.title},
+            {"parts", parts(report)},
+            {"nodes", report.nodes},
+            {"mesh_notices", report.mesh_notices},
+            {"connections", joints(report)},
+            {"initial_overlaps", overlaps(report)},
+            {"step",
+             {{"stable", report.stable_step},
+              {"first", report.first_step},
+              {"part", report.critical_part},
+              {"element", report.critical_element}}},
+            {"end_time", report.end},
+            {"active_features", report.active_features},
+            {"built", built(report)},
+            {"not_built", report.not_built},
+            {"warnings", warnings(report)},
+            {"forecast", forecast(report)}};
+  if (!report.critical_spring.empty()) json["step"]["spring"] = report.critical_spring;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

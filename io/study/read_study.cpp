@@ -5,7 +5,7 @@
 
 #include "io/deck/read_deck.hpp"
 #include "io/deck/read_fields.hpp"
-#include "io/deck/yaml_source.hpp"
+#include "io/yaml/yaml_source.hpp"
 
 namespace brio {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "io/deck/deck_error.hpp"
+#include "io/yaml/deck_error.hpp"
 #include "src/forecast/study.hpp"
 
 namespace brio {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "elements/base/bad_element.hpp"
+#include "src/build/build_loads.hpp"
 #include "src/build/build_rigid.hpp"
 #include "src/build/build_ties.hpp"
 #include "src/build/contact_thickness.hpp"
@@ -233,37 +234,6 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   }
 }
 
-// One a part, of those that a set of a mesh file reaches into.
-std::vector<PressureLoad> pressures_on(const Pressure& load_entry, const Deck& deck,
-                                       std::span<const Mesh> meshes, const Model& model) {
-  const std::string& side_set = load_entry.side_set;
-  const std::size_t dot_at = side_set.find('.');
-  std::vector<PressureLoad> loads;
-  for (const std::size_t p : parts_called(side_set.substr(0, dot_at), deck)) {
-    if (dot_at == std::string::npos) break;
-    const Mesh& mesh = meshes[p];
-    const auto found = mesh.side_sets.find(side_set.substr(dot_at + 1));
-    if (found == mesh.side_sets.end()) continue;
-    const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
-    PressureLoad load{{}, load_entry.pressure, static_cast<int>(p), {}};
-    for (const ElementSide& side : found->second) {
-      std::array<int, 4> nodes{};
-      for (std::size_t k = 0; k < 4; ++k) {
-        const int corner =
-            corners == 8 ? sides_of_hex[static_cast<std::size_t>(side.side)][k] : static_cast<int>(k);
-        const auto entry =
-            static_cast<std::size_t>(side.element) * corners + static_cast<std::size_t>(corner);
-        nodes[k] = model.parts[p].node[static_cast<std::size_t>(mesh.connectivity[entry])];
-      }
-      load.sides.push_back(nodes);
-      load.element.push_back(side.element);
-    }
-    loads.push_back(std::move(load));
-  }
-  if (loads.empty()) throw BuildError("no side set is named '" + side_set + "'", load_entry.place);
-  return loads;
-}
-
 double debris_radius(const Part& part) {
   return part.deletion ? part.deletion->debris_radius.value_or(0) : 0;
 }
@@ -337,28 +307,19 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     if (deck.contact->options.audit) model.contact_audits.emplace();
     const std::vector<PairRule> rules = pair_rules(*deck.contact, surfaces);
     if (!rules.empty()) model.contacts.back().surface.pairs = {rules, surfaces, model.nodes.size()};
-    if (!model.ties.empty()) exclude_tied_pairs(model.contacts.back(), model.ties, part_of_surface);
+    const Ties lasting = ties_that_last(model.ties);
+    if (!lasting.empty()) exclude_tied_pairs(model.contacts.back(), lasting, part_of_surface);
     if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
     ThreadTeam team(threads);
     for (InitialOverlap& overlap : make_initial_gap(model.contacts.back(), model.nodes, team))
       model.initial_overlaps.push_back(std::move(overlap));
+    if (lasting.node.size() == model.ties.node.size()) return;
+    tie_again(model);
+    exclude_tied_pairs(model.contacts.back(), model.ties, part_of_surface);
   } catch (const std::invalid_argument& fault) {
     throw BuildError(fault.what(), deck.contact->place);
   } catch (const std::length_error& fault) {
     throw BuildError(fault.what(), deck.contact->place);
-  }
-}
-
-void load(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
-  for (const Load& entry : deck.loads) {
-    if (const auto* gravity = std::get_if<Gravity>(&entry))
-      model.loads.push_back({GravityLoad{gravity->acceleration, gravity->factor}, {}});
-    if (const auto* force = std::get_if<NodalForce>(&entry))
-      model.loads.push_back(
-          {NodalLoad{select_nodes(force->where, deck, meshes, model), force->force, force->factor}, {}});
-    if (const auto* pressure = std::get_if<Pressure>(&entry))
-      for (PressureLoad& load : pressures_on(*pressure, deck, meshes, model))
-        model.loads.push_back({std::move(load), {}});
   }
 }
 
@@ -401,9 +362,10 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   start_rigid_bodies(deck, meshes, model);
   refuse_contradictory_motions(model);
   refuse_motions_through_walls(model);
-  load(deck, meshes, model);
+  make_loads(deck, meshes, model);
   model.extent = scene_extent(model.nodes);
   start_balances(model);
+  make_springs(deck, model);
   prepare_history(deck, model);
   return model;
 }

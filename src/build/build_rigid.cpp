@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "src/build/build.hpp"
-#include "src/build/mass_properties.hpp"
+#include "src/deck/mass_properties.hpp"
 
 namespace brio {
 
@@ -91,7 +91,8 @@ void make_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& mo
     model.rigid.body.push_back(make_body(p, deck.parts[p], meshes[p], deck, model));
   }
   model.rigid.motion.resize(model.rigid.body.size());
-  if (!model.rigid.empty() && model.rigid.body.size() == deck.parts.size() && !deck.time.step)
+  if (!model.rigid.empty() && model.rigid.body.size() == deck.parts.size() && !deck.time.step &&
+      deck.springs.empty())
     throw BuildError("all parts are rigid, so that no element bounds the time step; time.step is required",
                      deck.time.place);
 }

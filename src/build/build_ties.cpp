@@ -86,6 +86,14 @@ struct Found {
   double rank = 0;      ///< the same, more beyond an edge
 };
 
+// On a face with rotations the distance is an arm that rotates with it.
+void take_rotations(Tie& tie, const FaceVertices& corners, const Nodes& nodes) {
+  tie.turning = true;
+  tie.arm = position(nodes, tie.node) - point_on(tie, corners);
+  if (tie.gap == 0) tie.arm.setZero();
+  tie.gap = 0;
+}
+
 // Of each slave: the closest face within the tolerance, the first of those as close.
 std::vector<Found> closest_faces(const MainSurface& main_surface, std::span<const int> slaves,
                                  double tolerance, const Nodes& nodes) {
@@ -106,12 +114,7 @@ std::vector<Found> closest_faces(const MainSurface& main_surface, std::span<cons
       if (best.face >= 0 && !(rank < best.rank)) continue;
       tie->node = node;
       tie->corner = face.node;
-      if (main_surface.turning) {
-        tie->turning = true;
-        tie->arm = position(nodes, node) - point_on(*tie, corners);
-        if (tie->gap == 0) tie->arm.setZero();
-        tie->gap = 0;
-      }
+      if (main_surface.turning) take_rotations(*tie, corners, nodes);
       best = {*tie, static_cast<int>(f), distance, rank};
     }
   }
@@ -137,6 +140,10 @@ class Tying {
     std::erase_if(slaves, [&](int node) { return std::binary_search(own.begin(), own.end(), node); });
 
     TiedParts parts{.nodes = entry.names[0], .surface = entry.names[1], .place = entry.place};
+    if (entry.failure) {
+      parts.normal_force = entry.failure->normal_force.value_or(parts.normal_force);
+      parts.shear_force = entry.failure->shear_force.value_or(parts.shear_force);
+    }
     for (const Found& found : closest_faces(main_surface, slaves, entry.tolerance, model_.nodes)) {
       if (found.face < 0) continue;
       tie_node(found, main_surface, entry);
@@ -262,6 +269,30 @@ void make_ties(const Deck& deck, std::span<const Mesh> meshes, std::span<const s
   tying.sort();
   number(model.ties, model.nodes.size());
   release_supports(model.ties, model);
+}
+
+Ties ties_that_last(const Ties& ties) {
+  Ties lasting = ties;
+  std::erase_if(lasting.node, [&](const TiedNode& tied) {
+    return ties.found[static_cast<std::size_t>(tied.connection)].can_fail();
+  });
+  if (lasting.node.empty()) return {};
+  number(lasting, ties.of_node.size());
+  return lasting;
+}
+
+void tie_again(Model& model) {
+  for (TiedNode& tied : model.ties.node) {
+    if (!model.ties.found[static_cast<std::size_t>(tied.connection)].can_fail()) continue;
+    const Tie before = tied.tie;
+    const FaceVertices corners = corners_of(before, model.nodes);
+    const std::optional<Tie> now = project(position(model.nodes, before.node), corners);
+    if (!now) continue;
+    tied.tie = *now;
+    tied.tie.node = before.node;
+    tied.tie.corner = before.corner;
+    if (before.turning) take_rotations(tied.tie, corners, model.nodes);
+  }
 }
 
 void start_ties(Model& model) {

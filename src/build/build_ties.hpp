@@ -17,6 +17,12 @@ namespace brio {
 void make_ties(const Deck& deck, std::span<const Mesh> meshes, std::span<const std::vector<int>> connectivity,
                Model& model);
 
+/// Those that no force can end: where they are, contact makes no gap.
+Ties ties_that_last(const Ties& ties);
+
+/// Ties that can fail to the same faces, at the distances that nodes have now.
+void tie_again(Model& model);
+
 /// Give tied nodes the initial velocity of their faces.
 /// \throws BuildError where initial conditions give them another motion.
 void start_ties(Model& model);

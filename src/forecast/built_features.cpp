@@ -155,7 +155,8 @@ void add_conditions(const Deck& deck, const Model& model, Features& features) {
         .name = "", .because = "loads[" + std::to_string(i) + "]", .detail = "", .bytes = bytes_held(load)};
     if (std::holds_alternative<GravityLoad>(load.load)) feature.name = "gravity";
     if (const auto* nodal = std::get_if<NodalLoad>(&load.load))
-      feature.name = "nodal force", feature.detail = counted(nodal->nodes.size(), "node");
+      feature.name = nodal->is_moment ? "nodal moment" : "nodal force",
+      feature.detail = counted(nodal->nodes.size(), "node");
     if (const auto* pressure = std::get_if<PressureLoad>(&load.load))
       feature.name = "pressure", feature.detail = counted(pressure->sides.size(), "side");
     features.push_back(std::move(feature));
@@ -165,6 +166,9 @@ void add_conditions(const Deck& deck, const Model& model, Features& features) {
 void add_damping(const Deck& deck, const Model& model, Features& features) {
   if (!deck.point_masses.empty())
     features.push_back({"point masses", "point_masses", counted(deck.point_masses.size(), "set"), 0});
+  if (!model.springs.empty())
+    features.push_back(
+        {"springs", "springs", counted(model.springs.spring.size(), "spring"), bytes_held(model.springs)});
   if (!model.damping.empty())
     features.push_back(
         {"damping", listed(keys_of_parts(deck, "damping", [](const Part& part) { return part.damping > 0; })),
@@ -228,6 +232,7 @@ std::vector<std::string> features_not_built(const Model& model) {
       {"prescribed motion", model.prescribed.empty() && bodies_with_given_motion(model.rigid) == 0},
       {"rigid walls", model.walls.empty()},
       {"loads", model.loads.empty()},
+      {"springs", model.springs.empty()},
       {"damping", model.damping.empty()},
       {"mass scaling", !model.added_mass},
       {"contact", model.contacts.empty()}};

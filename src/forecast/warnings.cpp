@@ -206,6 +206,8 @@ void warn_of_unused(const Deck& deck, const Model& model, Warnings& warnings) {
     if (const auto* pressure = std::get_if<PressureLoad>(&load.load))
       for (const auto& side : pressure->sides) concerned.insert(side.begin(), side.end());
   }
+  for (const SpringInRun& spring : model.springs.spring)
+    for (const SpringAnchor& anchor : spring.end) concerned.insert(anchor.node);
   std::set<std::string> joined_parts;
   for (const MergedParts& merged : model.merged) joined_parts.insert({merged.first, merged.second});
   for (const TiedParts& tied : model.ties.found)
@@ -243,7 +245,7 @@ void warn_of_hourglass(const Deck& deck, const Model& model, Warnings& warnings)
   }
   for (const ActiveLoad& load : model.loads) {
     const auto* nodal = std::get_if<NodalLoad>(&load.load);
-    if (nodal == nullptr || nodal->nodes.size() != 1 || is_zero(nodal->force)) continue;
+    if (nodal == nullptr || nodal->is_moment || nodal->nodes.size() != 1 || is_zero(nodal->force)) continue;
     for (std::size_t p = 0; p < deck.parts.size(); ++p) {
       const std::vector<int>& nodes = model.parts[p].node;
       if (!std::holds_alternative<Hex8>(deck.parts[p].element)) continue;

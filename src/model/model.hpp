@@ -25,6 +25,7 @@
 #include "src/motion/loads.hpp"
 #include "src/motion/motion.hpp"
 #include "src/motion/rigid.hpp"
+#include "src/motion/springs.hpp"
 #include "src/sweep/erosion.hpp"
 #include "src/sweep/mass_scaling.hpp"
 #include "src/sweep/particles.hpp"
@@ -68,6 +69,7 @@ struct Model {
   std::vector<ParticleSearch>
       particle_searches;  ///< of blocks of particles with an updated-Lagrangian kernel
   std::vector<ActiveLoad> loads;
+  Springs springs;
   NodalDamping damping;  ///< empty unless a part is damped
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;

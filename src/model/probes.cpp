@@ -15,30 +15,34 @@ Vector position_of(const Nodes& nodes, std::size_t node) {
 
 }  // namespace
 
+std::size_t nearest_node(const Triple& point, const std::optional<std::string>& part, const Deck& deck,
+                         std::span<const PartInModel> parts, const Nodes& nodes) {
+  std::size_t nearest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  const auto look = [&](const PartInModel& of) {
+    for (const int entry : of.node) {
+      const auto node = static_cast<std::size_t>(entry);
+      Vector distance = position_of(nodes, node);
+      for (std::size_t i = 0; i < 3; ++i) distance[i] -= point[i];
+      const double square = dot(distance, distance);
+      if (square >= least) continue;
+      least = square;
+      nearest = node;
+    }
+  };
+  if (part)
+    look(parts[part_index(*part, deck)]);
+  else
+    for (const PartInModel& of : parts) look(of);
+  return nearest;
+}
+
 std::vector<ProbeInRun> place_probes(const Deck& deck, std::span<const PartInModel> parts,
                                      const Nodes& nodes) {
   std::vector<ProbeInRun> probes;
   for (const Probe& wanted : deck.output.history.probes) {
-    ProbeInRun& probe = probes.emplace_back();
-    probe.name = wanted.name;
-    double least = std::numeric_limits<double>::infinity();
-    const auto look = [&](const PartInModel& part) {
-      for (const int entry : part.node) {
-        const auto node = static_cast<std::size_t>(entry);
-        Vector distance = position_of(nodes, node);
-        for (std::size_t i = 0; i < 3; ++i) distance[i] -= wanted.point[i];
-        const double square = dot(distance, distance);
-        if (square >= least) continue;
-        least = square;
-        probe.node = node;
-      }
-    };
-    if (wanted.part) {
-      look(parts[part_index(*wanted.part, deck)]);
-    } else {
-      for (const PartInModel& part : parts) look(part);
-    }
-    probe.at_start = position_of(nodes, probe.node);
+    const std::size_t node = nearest_node(wanted.point, wanted.part, deck, parts, nodes);
+    probes.push_back({.name = wanted.name, .node = node, .at_start = position_of(nodes, node)});
   }
   return probes;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Nodes whose motion is written to the history.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,7 +18,12 @@ struct ProbeInRun {
   Vector at_start{};  ///< its position
 };
 
-/// The node nearest to each probe, the first of equals. \throws BuildError where a part is not there.
+/// The node nearest to a point, the first of equals. \param part empty: of all parts
+/// \throws BuildError where the part is not there
+std::size_t nearest_node(const Triple& point, const std::optional<std::string>& part, const Deck& deck,
+                         std::span<const PartInModel> parts, const Nodes& nodes);
+
+/// The nodes nearest to the probes. \throws BuildError where a part is not there.
 std::vector<ProbeInRun> place_probes(const Deck& deck, std::span<const PartInModel> parts,
                                      const Nodes& nodes);
 

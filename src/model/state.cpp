@@ -12,7 +12,7 @@ void serialize(Archive& archive, Model& model) {
   archive(model.energy, model.part_energy, model.momentum);
   archive.section(2);
   archive(model.nodes, model.blocks, model.parts, model.schedule);
-  archive(model.particle_searches, model.loads, model.ties, model.rigid);
+  archive(model.particle_searches, model.loads, model.springs, model.ties, model.rigid);
   archive.section(3);
   archive(model.contacts, model.contact_audits);
   archive.section(4);
@@ -26,13 +26,14 @@ void serialize(Archive& archive, Model& model) {
 
 /// Sizes that the deck determines.
 struct Sizes {
-  std::size_t nodes, blocks, parts, loads, bodies, contacts;
+  std::size_t nodes, blocks, parts, loads, springs, bodies, contacts;
   bool erodes, adds_mass;
   explicit Sizes(const Model& model)
       : nodes(model.nodes.size()),
         blocks(model.blocks.size()),
         parts(model.parts.size()),
         loads(model.loads.size()),
+        springs(model.springs.spring.size()),
         bodies(model.rigid.body.size()),
         contacts(model.contacts.size()),
         erodes(model.erosion.has_value()),

@@ -64,15 +64,18 @@ void forces_of(const PressureLoad& load, double time, const Nodes& nodes, std::v
 
 void apply(ActiveLoad& load, double time, Nodes& nodes) {
   std::visit([&](const auto& kind) { forces_of(kind, time, nodes, load.applied); }, load.load);
+  AlignedBuffer<NodeVector>& sum = load.is_moment() ? nodes.moment : nodes.force;
   for (const NodeForce& entry : load.applied)
     for (std::size_t i = 0; i < 3; ++i)
-      nodes.force[static_cast<std::size_t>(entry.node)].component[i] += entry.force[i];
+      sum[static_cast<std::size_t>(entry.node)].component[i] += entry.force[i];
 }
 
 double power(const ActiveLoad& load, const Nodes& nodes) {
   double sum = 0;
+  const bool is_moment = load.is_moment();
   for (const NodeForce& entry : load.applied) {
-    const double* v = nodes.record[static_cast<std::size_t>(entry.node)].velocity;
+    const auto node = static_cast<std::size_t>(entry.node);
+    const double* v = is_moment ? nodes.angular_velocity[node].component : nodes.record[node].velocity;
     sum += entry.force[0] * v[0] + entry.force[1] * v[1] + entry.force[2] * v[2];
   }
   return sum;
@@ -80,7 +83,13 @@ double power(const ActiveLoad& load, const Nodes& nodes) {
 
 Impulse resultant(const ActiveLoad& load, const Nodes& nodes) {
   Impulse sum;
-  for (const NodeForce& entry : load.applied) sum.add(position_of(nodes, entry.node), entry.force);
+  const bool is_moment = load.is_moment();
+  for (const NodeForce& entry : load.applied) {
+    if (is_moment)
+      add_to(sum.angular, entry.force);
+    else
+      sum.add(position_of(nodes, entry.node), entry.force);
+  }
   return sum;
 }
 

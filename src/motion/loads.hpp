@@ -1,5 +1,5 @@
 #pragma once
-/// External loads: gravity, nodal forces, follower pressure.
+/// External loads: gravity, nodal forces and moments, follower pressure.
 
 #include <array>
 #include <variant>
@@ -10,6 +10,7 @@
 
 namespace brio {
 
+/// Or a moment, where the load is one of moments.
 struct NodeForce {
   int node;
   Vector force;
@@ -20,11 +21,13 @@ struct GravityLoad {
   Vector acceleration{};
   Curve factor;
 };
-/// The same force on each node of a list.
+/// The same force, or moment, on each node of a list.
 struct NodalLoad {
   std::vector<int> nodes;
   Vector force{};
   Curve factor;
+  bool is_moment = false;
+  std::vector<std::size_t> bodies{};  ///< rigid bodies on which the moment acts once
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
@@ -51,6 +54,11 @@ struct ActiveLoad {
   std::variant<GravityLoad, NodalLoad, PressureLoad> load;
   std::vector<NodeForce> applied;  ///< of the present step
 
+  bool is_moment() const {
+    const auto* nodal = std::get_if<NodalLoad>(&load);
+    return nodal != nullptr && nodal->is_moment;
+  }
+
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
@@ -59,10 +67,11 @@ struct ActiveLoad {
   }
 };
 
-/// Adds the forces at this time to nodes.force.
+/// Adds the forces at this time to nodes.force, moments to nodes.moment; those on rigid bodies are theirs
+/// (rigid.hpp).
 void apply(ActiveLoad& load, double time, Nodes& nodes);
 
-/// Sum of force . velocity with the present velocities.
+/// Sum of force . velocity, of forces on nodes, with the present velocities.
 double power(const ActiveLoad& load, const Nodes& nodes);
 
 /// Force and moment about the origin.

@@ -146,6 +146,12 @@ void place_nodes(const RigidBody& body, Nodes& nodes, ThreadTeam& team) {
   });
 }
 
+void add_torques(RigidBodies& bodies, const NodalLoad& load, double time) {
+  if (load.bodies.empty()) return;
+  const Vector3d moment = load.factor(time) * Vector3d(load.force.data());
+  for (const std::size_t b : load.bodies) bodies.body[b].torque += moment;
+}
+
 }  // namespace
 
 bool RigidBody::is_given(int axis) const {
@@ -185,21 +191,21 @@ void add_momentum(const RigidBodies& bodies, Momentum& sum) {
   }
 }
 
-void gather_loads(RigidBodies& bodies, std::span<const ActiveLoad> loads, double time, const Nodes& nodes) {
-  if (loads.empty()) return;
+void gather_forces(RigidBodies& bodies, std::span<const ActiveLoad> loads, double time, bool by_nodes,
+                   const Nodes& nodes) {
   Vector3d gravity = Vector3d::Zero();
-  bool on_nodes = false;
+  for (RigidBody& body : bodies.body) body.torque.setZero();
   for (const ActiveLoad& entry : loads) {
     if (const auto* load = std::get_if<GravityLoad>(&entry.load))
       gravity += load->factor(time) * Vector3d(load->acceleration.data());
-    else
-      on_nodes = true;
+    else if (const auto* nodal = std::get_if<NodalLoad>(&entry.load))
+      add_torques(bodies, *nodal, time);
   }
   for (RigidBody& body : bodies.body) {
     body.weight = body.mass * gravity;
     body.force = body.weight;
-    body.moment.setZero();
-    if (!on_nodes) continue;
+    body.moment = body.torque;
+    if (!by_nodes) continue;
     for (int entry : body.node) {
       const auto node = static_cast<std::size_t>(entry);
       const Vector3d force(nodes.force[node].component);
@@ -209,16 +215,20 @@ void gather_loads(RigidBodies& bodies, std::span<const ActiveLoad> loads, double
   }
 }
 
-double weight_power(const RigidBodies& bodies) {
+double load_power(const RigidBodies& bodies) {
   double sum = 0;
   for (std::size_t b = 0; b < bodies.body.size(); ++b)
-    sum += bodies.body[b].weight.dot(bodies.motion[b].velocity);
+    sum += bodies.body[b].weight.dot(bodies.motion[b].velocity) +
+           bodies.body[b].torque.dot(bodies.motion[b].angular_velocity);
   return sum;
 }
 
-Impulse weight(const RigidBodies& bodies) {
+Impulse load_resultant(const RigidBodies& bodies) {
   Impulse sum;
-  for (const RigidBody& body : bodies.body) sum.add(to_vector(body.centre), to_vector(body.weight));
+  for (const RigidBody& body : bodies.body) {
+    sum.add(to_vector(body.centre), to_vector(body.weight));
+    add_to(sum.angular, to_vector(body.torque));
+  }
   return sum;
 }
 

@@ -61,6 +61,7 @@ struct RigidBody {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();             ///< of loads, in this step
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Eigen::Vector3d weight = Eigen::Vector3d::Zero();  ///< gravity as a part of the force
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< of loads on the body itself, as a part of the moment
   std::vector<WallTouch> touch;                      ///< at the wall under consideration
   Eigen::Vector3d support =
       Eigen::Vector3d::Zero();  ///< linear impulse of its supports, but in contact, in this step
@@ -70,7 +71,7 @@ struct RigidBody {
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(centre, attitude.coeffs(), angular_momentum, force, moment, weight);
+    archive(centre, attitude.coeffs(), angular_momentum, force, moment, weight, torque);
   }
 };
 
@@ -96,13 +97,15 @@ KineticEnergy kinetic_energy(const RigidBodies& bodies);
 /// Adds the momentum of all bodies.
 void add_momentum(const RigidBodies& bodies, Momentum& sum);
 
-/// Forces of the loads, of which those on nodes stand in nodes.force.
-void gather_loads(RigidBodies& bodies, std::span<const ActiveLoad> loads, double time, const Nodes& nodes);
-/// Power of gravity on all bodies with their present velocities; other loads act on nodes and are known by
-/// them.
-double weight_power(const RigidBodies& bodies);
-/// Weight and its moment about the origin.
-Impulse weight(const RigidBodies& bodies);
+/// Forces and moments on the bodies: of gravity, of moments on the bodies, and what stands in nodes.force.
+/// \param by_nodes whether anything acts on their nodes
+void gather_forces(RigidBodies& bodies, std::span<const ActiveLoad> loads, double time, bool by_nodes,
+                   const Nodes& nodes);
+/// Power of loads on the bodies themselves, gravity and moments, with their present velocities; other loads
+/// act on nodes and are known by them.
+double load_power(const RigidBodies& bodies);
+/// Force and moment about the origin of the same loads.
+Impulse load_resultant(const RigidBodies& bodies);
 
 /// Apply the impulses of loads and set the prescribed components. \return the reaction of supports.
 Reaction accelerate(RigidBodies& bodies, const StepTimes& times);

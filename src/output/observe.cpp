@@ -89,9 +89,9 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
   if (has_default) add_default_of_kinds();
   for (const std::string& name : variables) {
     if (name == default_group) continue;
-    const auto derived = std::ranges::find(derived_variables(), name, &DerivedVariable::name);
-    if (derived != derived_variables().end())
-      add_cell_field(name, {Kind::derived, derived->value});
+    const auto variable = std::ranges::find(derived_variables(), name, &DerivedVariable::name);
+    if (variable != derived_variables().end())
+      add_cell_field(name, {Kind::derived, variable->value});
     else
       add_cell_field(name, {Kind::history});
   }

@@ -16,9 +16,11 @@ std::vector<std::string> active_features(const Model& model) {
     if (block.precision == Precision::single_precision) features.insert("float");
   }
   for (const ActiveLoad& load : model.loads)
-    features.insert(std::array{"gravity", "nodal_force", "pressure"}[load.load.index()]);
+    features.insert(load.is_moment() ? "nodal_moment"
+                                     : std::array{"gravity", "nodal_force", "pressure"}[load.load.index()]);
   if (!model.merged.empty()) features.insert("merged_nodes");
   if (!model.ties.empty()) features.insert("ties");
+  if (!model.springs.empty()) features.insert("springs");
   if (!model.prescribed.empty()) features.insert("prescribed_motion");
   if (!model.walls.empty()) features.insert("rigid_wall");
   if (!model.contacts.empty()) features.insert("contact");
@@ -138,6 +140,7 @@ Summary observe_end(Model& model) {
     Summary::TieCounts& ties = summary.ties.emplace(Summary::TieCounts{});
     for (const TiedParts& found : model.ties.found) ties.nodes += found.count;
     ties.released = model.ties.released;
+    ties.failed = model.ties.failed;
   }
   for (std::size_t stage = 0; stage < stage_names.size(); ++stage)
     if (model.stages.seconds[stage] > 0)

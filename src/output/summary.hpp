@@ -92,7 +92,8 @@ struct Summary {
   };
   struct TieCounts {
     std::int64_t nodes = 0;     ///< tied at the start
-    std::int64_t released = 0;  ///< of these, because elements were deleted
+    std::int64_t released = 0;  ///< of these, because elements were deleted or they failed
+    std::int64_t failed = 0;    ///< of the released, by force
   };
   struct MassScaling {
     double added = 0, share = 0;  ///< share: over the mass of all elements at the start

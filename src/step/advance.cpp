@@ -1,5 +1,7 @@
 #include "src/step/advance.hpp"
 
+#include <algorithm>
+
 #include "contact/audit/audit.hpp"
 #include "src/motion/motion.hpp"
 #include "src/step/check_energy.hpp"
@@ -16,14 +18,22 @@ void apply_loads(Model& model) {
   if (model.loads.empty()) return;
   const StageTimer timer(model.stages, Stage::loads);
   for (ActiveLoad& load : model.loads) apply(load, model.times.time, model.nodes);
-  gather_loads(model.rigid, model.loads, model.times.time, model.nodes);
+}
+
+// Elastic forces at the present positions, and their bound of the time step.
+Contribution stretch_springs(Model& model) {
+  if (model.springs.empty()) return {};
+  const StageTimer timer(model.stages, Stage::loads);
+  const Contribution sum = stretch(model.springs, model.nodes);
+  model.control.stable = bound_step(model.springs, model.control.stable, model.rigid, model.nodes);
+  return sum;
 }
 
 // With the present velocities.
 double load_work(Model& model) {
   if (model.loads.empty()) return 0;
   const StageTimer timer(model.stages, Stage::loads);
-  double sum = model.times.mean() * weight_power(model.rigid);
+  double sum = model.times.mean() * load_power(model.rigid);
   for (const ActiveLoad& load : model.loads) sum += model.times.mean() * power(load, model.nodes);
   return sum;
 }
@@ -33,9 +43,16 @@ Impulse load_impulse(Model& model) {
   if (model.loads.empty()) return force;
   const StageTimer timer(model.stages, Stage::loads);
   for (const ActiveLoad& load : model.loads) force += resultant(load, model.nodes);
-  if (!model.rigid.empty()) force += weight(model.rigid);
+  if (!model.rigid.empty()) force += load_resultant(model.rigid);
   force *= model.times.mean();
   return force;
+}
+
+// All other forces of the step are known, but those of damping.
+Contribution pull_dashpots(Model& model) {
+  if (model.springs.empty()) return {};
+  const StageTimer timer(model.stages, Stage::loads);
+  return pull_dashpots(model.springs, model.times.mean(), model.rigid, model.nodes);
 }
 
 // All other forces of the step are known.
@@ -48,11 +65,15 @@ Contribution damp_nodes(Model& model) {
 
 // With the velocities at the end of the step.
 Contribution damping_done(Model& model) {
-  if (model.damping.empty()) return {};
+  Contribution sum;
+  if (model.damping.empty() && model.springs.empty()) return sum;
   const StageTimer timer(model.stages, Stage::loads);
+  if (!model.springs.empty()) sum += dashpots_done(model.springs, model.times.mean(), model.nodes);
+  if (model.damping.empty()) return sum;
   Impulse impulse = resultant(model.damping, model.nodes);
   impulse *= model.times.mean();
-  return {.damping = {.after = model.times.mean() * power(model.damping, model.nodes)}, .loads = impulse};
+  sum += {.damping = {.after = model.times.mean() * power(model.damping, model.nodes)}, .loads = impulse};
+  return sum;
 }
 
 // Before velocities: forces on tied nodes are transferred to the corners of their main faces.
@@ -60,6 +81,17 @@ void gather_tied_forces(Model& model) {
   if (model.ties.empty()) return;
   const StageTimer timer(model.stages, Stage::ties);
   gather_forces(model.ties, model.nodes);
+}
+
+// Forces of loads and springs on rigid bodies.
+void gather_rigid_forces(Model& model) {
+  if (model.rigid.empty() || (model.loads.empty() && model.springs.empty())) return;
+  const StageTimer timer(model.stages, Stage::loads);
+  const auto is_gravity = [](const ActiveLoad& load) {
+    return std::holds_alternative<GravityLoad>(load.load);
+  };
+  const bool by_nodes = !model.springs.empty() || !std::ranges::all_of(model.loads, is_gravity);
+  gather_forces(model.rigid, model.loads, model.times.time, by_nodes, model.nodes);
 }
 
 KineticEnergy accelerate_nodes(Model& model, ThreadTeam& team) {
@@ -167,11 +199,15 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
   if (model.forces) measure_sections(*model.forces, model.nodes);
   balance += add_mass(model);
   balance += erode_elements(model, team);
+  balance += fail_ties(model);
+  balance += stretch_springs(model);
   gather_tied_forces(model);
+  gather_rigid_forces(model);
   choose_step(model);
   if (model.forces) begin_step(*model.forces, model.times.mean());
 
   balance += {.external = {.before = load_work(model)}};
+  balance += pull_dashpots(model);
   balance += damp_nodes(model);
   const KineticEnergy accelerated = accelerate_nodes(model, team);
   expect_no_leap(model, accelerated);

@@ -24,14 +24,13 @@ void choose_step(Model& model) {
     step = *control.settings.step;
     if (step > control.stable)
       throw Breakdown("the constant time step " + written(step) + " exceeds the stable time step " +
-                      written(control.stable) + " of " +
-                      element_name(model, control.critical_block, control.critical_element));
+                      written(control.stable) + " of " + critical_name(model));
   }
   const double largest = model.step > 0 ? control.settings.step_growth * model.times.previous : step;
   if (model.step > 0 && std::min(step, largest) < collapse_ratio * control.first)
     throw Breakdown("the stable time step has collapsed to " + written(step) + ", set by " +
-                    element_name(model, control.critical_block, control.critical_element) + ", at time " +
-                    written(model.times.time) + "; " + cause_of_collapse(model));
+                    critical_name(model) + ", at time " + written(model.times.time) + "; " +
+                    cause_of_collapse(model));
   if (model.step == 0) control.first = step;
   const double left = control.settings.end - model.times.time;
   step = left > 0 ? whole_step(control, step, left) : model.times.previous;

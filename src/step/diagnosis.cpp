@@ -124,6 +124,13 @@ std::string element_name(const Model& model, std::size_t block, std::size_t elem
   return "element " + std::to_string(part.number_of_element(element)) + " of part '" + part.name + "'";
 }
 
+std::string critical_name(const Model& model) {
+  const Springs& springs = model.springs;
+  if (springs.critical >= 0)
+    return "spring '" + springs.spring[static_cast<std::size_t>(springs.critical)].name + "'";
+  return element_name(model, model.control.critical_block, model.control.critical_element);
+}
+
 std::string cause_of_energy_error(const Model& model) {
   const Fastest fastest = fastest_node(model);
   if (fastest.part == nullptr)

@@ -86,6 +86,16 @@ Contribution add_mass(Model& model) {
                   model.nodes, model.step == 0);
 }
 
+Contribution fail_ties(Model& model) {
+  Ties& ties = model.ties;
+  if (std::ranges::none_of(ties.found, &TiedParts::can_fail)) return {};
+  const StageTimer timer(model.stages, Stage::ties);
+  const std::optional<Contribution> failed = fail_ties(ties, model.times.previous, model.nodes);
+  if (!failed) return {};
+  for (ContactScene& scene : model.contacts) release_tied_pairs(scene, ties);
+  return *failed;
+}
+
 Contribution remove_freed_nodes(Model& model) {
   if (!model.erosion) return {};
   for (ActiveLoad& load : model.loads) remove_nodes(load, model.erosion->dropping);

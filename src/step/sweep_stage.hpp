@@ -16,6 +16,9 @@ Contribution add_mass(Model& model);
 /// after the sweep, whose order of elements it changes, and before contact, whose surfaces it opens.
 Contribution erode_elements(Model& model, ThreadTeam& team);
 
+/// Releases tied nodes whose force is beyond that of their connection; after deletion.
+Contribution fail_ties(Model& model);
+
 /// Removes the nodes whose last element was deleted in the step before, where the deck asks for it.
 Contribution remove_freed_nodes(Model& model);
 

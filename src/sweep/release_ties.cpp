@@ -6,6 +6,15 @@
 
 namespace brio {
 
+namespace {
+
+Contribution release_marked(Ties& ties, Nodes& nodes) {
+  const NodeMotion lost = release(ties, nodes);
+  return {.deleted = lost.energy, .dropped = {to_vector(lost.linear), to_vector(lost.angular)}};
+}
+
+}  // namespace
+
 std::optional<Contribution> release_ties(Ties& ties, const Erosion& erosion, Nodes& nodes) {
   bool any = false;
   for (TiedNode& tied : ties.node) {
@@ -15,8 +24,12 @@ std::optional<Contribution> release_ties(Ties& ties, const Erosion& erosion, Nod
     any = any || tied.released;
   }
   if (!any) return {};
-  const NodeMotion lost = release(ties, nodes);
-  return Contribution{.deleted = lost.energy, .dropped = {to_vector(lost.linear), to_vector(lost.angular)}};
+  return release_marked(ties, nodes);
+}
+
+std::optional<Contribution> fail_ties(Ties& ties, double step, Nodes& nodes) {
+  if (mark_failed(ties, step, nodes) == 0) return {};
+  return release_marked(ties, nodes);
 }
 
 }  // namespace brio

@@ -96,8 +96,8 @@ const std::vector<Rooms> rooms_of_folders{
      "particle"},
     {"src", {"deck", "motion", "sweep", "model", "build", "step", "output", "forecast"}},
     {"io",
-     {"files", "mesh_file", "mesh_format", "mesh", "deck", "schema", "results", "restart", "run", "study",
-      "plot", "report"}},
+     {"files", "yaml", "mesh_file", "mesh_format", "mesh", "deck", "schema", "results", "restart", "run",
+      "study", "plot", "report"}},
 };
 
 std::ptrdiff_t place_of(const std::string& path, const Rooms& rooms) {

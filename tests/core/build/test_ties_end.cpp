@@ -1,4 +1,4 @@
-// Ties at rigid walls, and ties that end because elements are deleted.
+// Ties at rigid walls, and ties that end: because elements are deleted, or by force.
 
 #include <gtest/gtest.h>
 
@@ -180,6 +180,81 @@ TEST(TiesThatEnd, LeaveTheOthersAsTheyAre) {
   const Model untied = build_model(apart);
   for (std::size_t i = 0; i < untied.nodes.size(); ++i)
     EXPECT_NEAR(again.nodes.mass[i], untied.nodes.mass[i], 1e-12);
+}
+
+// ---- failure by force
+
+/// Two boxes of an element each, tied by four nodes; the lower one stands.
+Deck failing(const TieFailure& failure) {
+  Deck deck = two_boxes({1, 1, 1}, {1, 1, 1}, 0, 0);
+  std::get<TieToSurface>(deck.connections[0]).failure = failure;
+  deck.boundary_conditions = {fix("coarse.zmin", {0, 1, 2})};
+  deck.time.end = 0.4;
+  return deck;
+}
+
+/// On the upper side, growing to `force` a node at the end of the run.
+Deck pulled(const TieFailure& failure, Triple force) {
+  Deck deck = failing(failure);
+  NodalForce pull;
+  pull.where.set = "fine.zmax";
+  pull.force = force;
+  pull.factor = Curve{{{0, 0}, {deck.time.end, 1}}};
+  deck.loads = {pull};
+  return deck;
+}
+
+/// Time at which the first tie failed; negative: none did.
+double time_of_failure(const Deck& deck, Model& model) {
+  ThreadTeam team(1);
+  double time = -1;
+  run(model, deck, team, [&](Model& m) {
+    expect_balanced(m, 1e-10);
+    if (time < 0 && m.ties.failed > 0) time = m.times.time;
+  });
+  EXPECT_LT(model.energy.error_max, 1e-2);
+  return time;
+}
+
+TEST(TiesThatFail, ComeOffAtTheirTensionOrShear) {
+  const double end = failing({}).time.end;
+  for (const bool contact : {false, true})
+    for (const auto& [failure, force] : {std::pair(TieFailure{.normal_force = 6e3}, Triple{0, 0, 1e4}),
+                                         std::pair(TieFailure{.shear_force = 6e3}, Triple{1e4, 0, 0})}) {
+      SCOPED_TRACE(std::to_string(force[0]) + (contact ? " contact" : ""));
+      Deck deck = pulled(failure, force);
+      if (contact) deck.contact.emplace();
+      Model model = build_model(deck);
+      const double mass = total_mass(model);  // but what contact takes for its gap
+      EXPECT_NEAR(mass, 2000, contact ? 5 : 1e-9);
+      EXPECT_NEAR(time_of_failure(deck, model), 0.6 * end, 0.02 * end);
+      EXPECT_TRUE(model.ties.empty());
+      const Summary summary = observe_end(model);
+      EXPECT_EQ(summary.ties->failed, 4);
+      EXPECT_EQ(summary.ties->released, 4);
+      EXPECT_NEAR(total_mass(model), mass, 1e-9);
+    }
+}
+
+TEST(TiesThatFail, HoldWhatPresses) {
+  const Deck deck = pulled({.normal_force = 1e3}, {0, 0, -1e4});
+  Model model = build_model(deck);
+  EXPECT_LT(time_of_failure(deck, model), 0);
+  EXPECT_EQ(model.ties.node.size(), 4u);
+}
+
+// A base that falls ever faster draws the upper box along: each tied node carries its own inertia and that of
+// the node above, 250 together.
+TEST(TiesThatFail, FeelTheInertiaOfTiedNodes) {
+  const double largest = 100, force = 0.5 * 250 * largest;
+  Deck deck = failing({.normal_force = force});
+  PrescribedMotion fall;
+  fall.where.set = "coarse.zmin";
+  fall.kind = MotionKind::acceleration;
+  fall.components = {{2, Curve{{{0, 0}, {deck.time.end, -largest}}}}};
+  deck.boundary_conditions = {fix("coarse.zmin", {0, 1}), fall};
+  Model model = build_model(deck);
+  EXPECT_NEAR(time_of_failure(deck, model), 0.5 * deck.time.end, 0.02 * deck.time.end);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "src/build/mass_properties.hpp"
+#include "src/deck/mass_properties.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <sstream>
 
 #include "io/deck/read_deck.hpp"
 #include "tests/io/deck/deck_text.hpp"
@@ -55,6 +56,26 @@ TEST_P(BadDeck, IsRefusedWithItsPlace) {
 constexpr Edit edits[] = {
     // numbers
     {"7.34e-4", "^0", "'density' is '0'; expected a number > 0"},
+    // springs
+    {"loads:\n", "springs:\n  a: ^{from: {point: [0, 0, 0]}, to: {point: [1, 0, 0]}}\nloads:\n",
+     "it has no force; accepted: stiffness, force, damping"},
+    {"loads:\n",
+     "springs: {a: ^{from: {point: [0, 0, 0]}, to: {point: [1, 0, 0]}, stiffness: 1, force: [[0, 0], [1, "
+     "1]]}}"
+     "\nloads:\n",
+     "both 'stiffness' and 'force' are given"},
+    {"loads:\n",
+     "springs: {a: ^{from: {point: [0, 0, 0]}, to: {point: [1, 0, 0]}, force: [[0, 0], [0, 1]]}}\nloads:\n",
+     "the elongations of 'force' do not grow"},
+    {"loads:\n",
+     "springs: {a: {from: {point: [0, 0, 0], part: ^lift}, to: {point: [1, 0, 0]}, stiffness: 1}}\nloads:\n",
+     "no part is called 'lift'; did you mean 'left'?"},
+    {"loads:\n",
+     "springs: {a: {from: {point: [0, 0, 0]}, to: ^{point: [1, 0, 0], part: left, fixed: true}, stiffness: "
+     "1}}\nloads:\n",
+     "a fixed point belongs to no part"},
+    {"contact:", "connections: [{tie: [left, right], tolerance: 1, failure: ^{}}]\ncontact:",
+     "no force is given; accepted: normal_force, shear_force"},
     {"7.34e-4", "^-0.0", "expected a number > 0"},
     {"7.34e-4", "^abc", "'density' is 'abc'; expected a number > 0"},
     {"7.34e-4", "^'-1'", "'density' is the text \"-1\" = -1; expected a number > 0"},
@@ -376,6 +397,65 @@ TEST(BadDeckFile, MustHaveAPart) {
   text += "time: {end: 1}\n";
   EXPECT_EQ(fault_of([&] { parse_deck(text, "a.yaml"); }).substr(0, 38),
             "a.yaml:4:8: 'parts' is empty; at least");
+}
+
+std::string edited(std::string text, const std::vector<std::pair<std::string, std::string>>& changes) {
+  for (const auto& [from, to] : changes) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+void expect_faults(const std::string& text, const std::vector<std::string>& begins) {
+  const std::string fault = fault_of([&] { parse_deck(text, "a.yaml"); });
+  const std::vector<std::string> lines = lines_of(fault);
+  ASSERT_EQ(lines.size(), begins.size()) << fault;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    EXPECT_TRUE(lines[i].starts_with(begins[i])) << lines[i] << " in place of " << begins[i];
+}
+
+// Once each, and not what follows from them: the second part has the faulty material, conditions name it.
+TEST(ManyFaults, AreToldAtOnceInTheOrderOfTheirPlaces) {
+  expect_faults(
+      edited(plain_deck, {{"end: 3e-3, step_scale: 0.9", "end: 0, step_scale: 2"},
+                          {"density: 7.34e-4, youngs_modulus: 30e6", "density: -1, youngs_modulus: x"},
+                          {"material: steel", "material: steal"},
+                          {"gravity: [0, 0, -9.81]", "gravity: [0, 0]"},
+                          {"fix: [x, y, z]", "fix: [x, y, w]"}}),
+      {"a.yaml:3:36: 'density' is '-1'", "a.yaml:3:56: 'youngs_modulus' is 'x'",
+       "a.yaml:8:15: no material is called 'steal'", "a.yaml:22:15: 'gravity' is a list",
+       "a.yaml:26:13: 'end' is '0'", "a.yaml:26:28: 'step_scale' is '2'"});
+}
+
+// A key that is missing is likely the unknown one.
+TEST(ManyFaults, AMisspeltKeyIsOneFault) {
+  expect_faults(edited(plain_deck, {{"density: 7.34e-4", "desity: 7.34e-4"}, {"end: 3e-3", "ende: 3e-3"}}),
+                {"a.yaml:3:27: unknown key 'desity'", "a.yaml:26:8: unknown key 'ende'"});
+}
+
+TEST(ManyFaults, AFaultyParameterIsToldOnce) {
+  expect_faults("parameters: {v: 3, w: x}\n" +
+                    edited(plain_deck, {{"velocity: [0, 0, -5000]", "velocity: [0, 0, 'w * v']"},
+                                        {"pressure: 100", "pressure: 'w'"}}),
+                {"a.yaml:1:23: 'w' is 'x'"});
+}
+
+TEST(ManyFaults, NoMoreThanTwentyAreTold) {
+  std::string parameters = "parameters: {";
+  for (int i = 0; i < 25; ++i) parameters += "p" + std::to_string(i) + ": x, ";
+  const std::string fault = fault_of([&] { parse_deck(parameters + "}\n" + plain_deck, "a.yaml"); });
+  const std::vector<std::string> lines = lines_of(fault);
+  ASSERT_EQ(lines.size(), 21u);
+  EXPECT_EQ(lines.back(), "and 5 more faults");
 }
 
 TEST(BadDeckFile, MustBeAReadableFile) {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/deck/closest_word.hpp"
 #include "io/deck/read_deck.hpp"
+#include "io/yaml/closest_word.hpp"
 #include "tests/io/deck/deck_text.hpp"
 
 namespace brio {

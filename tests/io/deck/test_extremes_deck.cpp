@@ -13,10 +13,10 @@
 #include <regex>
 #include <sstream>
 
-#include "io/deck/deck_error.hpp"
 #include "io/deck/read_deck.hpp"
 #include "io/mesh/generate_mesh.hpp"
 #include "io/run/run_deck.hpp"
+#include "io/yaml/deck_error.hpp"
 #include "src/build/build.hpp"
 #include "src/step/advance.hpp"
 #include "tests/io/deck/deck_text.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "io/mesh/generate_mesh.hpp"
-#include "src/build/mass_properties.hpp"
+#include "src/deck/mass_properties.hpp"
 
 namespace brio {
 namespace {

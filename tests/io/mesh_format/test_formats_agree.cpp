@@ -13,6 +13,8 @@
 #include "io/mesh_format/read_gmsh.hpp"
 #include "io/mesh_format/read_ls_dyna.hpp"
 #include "io/mesh_format/read_mesh_file.hpp"
+#include "src/build/build.hpp"
+#include "src/step/advance.hpp"
 #include "tests/io/mesh_format/committed_meshes.hpp"
 #include "tests/io/results/result_scene.hpp"
 
@@ -83,6 +85,81 @@ TEST(MeshFormats, AgreeWithTheGeneratorOnABox) {
   }
   for (const int node : drawn.node_sets.at("bottom"))
     EXPECT_EQ(drawn.position[static_cast<std::size_t>(node)][2], -1.5);
+}
+
+/// The same mesh with nodes and elements in another order.
+Mesh renumbered(const Mesh& mesh) {
+  const auto place_of = [](std::size_t i, std::size_t count) { return (i * 7919 + 13) % count; };
+  Mesh other = mesh;
+  const std::size_t nodes = mesh.position.size(), elements = mesh.element_count();
+  for (std::size_t i = 0; i < nodes; ++i) other.position[place_of(i, nodes)] = mesh.position[i];
+  const auto moved = [&](int node) {
+    return static_cast<int>(place_of(static_cast<std::size_t>(node), nodes));
+  };
+  for (std::size_t e = 0; e < elements; ++e)
+    for (std::size_t k = 0; k < 8; ++k)
+      other.connectivity[8 * place_of(e, elements) + k] = moved(mesh.connectivity[8 * e + k]);
+  for (auto& [name, set] : other.node_sets) {
+    std::transform(set.begin(), set.end(), set.begin(), moved);
+    std::sort(set.begin(), set.end());
+  }
+  for (auto& [name, sides] : other.side_sets)
+    for (ElementSide& side : sides)
+      side.element = static_cast<int>(place_of(static_cast<std::size_t>(side.element), elements));
+  return other;
+}
+
+/// Start and end of each node of a block that is bent by a pressure, in the order of their starts.
+std::vector<std::array<double, 6>> paths_of_bent_block(const Mesh& mesh) {
+  Deck deck;
+  deck.materials = {{"steel", ElasticPlastic{}}};
+  auto& law = std::get<ElasticPlastic>(deck.materials[0].second);
+  law.density = 1000;
+  law.youngs_modulus = 1e9;
+  law.poissons_ratio = 0.3;
+  law.yield_stress = 1e6;
+  deck.parts = {{"block", BoxMesh{}, {}, Hex8{}, "steel"}};
+  PrescribedMotion hold;
+  hold.where.set = "block.zmin";
+  for (int axis = 0; axis < 3; ++axis) hold.components.push_back({axis, Curve{{{0, 0}}}});
+  deck.boundary_conditions = {hold};
+  Pressure pressure;
+  pressure.side_set = "block.xmin";
+  pressure.pressure = Curve{{{0, 2e5}}};
+  deck.loads = {pressure};
+  deck.time.end = 0.02;
+  Model model = build(deck, std::span(&mesh, 1));
+  std::vector<std::array<double, 6>> paths(mesh.position.size());
+  const auto note = [&](std::size_t first) {
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      std::copy_n(model.nodes.record[static_cast<std::size_t>(model.parts[0].node[i])].position, 3,
+                  paths[i].begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  note(0);
+  ThreadTeam team(1);
+  run(model, 0.1, team, [](Model&) { return true; });
+  note(3);
+  EXPECT_GT(model.step, 100);
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+TEST(MeshFormats, ARunOfAFileIsThatOfTheGeneratorAfterRenumbering) {
+  const Mesh generated = generate_mesh(BoxMesh{.size = {0.4, 0.5, 1}, .elements = {3, 4, 7}}, {});
+  const Mesh other = renumbered(generated);
+  EXPECT_FALSE(other.position == generated.position);
+  const std::vector<std::array<double, 6>> expected = paths_of_bent_block(generated);
+  double largest = 0;
+  for (const auto& path : expected) largest = std::max(largest, std::abs(path[3] - path[0]));
+  EXPECT_GT(largest, 0.01);
+  for (const auto& text_mesh :
+       {mesh_of(read_abaqus(as_abaqus(other), "a.inp")), mesh_of(read_gmsh(as_gmsh(other, true), "a.msh")),
+        mesh_of(read_ls_dyna(as_ls_dyna(other), "a.k"))}) {
+    const std::vector<std::array<double, 6>> found = paths_of_bent_block(text_mesh);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      for (std::size_t k = 0; k < 6; ++k) ASSERT_NEAR(found[i][k], expected[i][k], 1e-12);
+  }
 }
 
 TEST(MeshFormats, AgreeOnBeamsAndParticles) {

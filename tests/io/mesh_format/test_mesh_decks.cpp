@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "io/deck/deck_error.hpp"
 #include "io/deck/read_deck.hpp"
 #include "io/mesh/generate_mesh.hpp"
 #include "io/mesh_format/read_mesh_file.hpp"
@@ -14,6 +13,7 @@
 #include "io/results/read_result.hpp"
 #include "io/run/run_deck.hpp"
 #include "io/study/read_study.hpp"
+#include "io/yaml/deck_error.hpp"
 #include "tests/io/mesh_format/committed_meshes.hpp"
 #include "tests/io/results/result_scene.hpp"
 #include "tests/io/text_of.hpp"

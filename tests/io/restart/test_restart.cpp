@@ -8,12 +8,12 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/deck/deck_error.hpp"
 #include "io/restart/deck_difference.hpp"
 #include "io/restart/restart_file.hpp"
 #include "io/results/read_info.hpp"
 #include "io/results/read_result.hpp"
 #include "io/run/run_deck.hpp"
+#include "io/yaml/deck_error.hpp"
 
 namespace brio::test {
 

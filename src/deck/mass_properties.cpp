@@ -1,4 +1,4 @@
-#include "src/build/mass_properties.hpp"
+#include "src/deck/mass_properties.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "io/deck/yaml_source.hpp"
+#include "io/yaml/yaml_source.hpp"
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>

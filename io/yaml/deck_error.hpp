@@ -18,12 +18,18 @@ struct Place {
 /// `file:line:column`, or the source alone.
 std::string to_string(const Place& place);
 
-/// A deck that cannot be run. The message is `file:line:column: what is wrong; what is accepted`.
+/// A deck that cannot be run. The message is `file:line:column: what is wrong; what is accepted`, a line each
+/// where several faults are told at once.
 class DeckError : public std::runtime_error {
  public:
   explicit DeckError(const std::string& message) : std::runtime_error(message) {}
   DeckError(const Place& place, const std::string& fault)
-      : std::runtime_error(to_string(place) + ": " + fault) {}
+      : std::runtime_error(to_string(place) + ": " + fault), place_(place) {}
+
+  const Place& place() const { return place_; }
+
+ private:
+  Place place_{};
 };
 
 }  // namespace brio

@@ -1,4 +1,4 @@
-#include "io/deck/closest_word.hpp"
+#include "io/yaml/closest_word.hpp"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/deck/deck_error.hpp"
+#include "io/yaml/deck_error.hpp"
 
 namespace brio {
 

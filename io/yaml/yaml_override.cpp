@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "io/deck/yaml_source.hpp"
+#include "io/yaml/yaml_source.hpp"
 
 namespace brio {
 

@@ -87,7 +87,7 @@ void AuditedSurface::add_face(int number) {
   own.corners = known.corners();
   own.face = number;
   own.piece = piece_of_node(known.node[0]);
-  own.rigid = surface.rigid_body(known.node[0]);
+  own.rigid = surface.rigid_body_of_all(known.node);
   for (std::size_t k = 0; k < 4; ++k) own.x[k] = position(known.node[k]);
   const auto corners = static_cast<std::size_t>(own.corners);
   double shortest = HUGE_VAL;

@@ -140,8 +140,8 @@ class SegmentProximity {
   bool never_meet(const AuditedSegment& first, const AuditedSegment& second) const {
     for (int node : first.node)
       if (node == second.node[0] || node == second.node[1]) return true;
-    const int rigid = surface_.rigid_body(first.node[0]);
-    if (rigid >= 0 && rigid == surface_.rigid_body(second.node[0])) return true;
+    const int rigid = surface_.rigid_body_of_all(first.node);
+    if (rigid >= 0 && rigid == surface_.rigid_body_of_all(second.node)) return true;
     if (surface_.pairs.parts_apart(first.part, second.part)) return true;
     if (!surface_.tied.empty() && (is_tied(first, second.part) || is_tied(second, first.part))) return true;
     return (first.body == second.body && share_a_face(first, second)) || lie_so_by_the_mesh(first, second);

@@ -36,10 +36,10 @@ bool on_one_face(const EdgeFeature& a, const EdgeFeature& b) {
 
 // Whether edges may meet at all: parts, rigid bodies, ties.
 bool may_meet(const Surface& surface, const EdgeFeature& a, const EdgeFeature& b) {
-  const int node_a = surface.node[static_cast<std::size_t>(a.node[0])];
-  const int node_b = surface.node[static_cast<std::size_t>(b.node[0])];
-  const int rigid = surface.rigid_body(node_a);
-  if (rigid >= 0 && rigid == surface.rigid_body(node_b)) return false;
+  const auto global = [&](int slave) { return surface.node[static_cast<std::size_t>(slave)]; };
+  const int rigid = surface.rigid_body_of_all(std::array{global(a.node[0]), global(a.node[1])});
+  if (rigid >= 0 && rigid == surface.rigid_body_of_all(std::array{global(b.node[0]), global(b.node[1])}))
+    return false;
   if (surface.pairs.parts_apart(a.part, b.part)) return false;
   if (surface.tied.empty()) return true;
   const auto tied = [&](const EdgeFeature& edge, const EdgeFeature& other) {

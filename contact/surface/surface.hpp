@@ -24,6 +24,7 @@ struct SurfacePart {
   std::vector<double> thickness;      ///< of each shell, diameter of each beam or particle; else empty
   int rigid = -1;                     ///< the rigid body that all of its nodes belong to
   double debris_radius = 0;           ///< contact radius of its free nodes; 0: no contact
+  std::vector<int> joined{};          ///< global nodes of other parts that move with the rigid body
 
   bool solid() const { return nodes_per_element == 8; }
   bool shell() const { return nodes_per_element == 4; }
@@ -87,11 +88,19 @@ struct Surface {
     return rigid_of_node.empty() || global_node < 0 ? -1
                                                     : rigid_of_node[static_cast<std::size_t>(global_node)];
   }
+  /// The body that all of the nodes belong to; -1: none.
+  template <std::size_t Count>
+  int rigid_body_of_all(const std::array<int, Count>& global_nodes) const {
+    const int one = rigid_body(global_nodes[0]);
+    for (std::size_t k = 1; one >= 0 && k < Count; ++k)
+      if (rigid_body(global_nodes[k]) != one) return -1;
+    return one;
+  }
   /// Excluded are contact of a rigid body with itself, pairs of parts by rules, and tied pairs.
   bool never_touch(int slave, const Face& other) const {
     const int global_node = node[static_cast<std::size_t>(slave)];
     const int own = rigid_body(global_node);
-    return (own >= 0 && own == rigid_body(other.node[0])) || pairs.apart(global_node, other.part) ||
+    return (own >= 0 && own == rigid_body_of_all(other.node)) || pairs.apart(global_node, other.part) ||
            (!tied.empty() && is_tied(slave, other));
   }
   /// Whether a node and a face belong to a tie: the node to its face's part, or a corner to the node's part.

@@ -23,14 +23,15 @@ std::vector<int> parts_of(const Surface& surface, int slave) {
 
 TiedPairs find_tied_pairs(const Surface& surface, const Ties& ties, const std::vector<int>& part_of_surface) {
   TiedPairs tied;
-  if (ties.empty()) return tied;
+  if (ties.empty() && ties.joined.empty()) return tied;
   tied.part_of_surface = part_of_surface;
   renew(tied, surface, ties);
   DisjointSets bodies(static_cast<std::size_t>(surface.body_count));
   const auto body_of = [&](int node) { return surface.body[static_cast<std::size_t>(surface.slave(node))]; };
-  for (const TiedNode& entry : ties.node)
-    if (tied.main_part[static_cast<std::size_t>(entry.tie.node)] >= 0)
-      bodies.join(body_of(entry.tie.node), body_of(entry.tie.corner[0]));
+  for (const std::vector<TiedNode>* entries : {&ties.node, &ties.joined})
+    for (const TiedNode& entry : *entries)
+      if (tied.main_part[static_cast<std::size_t>(entry.tie.node)] >= 0)
+        bodies.join(body_of(entry.tie.node), body_of(entry.tie.corner[0]));
   for (int body = 0; body < surface.body_count; ++body) tied.piece.push_back(bodies.root(body));
   return tied;
 }
@@ -38,15 +39,16 @@ TiedPairs find_tied_pairs(const Surface& surface, const Ties& ties, const std::v
 void renew(TiedPairs& tied, const Surface& surface, const Ties& ties) {
   tied.main_part.assign(surface.slave_of.size(), -1);
   tied.pairs.clear();
-  for (const TiedNode& entry : ties.node) {
-    const int main_part = tied.part_of_surface[static_cast<std::size_t>(entry.face_part)];
-    const int slave = surface.slave(entry.tie.node);
-    if (main_part < 0 || slave < 0) continue;
-    tied.main_part[static_cast<std::size_t>(entry.tie.node)] = main_part;
-    tied.pairs.emplace_back(entry.tie.node, main_part);
-    for (int part : parts_of(surface, slave))
-      for (int corner : entry.tie.corner) tied.pairs.emplace_back(corner, part);
-  }
+  for (const std::vector<TiedNode>* entries : {&ties.node, &ties.joined})
+    for (const TiedNode& entry : *entries) {
+      const int main_part = tied.part_of_surface[static_cast<std::size_t>(entry.face_part)];
+      const int slave = surface.slave(entry.tie.node);
+      if (main_part < 0 || slave < 0) continue;
+      tied.main_part[static_cast<std::size_t>(entry.tie.node)] = main_part;
+      tied.pairs.emplace_back(entry.tie.node, main_part);
+      for (int part : parts_of(surface, slave))
+        for (int corner : entry.tie.corner) tied.pairs.emplace_back(corner, part);
+    }
   std::sort(tied.pairs.begin(), tied.pairs.end());
   tied.pairs.erase(std::unique(tied.pairs.begin(), tied.pairs.end()), tied.pairs.end());
 }

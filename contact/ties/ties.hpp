@@ -53,8 +53,9 @@ struct TiedParts {
 
 /// All ties; empty without ties in the deck.
 struct Ties {
-  std::vector<TiedNode> node;  ///< tied nodes before the nodes of their main faces
-  std::vector<int> of_node;    ///< of each node of the model: its place in `node`, or -1
+  std::vector<TiedNode> node;    ///< tied nodes before the nodes of their main faces
+  std::vector<TiedNode> joined;  ///< nodes that belong to a rigid body, on one of its faces at the start
+  std::vector<int> of_node;      ///< of each node of the model: its place in `node`, or -1
   std::vector<TiedParts> found;
   std::vector<double> moved_mass;             ///< of each node of the model: mass carried by its corners
   std::vector<int> concerned;                 ///< tied nodes and corners, ascending

@@ -225,24 +225,23 @@ void read_value(const YamlNode& node, const Slot& slot, Probe& probe) { read_at_
 
 namespace {
 
+bool is_rigid(const Part& part) { return std::holds_alternative<Rigid>(part.element); }
+
 void read_connection(const YamlNode& node, const Slot& slot, Merge& merge) {
   read_fields(node, slot, merge);
   const YamlNode& parts = *node.find("merge")->value;
   for (std::size_t i = 0; i < parts.items.size(); ++i) {
     const Part& part = slot.known.part(*parts.items[i], merge.parts[i]);
-    if (!traits_of(part.element).shares_nodes)
+    if (!traits_of(part.element).shares_nodes && !is_rigid(part))
       throw DeckError(parts.items[i]->place,
                       "part '" + part.name + "' is of elements '" + std::string(name_of(part.element)) +
-                          "', which share no nodes; accepted are parts of solids, shells and beams");
+                          "', which share no nodes; accepted are parts of solids, shells and beams, and "
+                          "one rigid part");
   }
   if (merge.parts.size() != 2 || merge.parts[0] == merge.parts[1])
     throw DeckError(parts.place, "'merge' takes two different parts");
-}
-
-void refuse_rigid(const YamlNode& node, const Part& part) {
-  if (std::holds_alternative<Rigid>(part.element))
-    throw DeckError(node.place,
-                    "part '" + part.name + "' is rigid; accepted in 'tie' are parts of other elements");
+  if (is_rigid(slot.known.part(parts, merge.parts[0])) && is_rigid(slot.known.part(parts, merge.parts[1])))
+    throw DeckError(parts.place, "both parts of 'merge' are rigid; accepted is one");
 }
 
 void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) {
@@ -254,10 +253,16 @@ void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) 
   const YamlNode& slave = *names.items[0];
   check_set(slave, slot, node_set_names);
   const Part& tied = slot.known.part(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));
-  refuse_rigid(slave, tied);
+  if (is_rigid(tied))
+    throw DeckError(slave.place,
+                    "part '" + tied.name +
+                        "' is rigid; nodes of parts that deform can be tied to it, as the second of "
+                        "'tie'");
   const Part& main_surface = slot.known.part(*names.items[1], tie.names[1]);
-  refuse_rigid(*names.items[1], main_surface);
-  if (!has_faces(traits_of(main_surface.element).cell))
+  if (is_rigid(main_surface) && tie.failure)
+    throw DeckError(node.find("failure")->place,
+                    "'failure' of a tie to a rigid part; ties to parts that deform are accepted");
+  if (!is_rigid(main_surface) && !has_faces(traits_of(main_surface.element).cell))
     throw DeckError(names.items[1]->place,
                     "part '" + main_surface.name + "' is of elements '" +
                         std::string(name_of(main_surface.element)) +

@@ -157,8 +157,9 @@ void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
     const Block& block = model.blocks[part.block];
     for (std::size_t e = 0; e < block.element_count; ++e) part.mass += block.kernel.mass(block, e);
   }
-  for (const RigidBody& body : model.rigid.body) model.parts[body.part].mass = body.mass;
+  for (const RigidBody& body : model.rigid.body) model.parts[body.part].mass = body.own.mass;
   add_point_masses(deck, meshes, model);
+  join_masses(model);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     nodes.record[i].inverse_mass = nodes.mass[i] > 0 ? 1 / nodes.mass[i] : 0;
     if (nodes.has_rotations())
@@ -234,6 +235,15 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   }
 }
 
+// That move with a part, if it is rigid.
+std::vector<int> joined_nodes(const Model& model, std::size_t part) {
+  if (model.parts[part].rigid < 0) return {};
+  const RigidBody& body = model.rigid.body[static_cast<std::size_t>(model.parts[part].rigid)];
+  std::vector<int> nodes;
+  for (const std::size_t i : body.joint) nodes.push_back(body.node[i]);
+  return nodes;
+}
+
 double debris_radius(const Part& part) {
   return part.deletion ? part.deletion->debris_radius.value_or(0) : 0;
 }
@@ -300,7 +310,8 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
                         .connectivity = connectivity[p],
                         .thickness = contact_thickness(part, meshes[p]),
                         .rigid = model.parts[p].rigid,
-                        .debris_radius = debris_radius(part)});
+                        .debris_radius = debris_radius(part),
+                        .joined = joined_nodes(model, p)});
   }
   try {
     model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));
@@ -308,7 +319,8 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     const std::vector<PairRule> rules = pair_rules(*deck.contact, surfaces);
     if (!rules.empty()) model.contacts.back().surface.pairs = {rules, surfaces, model.nodes.size()};
     const Ties lasting = ties_that_last(model.ties);
-    if (!lasting.empty()) exclude_tied_pairs(model.contacts.back(), lasting, part_of_surface);
+    if (!lasting.empty() || !lasting.joined.empty())
+      exclude_tied_pairs(model.contacts.back(), lasting, part_of_surface);
     if (model.surface_numbers) make_erodible(model.contacts.back(), surfaces, model.nodes);
     ThreadTeam team(threads);
     for (InitialOverlap& overlap : make_initial_gap(model.contacts.back(), model.nodes, team))
@@ -334,10 +346,13 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   model.merged = std::move(shared.merged);
   make_blocks(deck, connectivity, model);
   make_rigid_bodies(deck, meshes, model);
+  join_nodes(model);
   constrain(deck, meshes, model);
   model.initial_overlaps = remove_overlap_with_walls(
       meshes, (deck.contact ? deck.contact->options : ContactOptions{}).initial_overlap_limit, model);
   make_ties(deck, meshes, connectivity, model);
+  if (!model.ties.joined.empty()) join_nodes(model);
+  release_joined(model);
   lump_masses(deck, meshes, model);
   const std::size_t of_walls = model.initial_overlaps.size();
   make_contact(deck, meshes, connectivity, threads, model);

@@ -14,6 +14,8 @@ namespace {
 
 // A body may begin behind a wall by this share of its size: rounding.
 constexpr double touching_share = 1e-9;
+// Initial velocities of joined nodes may differ by this share of their size: rounding.
+constexpr double velocity_share = 1e-9;
 
 double density_of(const Part& part, const Deck& deck) {
   for (const auto& [name, material] : deck.materials)
@@ -53,6 +55,7 @@ RigidBody make_body(std::size_t p, const Part& part, const Mesh& mesh, const Dec
   body.part = p;
   body.nodes_per_element = mesh.nodes_per_element;
   body.thickness = rigid.thickness.value_or(0);
+  body.own = properties;
   body.mass = properties.mass;
   body.inertia = properties.inertia;
   body.centre = properties.centre;
@@ -62,6 +65,23 @@ RigidBody make_body(std::size_t p, const Part& part, const Mesh& mesh, const Dec
   for (int node : mesh.connectivity)
     body.connectivity.push_back(model.parts[p].node[static_cast<std::size_t>(node)]);
   return body;
+}
+
+// About a point at a distance.
+Eigen::Matrix3d inertia_of_point(double mass, const Vector3d& arm) {
+  return mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
+}
+
+bool has_same_motion(const RigidBody& body, const PrescribedNodes& given) {
+  const auto is_given = [&](int axis, MotionKind kind, const Curve& curve) {
+    return std::any_of(body.given.begin(), body.given.end(), [&](const PrescribedRigid& one) {
+      return one.axis == axis && one.kind == kind && one.curve == curve;
+    });
+  };
+  const Curve still{{{0, 0}}};
+  bool turns = false;
+  for (int axis = 3; axis < 6; ++axis) turns = turns || !is_given(axis, MotionKind::velocity, still);
+  return (given.axis >= 3 || !turns) && is_given(given.axis, given.kind, given.curve);
 }
 
 double size_of(const RigidBody& body) {
@@ -101,24 +121,142 @@ void measure_arms(Model& model) {
   for (RigidBody& body : model.rigid.body) measure_arms(model.nodes, body);
 }
 
+void join_nodes(Model& model) {
+  if (model.rigid.empty() || (model.merged.empty() && model.ties.joined.empty())) return;
+  std::vector<std::uint8_t> of_elements(model.nodes.size(), 0);
+  for (const PartInModel& part : model.parts)
+    if (part.rigid < 0)
+      for (const int node : part.node) of_elements[static_cast<std::size_t>(node)] = 1;
+  for (RigidBody& body : model.rigid.body) {
+    for (const TiedNode& tied : model.ties.joined)
+      if (tied.face_part == static_cast<int>(body.part)) body.node.push_back(tied.tie.node);
+    std::sort(body.node.begin(), body.node.end());
+    body.node.erase(std::unique(body.node.begin(), body.node.end()), body.node.end());
+    body.joint.clear();
+    for (std::size_t i = 0; i < body.node.size(); ++i)
+      if (of_elements[static_cast<std::size_t>(body.node[i])] != 0) body.joint.push_back(i);
+    body.joint_before.resize(body.joint.size());
+    measure_arms(model.nodes, body);
+  }
+}
+
+void join_masses(Model& model) {
+  Nodes& nodes = model.nodes;
+  for (RigidBody& body : model.rigid.body) {
+    if (body.joint.empty()) continue;
+    const auto at = [&](std::size_t i) { return static_cast<std::size_t>(body.node[i]); };
+    const auto place_of = [&](std::size_t i) { return Vector3d(nodes.record[at(i)].position); };
+    body.mass = body.own.mass;
+    Vector3d moment = body.own.mass * body.own.centre;
+    for (const std::size_t i : body.joint) {
+      body.mass += nodes.mass[at(i)];
+      moment += nodes.mass[at(i)] * place_of(i);
+    }
+    body.centre = moment / body.mass;
+    body.inertia = body.own.inertia + inertia_of_point(body.own.mass, body.own.centre - body.centre);
+    for (const std::size_t i : body.joint) {
+      body.inertia += inertia_of_point(nodes.mass[at(i)], place_of(i) - body.centre);
+      nodes.mass[at(i)] = 0;
+      if (!nodes.has_rotations()) continue;
+      body.inertia += nodes.rotational_inertia[at(i)] * Eigen::Matrix3d::Identity();
+      nodes.rotational_inertia[at(i)] = 0;
+    }
+    measure_arms(nodes, body);
+  }
+}
+
+void release_joined(Model& model) {
+  std::vector<int> body_of_node(model.rigid.has_joints() ? model.nodes.size() : 0, -1);
+  for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
+    for (const std::size_t i : model.rigid.body[b].joint) {
+      int& owner = body_of_node[static_cast<std::size_t>(model.rigid.body[b].node[i])];
+      if (owner >= 0)
+        throw BuildError("a node would belong to the rigid parts '" +
+                         model.parts[model.rigid.body[static_cast<std::size_t>(owner)].part].name +
+                         "' and '" + model.parts[model.rigid.body[b].part].name + "'; accepted is one");
+      owner = static_cast<int>(b);
+    }
+  if (body_of_node.empty()) return;
+  for (const TiedNode& tied : model.ties.node)
+    for (const int node :
+         {tied.tie.node, tied.tie.corner[0], tied.tie.corner[1], tied.tie.corner[2], tied.tie.corner[3]})
+      if (body_of_node[static_cast<std::size_t>(node)] >= 0)
+        throw BuildError(
+            "a node tied to a part that deforms, or the face that it is tied to, is joined to a "
+            "rigid part as well; accepted is one of both",
+            model.ties.found[static_cast<std::size_t>(tied.connection)].place);
+  for (PrescribedNodes& given : model.prescribed)
+    std::erase_if(given.nodes, [&](int node) {
+      const int body = body_of_node[static_cast<std::size_t>(node)];
+      if (body < 0) return false;
+      if (!has_same_motion(model.rigid.body[static_cast<std::size_t>(body)], given))
+        throw BuildError(
+            "the motion of a node that is joined to a rigid part is prescribed, but not that of the "
+            "part; accepted: the same for both, and no rotation of the part",
+            given.place);
+      model.nodes.prescribed[static_cast<std::size_t>(node)] &= static_cast<std::uint8_t>(~(1 << given.axis));
+      return true;
+    });
+}
+
+namespace {
+
+// Of the model, ascending, each once.
+std::vector<int> nodes_of_part(const PartInModel& part) {
+  std::vector<int> nodes = part.node;
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+bool is_joint(const RigidBody& body, int node) {
+  return std::any_of(body.joint.begin(), body.joint.end(),
+                     [&](std::size_t i) { return body.node[i] == node; });
+}
+
+}  // namespace
+
 std::vector<std::size_t> take_rigid(std::vector<int>& nodes, const NodeSelection& where, const Model& model) {
   std::vector<std::size_t> bodies;
   for (std::size_t b = 0; b < model.rigid.body.size(); ++b) {
     const RigidBody& body = model.rigid.body[b];
-    std::vector<int> left;
-    std::set_difference(nodes.begin(), nodes.end(), body.node.begin(), body.node.end(),
-                        std::back_inserter(left));
-    const std::size_t named = nodes.size() - left.size();
-    if (named == 0) continue;
-    if (named < body.node.size())
+    const std::vector<int> own = nodes_of_part(model.parts[body.part]);
+    std::vector<int> named, left;
+    std::set_intersection(nodes.begin(), nodes.end(), own.begin(), own.end(), std::back_inserter(named));
+    if (named.size() < own.size()) {
+      if (std::all_of(named.begin(), named.end(), [&](int node) { return is_joint(body, node); })) continue;
       throw BuildError("a condition names some nodes of the rigid part '" + model.parts[body.part].name +
                            "', which moves as a whole; accepted: all of them, by the name of the part",
                        where.place);
+    }
+    std::set_difference(nodes.begin(), nodes.end(), own.begin(), own.end(), std::back_inserter(left));
     nodes = std::move(left);
     bodies.push_back(b);
   }
   return bodies;
 }
+
+namespace {
+
+std::vector<Vector3d> velocities_of_joints(const Model& model) {
+  std::vector<Vector3d> velocities;
+  for (const RigidBody& body : model.rigid.body)
+    for (const std::size_t i : body.joint)
+      velocities.push_back(Vector3d(model.nodes.record[static_cast<std::size_t>(body.node[i])].velocity));
+  return velocities;
+}
+
+void expect_same_velocities(const std::vector<Vector3d>& given, const Model& model) {
+  const std::vector<Vector3d> found = velocities_of_joints(model);
+  std::size_t next = 0;
+  for (const RigidBody& body : model.rigid.body)
+    for (std::size_t j = 0; j < body.joint.size(); ++j, ++next)
+      if ((given[next] - found[next]).norm() > velocity_share * (given[next].norm() + found[next].norm()))
+        throw BuildError("a node joined to rigid part '" + model.parts[body.part].name +
+                         "' starts with another velocity than that part; accepted: equal initial velocities");
+}
+
+}  // namespace
 
 void start_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   if (model.rigid.empty()) return;
@@ -143,8 +281,10 @@ void start_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& m
     const Vector3d angular_velocity = motion[b].angular_velocity;
     start(model.rigid.body[b], motion[b], velocity, angular_velocity);
   }
+  const std::vector<Vector3d> given = velocities_of_joints(model);
   ThreadTeam team(1);
   carry_velocities(model.rigid, model.nodes, team);
+  expect_same_velocities(given, model);
   check_walls(model);
 }
 

@@ -128,7 +128,7 @@ class Tying {
       : deck_(deck), meshes_(meshes), connectivity_(connectivity), model_(model) {}
 
   void add(const TieToSurface& entry) {
-    if (index_of_.empty()) index_of_.assign(model_.nodes.size(), -1);
+    if (index_of_.empty()) index_of_.assign(model_.nodes.size(), untied);
     const MainSurface main_surface =
         main_surface_of(part_index(entry.names[1], deck_), deck_, meshes_, connectivity_, model_);
     NodeSelection named;
@@ -173,21 +173,24 @@ class Tying {
   void tie_node(const Found& found, const MainSurface& main_surface, const TieToSurface& entry) {
     const int node = found.tie.node;
     int& index = index_of_[static_cast<std::size_t>(node)];
-    if (index >= 0) {
-      const TiedParts& first =
-          model_.ties
-              .found[static_cast<std::size_t>(model_.ties.node[static_cast<std::size_t>(index)].connection)];
+    const bool joins = model_.parts[main_surface.part].rigid >= 0;
+    std::vector<TiedNode>& tied = joins ? model_.ties.joined : model_.ties.node;
+    if (index != untied) {
+      const TiedNode& before = index >= 0
+                                   ? model_.ties.node[static_cast<std::size_t>(index)]
+                                   : *std::ranges::find(model_.ties.joined, node,
+                                                        [](const TiedNode& one) { return one.tie.node; });
+      const TiedParts& first = model_.ties.found[static_cast<std::size_t>(before.connection)];
       throw BuildError("a node of '" + entry.names[0] + "' " + at(model_.nodes, node) + " is tied to '" +
                            first.surface + "' already; one tie is accepted per node",
                        entry.place);
     }
-    index = static_cast<int>(model_.ties.node.size());
+    index = joins ? joined : static_cast<int>(tied.size());
     const int slot = main_surface.surface.face[static_cast<std::size_t>(found.face)].element;
-    model_.ties.node.push_back(
-        {.tie = found.tie,
-         .face_part = static_cast<int>(main_surface.part),
-         .element = model_.parts[main_surface.part].element_order[static_cast<std::size_t>(slot)],
-         .connection = static_cast<int>(model_.ties.found.size())});
+    tied.push_back({.tie = found.tie,
+                    .face_part = static_cast<int>(main_surface.part),
+                    .element = model_.parts[main_surface.part].element_order[static_cast<std::size_t>(slot)],
+                    .connection = static_cast<int>(model_.ties.found.size())});
   }
 
   enum : std::uint8_t { unseen, open, done };
@@ -214,7 +217,8 @@ class Tying {
   std::span<const Mesh> meshes_;
   std::span<const std::vector<int>> connectivity_;
   Model& model_;
-  std::vector<int> index_of_;  // of each node: its place in ties.node, or -1
+  static constexpr int untied = -1, joined = -2;
+  std::vector<int> index_of_;  // of each node: its place in ties.node, or one of these
   std::vector<int> order_;
 };
 
@@ -276,7 +280,6 @@ Ties ties_that_last(const Ties& ties) {
   std::erase_if(lasting.node, [&](const TiedNode& tied) {
     return ties.found[static_cast<std::size_t>(tied.connection)].can_fail();
   });
-  if (lasting.node.empty()) return {};
   number(lasting, ties.of_node.size());
   return lasting;
 }

@@ -146,6 +146,22 @@ void place_nodes(const RigidBody& body, Nodes& nodes, ThreadTeam& team) {
   });
 }
 
+// Before the body moves.
+void keep_joints(RigidBody& body) {
+  if (body.joint.empty()) return;
+  const Matrix3d turn = body.attitude.toRotationMatrix();
+  for (std::size_t j = 0; j < body.joint.size(); ++j)
+    body.joint_before[j] = to_vector(body.centre + turn * body.arm[body.joint[j]]);
+}
+
+void take_displacements(const RigidBody& body, double step, Nodes& nodes) {
+  for (std::size_t j = 0; j < body.joint.size(); ++j) {
+    NodeRecord& record = nodes.record[static_cast<std::size_t>(body.node[body.joint[j]])];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      record.velocity[axis] = (record.position[axis] - body.joint_before[j][axis]) / step;
+  }
+}
+
 void add_torques(RigidBodies& bodies, const NodalLoad& load, double time) {
   if (load.bodies.empty()) return;
   const Vector3d moment = load.factor(time) * Vector3d(load.force.data());
@@ -212,6 +228,9 @@ void gather_forces(RigidBodies& bodies, std::span<const ActiveLoad> loads, doubl
       body.force += force;
       body.moment += (Vector3d(nodes.record[node].position) - body.centre).cross(force);
     }
+    if (!nodes.has_rotations()) continue;
+    for (const std::size_t i : body.joint)
+      body.moment += Vector3d(nodes.moment[static_cast<std::size_t>(body.node[i])].component);
   }
 }
 
@@ -290,6 +309,11 @@ void carry_velocities(const RigidBodies& bodies, Nodes& nodes, ThreadTeam& team)
         for (int axis = 0; axis < 3; ++axis) record.velocity[axis] = velocity[axis];
       }
     });
+    if (!nodes.has_rotations()) continue;
+    for (const std::size_t i : body.joint)
+      for (int axis = 0; axis < 3; ++axis)
+        nodes.angular_velocity[static_cast<std::size_t>(body.node[i])].component[axis] =
+            motion.angular_velocity[axis];
   }
 }
 
@@ -298,6 +322,7 @@ Reaction move(RigidBodies& bodies, double step, Nodes& nodes, ThreadTeam& team) 
   for (std::size_t b = 0; b < bodies.body.size(); ++b) {
     RigidBody& body = bodies.body[b];
     RigidMotion& motion = bodies.motion[b];
+    keep_joints(body);
     body.centre += step * motion.velocity;
     if (rotation_is_given(body)) {
       const Vector3d rate = motion.angular_velocity;
@@ -312,6 +337,7 @@ Reaction move(RigidBodies& bodies, double step, Nodes& nodes, ThreadTeam& team) 
     place_nodes(body, nodes, team);
   }
   carry_velocities(bodies, nodes, team);
+  for (const RigidBody& body : bodies.body) take_displacements(body, step, nodes);
   return reaction;
 }
 

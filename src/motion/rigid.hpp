@@ -1,6 +1,8 @@
 #pragma once
 /// Each rigid body has six degrees of freedom, free or prescribed. Its nodes are massless nodes of the model;
-/// their positions and velocities follow from the body, and impulses on them act on the body.
+/// their positions and velocities follow from the body, and impulses on them act on the body. Among them are
+/// nodes of elements that are joined to it: their mass is the body's, and so are the forces of their
+/// elements.
 ///
 /// In each time step the linear momentum M V and the angular momentum L about the centre first receive the
 /// impulses of loads, supports, contact and walls at the present attitude. Then the centre moves by V dt, and
@@ -10,6 +12,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,6 +20,7 @@
 #include "contact/features/rigid_motion.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
+#include "src/deck/mass_properties.hpp"
 #include "src/motion/constraints.hpp"
 #include "src/motion/loads.hpp"
 #include "src/motion/motion.hpp"
@@ -49,8 +53,11 @@ struct RigidBody {
   std::vector<Eigen::Vector3d> arm;  ///< from the centre to each node, in the initial attitude
   std::vector<int> connectivity;     ///< nodes of the model, in the order of the part's mesh
   int nodes_per_element = 8;
-  double thickness = 0;  ///< of shells
+  double thickness = 0;              ///< of shells
+  std::vector<std::size_t> joint;    ///< places in `node` of those that belong to elements as well
+  std::vector<Vector> joint_before;  ///< their positions before the step; working space
 
+  MassProperties own;  ///< without joined nodes, at the start
   double mass = 0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, in the initial attitude
   std::vector<PrescribedRigid> given;
@@ -80,6 +87,9 @@ struct RigidBodies {
   std::vector<RigidMotion> motion;  ///< of each body
 
   bool empty() const { return body.empty(); }
+  bool has_joints() const {
+    return std::any_of(body.begin(), body.end(), [](const RigidBody& one) { return !one.joint.empty(); });
+  }
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
@@ -111,11 +121,12 @@ Impulse load_resultant(const RigidBodies& bodies);
 Reaction accelerate(RigidBodies& bodies, const StepTimes& times);
 /// Add the impulses of contact or walls to the momenta and clear them.
 void add_contact_impulses(RigidBodies& bodies);
-/// Velocities of all nodes of the bodies, from those of the bodies.
+/// Velocities of all nodes of the bodies, from those of the bodies; of joined nodes the angular ones too.
 void carry_velocities(const RigidBodies& bodies, Nodes& nodes, ThreadTeam& team);
 
 /// Move and turn the bodies over the step and put their nodes where they belong. \return what the supports of
-/// prescribed rotations did on the way; all of it in `after`.
+/// prescribed rotations did on the way; all of it in `after`. Velocities of joined nodes are those of their
+/// displacement in the step, so that elements strain by nothing else.
 /// \throws Breakdown where a body turns too far in one step.
 Reaction move(RigidBodies& bodies, double step, Nodes& nodes, ThreadTeam& team);
 

@@ -71,7 +71,7 @@ Summary observe_end(Model& model) {
   for (const PartInModel& part : model.parts) {
     summary.mass.start += part.mass;
     if (part.rigid >= 0) {
-      rigid_mass += part.mass;
+      rigid_mass += model.rigid.body[static_cast<std::size_t>(part.rigid)].mass;  // with joined nodes
       continue;
     }
     const std::string_view kind = traits_of(model.blocks[part.block].element).summary_key;

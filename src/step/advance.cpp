@@ -83,14 +83,15 @@ void gather_tied_forces(Model& model) {
   gather_forces(model.ties, model.nodes);
 }
 
-// Forces of loads and springs on rigid bodies.
+// Forces of loads, springs and joined elements on rigid bodies.
 void gather_rigid_forces(Model& model) {
-  if (model.rigid.empty() || (model.loads.empty() && model.springs.empty())) return;
+  const bool by_parts = !model.springs.empty() || model.rigid.has_joints();
+  if (model.rigid.empty() || (model.loads.empty() && !by_parts)) return;
   const StageTimer timer(model.stages, Stage::loads);
   const auto is_gravity = [](const ActiveLoad& load) {
     return std::holds_alternative<GravityLoad>(load.load);
   };
-  const bool by_nodes = !model.springs.empty() || !std::ranges::all_of(model.loads, is_gravity);
+  const bool by_nodes = by_parts || !std::ranges::all_of(model.loads, is_gravity);
   gather_forces(model.rigid, model.loads, model.times.time, by_nodes, model.nodes);
 }
 

@@ -38,6 +38,13 @@ void check_share(const AddedMass& mass, std::span<const PartInModel> parts) {
                   "'; accepted is up to time.mass_scaling.largest_share, or a shorter step");
 }
 
+bool joins_rigid(const Merge& merge, const Deck& deck) {
+  return std::ranges::any_of(deck.parts, [&](const Part& part) {
+    return std::holds_alternative<Rigid>(part.element) &&
+           std::ranges::find(merge.parts, part.name) != merge.parts.end();
+  });
+}
+
 }  // namespace
 
 double AddedMass::total() const { return std::accumulate(added.begin(), added.end(), 0.0); }
@@ -50,6 +57,11 @@ AddedMass make_mass_scaling(const TimeSection& time, const Deck& deck, std::span
       throw BuildError(
           "time.mass_scaling does not go with 'tie' in connections: the mass of tied nodes is on the nodes "
           "of the main surface",
+          mass.settings.place);
+    else if (const auto* merge = std::get_if<Merge>(&connection);
+             merge != nullptr && joins_rigid(*merge, deck))
+      throw BuildError(
+          "time.mass_scaling does not go with 'merge' of a rigid part, which has the mass of shared nodes",
           mass.settings.place);
   for (std::size_t p = 0; p < parts.size(); ++p) {
     Block& block = blocks[parts[p].block];

@@ -297,12 +297,12 @@ constexpr Edit edits[] = {
      "'tie' takes two different parts"},
     {"time: {end", "connections: [^{tie: [left, right]}]\ntime: {end", "has no 'tolerance'; it is required"},
     {"element: {type: hex8}\n    material: steel\n",
-     "element: rigid\n    material: steel\nconnections: [{tie: [left, ^right], tolerance: 1}]\n",
-     "part 'right' is rigid; accepted in 'tie' are parts of other elements"},
+     "element: rigid\n    material: steel\nconnections: [{tie: [^right, left], tolerance: 1}]\n",
+     "part 'right' is rigid; nodes of parts that deform can be tied to it"},
     {"element: {type: hex8}\n    material: steel\n",
-     "element: rigid\n    material: steel\nconnections: [{merge: [left, ^right], tolerance: 1}]\n",
-     "part 'right' is of elements 'rigid', which share no nodes; accepted are parts of solids, shells and "
-     "beams"},
+     "element: rigid\n    material: steel\nconnections: [{tie: [left, right], tolerance: 1, ^failure: "
+     "{normal_force: 1}}]\n",
+     "'failure' of a tie to a rigid part"},
     {"contact: {surfaces: all,", "contact: {pairs: [^{friction: 1}], surfaces: all,", "has no 'parts'"},
     {"contact: {surfaces: all,", "contact: {pairs: [^{parts: [left, right]}], surfaces: all,",
      "nothing is said of the pair"},

@@ -227,7 +227,7 @@ std::vector<std::string> features_not_built(const Model& model) {
       {"particles", lacks(vertex_cell)},
       {"rigid bodies", model.rigid.empty()},
       {"merged nodes", model.merged.empty()},
-      {"ties", model.ties.empty()},
+      {"ties", model.ties.found.empty()},
       {"deletion", !model.erosion},
       {"prescribed motion", model.prescribed.empty() && bodies_with_given_motion(model.rigid) == 0},
       {"rigid walls", model.walls.empty()},

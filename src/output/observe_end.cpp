@@ -19,7 +19,7 @@ std::vector<std::string> active_features(const Model& model) {
     features.insert(load.is_moment() ? "nodal_moment"
                                      : std::array{"gravity", "nodal_force", "pressure"}[load.load.index()]);
   if (!model.merged.empty()) features.insert("merged_nodes");
-  if (!model.ties.empty()) features.insert("ties");
+  if (!model.ties.found.empty()) features.insert("ties");
   if (!model.springs.empty()) features.insert("springs");
   if (!model.prescribed.empty()) features.insert("prescribed_motion");
   if (!model.walls.empty()) features.insert("rigid_wall");

@@ -166,7 +166,10 @@ double KnownNames::end_time() const {
 std::vector<const Part*> KnownNames::parts_called(const YamlNode& node, std::string_view name) const {
   expect_read(name);
   std::vector<const Part*> parts;
-  for (const std::size_t p : brio::parts_called(name, deck_)) parts.push_back(&deck_.parts[p]);
+  for (const std::size_t p : brio::parts_called(name, deck_)) {
+    expect_read(deck_.parts[p].name);
+    parts.push_back(&deck_.parts[p]);
+  }
   if (!parts.empty()) return parts;
   for (const MeshFile& file : deck_.meshes)
     if (file.name == name)

@@ -166,7 +166,6 @@ void find_rigid(std::span<const SurfacePart> parts, std::size_t node_count, Surf
     if (part.rigid < 0) continue;
     surface.rigid_of_node.resize(node_count, -1);
     for (int node : part.connectivity) surface.rigid_of_node[static_cast<std::size_t>(node)] = part.rigid;
-    for (int node : part.joined) surface.rigid_of_node[static_cast<std::size_t>(node)] = part.rigid;
   }
 }
 

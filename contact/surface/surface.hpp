@@ -24,7 +24,6 @@ struct SurfacePart {
   std::vector<double> thickness;      ///< of each shell, diameter of each beam or particle; else empty
   int rigid = -1;                     ///< the rigid body that all of its nodes belong to
   double debris_radius = 0;           ///< contact radius of its free nodes; 0: no contact
-  std::vector<int> joined{};          ///< global nodes of other parts that move with the rigid body
 
   bool solid() const { return nodes_per_element == 8; }
   bool shell() const { return nodes_per_element == 4; }

@@ -235,13 +235,12 @@ void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   }
 }
 
-// That move with a part, if it is rigid.
-std::vector<int> joined_nodes(const Model& model, std::size_t part) {
-  if (model.parts[part].rigid < 0) return {};
-  const RigidBody& body = model.rigid.body[static_cast<std::size_t>(model.parts[part].rigid)];
-  std::vector<int> nodes;
-  for (const std::size_t i : body.joint) nodes.push_back(body.node[i]);
-  return nodes;
+// Nodes of elements that are joined to rigid parts, also where those are not in contact.
+void mark_joined(const Model& model, Surface& surface) {
+  if (model.rigid.has_joints()) surface.rigid_of_node.resize(model.nodes.size(), -1);
+  for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
+    for (const std::size_t i : model.rigid.body[b].joint)
+      surface.rigid_of_node[static_cast<std::size_t>(model.rigid.body[b].node[i])] = static_cast<int>(b);
 }
 
 double debris_radius(const Part& part) {
@@ -310,11 +309,11 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
                         .connectivity = connectivity[p],
                         .thickness = contact_thickness(part, meshes[p]),
                         .rigid = model.parts[p].rigid,
-                        .debris_radius = debris_radius(part),
-                        .joined = joined_nodes(model, p)});
+                        .debris_radius = debris_radius(part)});
   }
   try {
     model.contacts.push_back(make_contact_scene(deck.contact->options, surfaces, model.nodes));
+    mark_joined(model, model.contacts.back().surface);
     if (deck.contact->options.audit) model.contact_audits.emplace();
     const std::vector<PairRule> rules = pair_rules(*deck.contact, surfaces);
     if (!rules.empty()) model.contacts.back().surface.pairs = {rules, surfaces, model.nodes.size()};
@@ -325,9 +324,10 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
     ThreadTeam team(threads);
     for (InitialOverlap& overlap : make_initial_gap(model.contacts.back(), model.nodes, team))
       model.initial_overlaps.push_back(std::move(overlap));
-    if (lasting.node.size() == model.ties.node.size()) return;
-    tie_again(model);
-    exclude_tied_pairs(model.contacts.back(), model.ties, part_of_surface);
+    if (lasting.node.size() < model.ties.node.size()) {
+      tie_again(model);
+      exclude_tied_pairs(model.contacts.back(), model.ties, part_of_surface);
+    }
   } catch (const std::invalid_argument& fault) {
     throw BuildError(fault.what(), deck.contact->place);
   } catch (const std::length_error& fault) {

@@ -171,32 +171,43 @@ TEST(RigidJoints, AShellIsClampedToARigidPart) {
   EXPECT_NEAR(heights[1], heights[0], 1e-9 * heights[0]);
 }
 
-// A ball hits the arm that a rigid block carries: impulses on its nodes reach the block.
+/// A hammer hits the pad that a rigid block carries, from above or, on joined nodes, from the side.
+Deck struck_pad(Joint joint, bool excluded, bool from_side) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  const Triple place = from_side ? Triple{0.75, 0.1, 0.3} : Triple{0.3, 0.1, 0.7};
+  deck.parts = {box("block", {1, 1, 0.5}, {2, 2, 1}, {0, 0, 0}, Rigid{}),
+                box("pad", {1, 1, 0.25}, {joint == Joint::merged ? 2 : 3, 2, 1}, {0, 0, 0.375}, hex8()),
+                box("hammer", {0.3, 0.3, 0.3}, {2, 2, 2}, place, hex8())};
+  deck.connections = {joint == Joint::merged ? Connection(Merge{{"block", "pad"}, 1e-6, ""})
+                                             : Connection(tied("pad.zmin", "block"))};
+  deck.initial_conditions = {moving("hammer", from_side ? Triple{-10, 1, 0} : Triple{0, 1, -10})};
+  deck.contact.emplace();
+  deck.contact->options.friction = 0.3;
+  if (excluded) deck.contact->exclude = {"block"};
+  deck.time.end = 0.03;
+  return deck;
+}
+
+// Impulses on its nodes reach the block, whether that is in contact itself or not.
 TEST(RigidJoints, AnImpactOnJoinedElementsMovesTheRigidPart) {
-  for (const Joint joint : {Joint::merged, Joint::tied}) {
-    SCOPED_TRACE(static_cast<int>(joint));
-    Deck deck;
-    deck.materials = {{"material", elastic(0.3)}};
-    deck.parts = {box("block", {1, 1, 0.5}, {2, 2, 1}, {0, 0, 0}, Rigid{}),
-                  box("pad", {1, 1, 0.25}, {joint == Joint::merged ? 2 : 3, 2, 1}, {0, 0, 0.375}, hex8()),
-                  box("hammer", {0.3, 0.3, 0.3}, {2, 2, 2}, {0.3, 0.1, 0.7}, hex8())};
-    deck.connections = {joint == Joint::merged ? Connection(Merge{{"block", "pad"}, 1e-6, ""})
-                                               : Connection(tied("pad.zmin", "block"))};
-    deck.initial_conditions = {moving("hammer", {0, 1, -10})};
-    deck.contact.emplace();
-    deck.contact->options.friction = 0.3;
-    deck.time.end = 0.03;
-    Model model = build_model(deck);
-    ThreadTeam team(1);
-    run(model, deck, team, [&](Model& m) {
-      balance_momentum(m);
-      ASSERT_LE(m.momentum.linear_imbalance(), 1e-12);
-      ASSERT_LE(m.momentum.angular_imbalance(), 1e-12);
-    });
-    EXPECT_LT(model.rigid.motion[0].velocity[2], -0.3);
-    EXPECT_GT(model.rigid.motion[0].angular_velocity.norm(), 0.1);
-    EXPECT_LE(model.energy.error_max, 1e-2);
-  }
+  for (const Joint joint : {Joint::merged, Joint::tied})
+    for (const bool excluded : {false, true})
+      for (const bool from_side : {false, true}) {
+        SCOPED_TRACE(std::to_string(static_cast<int>(joint)) + (excluded ? " excluded" : "") +
+                     (from_side ? " from the side" : ""));
+        const Deck deck = struck_pad(joint, excluded, from_side);
+        Model model = build_model(deck);
+        ThreadTeam team(1);
+        run(model, deck, team, [&](Model& m) {
+          balance_momentum(m);
+          ASSERT_LE(m.momentum.linear_imbalance(), 1e-12);
+          ASSERT_LE(m.momentum.angular_imbalance(), 1e-12);
+        });
+        EXPECT_LT(model.rigid.motion[0].velocity[from_side ? 0 : 2], -0.3);
+        EXPECT_GT(model.rigid.motion[0].angular_velocity.norm(), 0.1);
+        EXPECT_LE(model.energy.error_max, 1e-2);
+      }
 }
 
 TEST(RigidJoints, SupportsOfJoinedNodesMustBeThoseOfTheBody) {

@@ -66,10 +66,10 @@ function unitOfColumn(name) {
   if (energyColumns.includes(name)) return unit("energy");
   if (name === "time" || name === "dt") return unit("time");
   if (/velocity_[xyz]$/.test(name)) return unit("velocity");
-  if (/displacement_[xyz]$/.test(name)) return unit("length");
+  if (/(displacement|centre)_[xyz]$/.test(name) || /^spring\..*\.elongation$/.test(name)) return unit("length");
   if (/impulse_[xyz]$/.test(name)) return unit("impulse");
-  if (/^(reaction|contact|section)\..*(moment|_r[xyz]$)/.test(name)) return unit("moment");
-  if (/^(reaction|contact|section)\./.test(name)) return unit("force");
+  if (/^section\..*_m[xyz]$/.test(name)) return unit("moment");
+  if (/^(reaction|contact|section)\./.test(name) || /^spring\..*\.force$/.test(name)) return unit("force");
   return "";
 }
 

@@ -146,6 +146,9 @@ def test_texts(page):
     for word in ["kinetic", "relative error"]:
         expect(word in page.text("#energy"), f"{word} in the energy balance")
     expect("steps" in page.text("#summary") and "hex8" in page.text("#summary"), "summary")
+    for column, wanted in {"section.waist_mx": "N mm", "section.waist_x": "N", "reaction.foot_z": "N", "spring.strut.force": "N",
+                           "spring.strut.elongation": "mm", "hub.centre_x": "mm", "block.velocity_z": "mm/ms"}.items():
+        expect(page.browser.run(f"unitOfColumn('{column}')") == wanted, f"{column} in {wanted}")
 
 
 def test_histories(page):

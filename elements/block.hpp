@@ -48,15 +48,18 @@ struct SweepResult {
   double viscous_energy = 0;
   double stable_step = 0;            ///< smallest over the chunk; not positive: an element has broken down
   std::size_t critical_element = 0;  ///< index within the block of the element that sets it
-  std::size_t lost = 0;              ///< elements to be deleted, listed in Block::lost
-  CountByCause lost_by{};            ///< of these, by DeletionCause
-  std::size_t scaled = 0;            ///< elements that got mass, listed in Block::scaled
+  double strain_rate_squared = 0;    ///< largest
+  double damping = 0;      ///< largest that it adds to the square of a frequency (nodal_stiffness.hpp)
+  std::size_t lost = 0;    ///< elements to be deleted, listed in Block::lost
+  CountByCause lost_by{};  ///< of these, by DeletionCause
+  std::size_t scaled = 0;  ///< elements that got mass, listed in Block::scaled
 };
 
 struct Block;
 /// The code of one (element, material, precision), chosen once when the block is made.
 struct BlockKernel {
-  /// Stress update and internal forces of one chunk, subtracted from nodes.force (and nodes.moment).
+  /// Stress update and internal forces of one chunk, subtracted from nodes.force (and nodes.moment), and as
+  /// their fourth components the stiffness of nodes.
   SweepResult (*sweep)(Block&, Chunk, Nodes&, double step);
   /// Reference state and lumped masses, added to nodes.mass (and nodes.rotational_inertia).
   /// Throws std::invalid_argument naming the element where the geometry is not valid.
@@ -69,6 +72,12 @@ struct BlockKernel {
   /// of a chunk's own nodes. Null for elements that act on their own nodes alone.
   /// \returns work since the last step that no first part has accounted for.
   double (*exchange)(Block&, Chunk, Nodes&, double step);
+  /// The sweep adds to the stiffness of nodes (src/sweep/assembled_step.hpp).
+  bool gives_stiffness;
+  /// Subtracts the products of the elastic stiffness of a chunk's elements and displacements of nodes; null
+  /// where there is none (elements/stiffness_product.hpp).
+  void (*multiply_stiffness)(Block&, Chunk, const Nodes&, const NodalRows& displacement,
+                             const NodalRows& product);
 };
 
 struct Block {

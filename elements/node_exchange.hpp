@@ -12,20 +12,21 @@ namespace brio {
 template <class Kind, Floating Real>
 inline constexpr bool makes_relative = !(sizeof(Real) == 8 && Kind::kernel_traits.uses_differences);
 
+/// \param velocity rows that are `velocity_stride` doubles apart
 template <class Kind, Floating Real>
-BRIO_CALLED void gather_motion(const Nodes& nodes, const int* connectivity,
-                               MotionOf<Kind, Lanes<Real>>& motion) {
+BRIO_INLINE void gather_motion(const Nodes& nodes, const double* velocity, std::size_t velocity_stride,
+                               const NodeVector* angular_velocity, const int* connectivity,
+                               NodalMotionOf<Kind, Lanes<Real>>& motion) {
   constexpr int width = lane_count<Real>;
   constexpr std::size_t stride = sizeof(NodeRecord) / sizeof(double);
   const double* position = nodes.record.data()->position;
-  const double* velocity = nodes.record.data()->velocity;
   const WideVector<Real> first_position = gather_rows<Real>(position, stride, connectivity);
-  const WideVector<Real> first_velocity = gather_rows<Real>(velocity, stride, connectivity);
+  const WideVector<Real> first_velocity = gather_rows<Real>(velocity, velocity_stride, connectivity);
 #pragma GCC unroll 8
   for (int corner = 0; corner < Kind::nodes; ++corner) {
     const int* node = connectivity + corner * width;
     WideVector<Real> x = corner == 0 ? first_position : gather_rows<Real>(position, stride, node);
-    WideVector<Real> v = corner == 0 ? first_velocity : gather_rows<Real>(velocity, stride, node);
+    WideVector<Real> v = corner == 0 ? first_velocity : gather_rows<Real>(velocity, velocity_stride, node);
     if constexpr (makes_relative<Kind, Real>) {
       x = x - first_position;
       v = v - first_velocity;
@@ -37,8 +38,8 @@ BRIO_CALLED void gather_motion(const Nodes& nodes, const int* connectivity,
     motion.velocity[1][corner] = narrow<Real>(v.y);
     motion.velocity[2][corner] = narrow<Real>(v.z);
     if constexpr (Kind::rotations) {
-      const WideVector<Real> w = gather_rows<Real>(nodes.angular_velocity.data()->component,
-                                                   sizeof(NodeVector) / sizeof(double), node);
+      const WideVector<Real> w =
+          gather_rows<Real>(angular_velocity->component, sizeof(NodeVector) / sizeof(double), node);
       motion.angular_velocity[0][corner] = narrow<Real>(w.x);
       motion.angular_velocity[1][corner] = narrow<Real>(w.y);
       motion.angular_velocity[2][corner] = narrow<Real>(w.z);
@@ -47,32 +48,60 @@ BRIO_CALLED void gather_motion(const Nodes& nodes, const int* connectivity,
 }
 
 template <class Kind, Floating Real>
-BRIO_CALLED void scatter(Nodes& nodes, const int* connectivity, const ForcesOf<Kind, Lanes<Real>>& forces) {
+BRIO_CALLED void gather_motion(const Nodes& nodes, const int* connectivity,
+                               MotionOf<Kind, Lanes<Real>>& motion) {
+  gather_motion<Kind, Real>(nodes, nodes.record.data()->velocity, sizeof(NodeRecord) / sizeof(double),
+                            nodes.angular_velocity.data(), connectivity, motion);
+}
+/// With other vectors in place of velocities.
+template <class Kind, Floating Real>
+BRIO_CALLED void gather_motion(const Nodes& nodes, const NodalRows& velocity, const int* connectivity,
+                               NodalMotionOf<Kind, Lanes<Real>>& motion) {
+  gather_motion<Kind, Real>(nodes, velocity.linear->component, sizeof(NodeVector) / sizeof(double),
+                            velocity.angular, connectivity, motion);
+}
+
+template <class Kind, Floating Real>
+BRIO_CALLED void scatter(const NodalRows& sum, const int* connectivity,
+                         const ForcesOf<Kind, Lanes<Real>>& forces) {
 #pragma GCC unroll 8
   for (int corner = 0; corner < Kind::nodes; ++corner) {
     const int* node = connectivity + corner * lane_count<Real>;
-    subtract_from_rows<Real>(nodes.force.data(), node, forces.force[0][corner], forces.force[1][corner],
-                             forces.force[2][corner]);
+    subtract_from_rows<Real>(sum.linear, node, forces.force[0][corner], forces.force[1][corner],
+                             forces.force[2][corner], forces.stiffness);
     if constexpr (Kind::rotations)
-      subtract_from_rows<Real>(nodes.moment.data(), node, forces.moment[0][corner], forces.moment[1][corner],
-                               forces.moment[2][corner]);
+      subtract_from_rows<Real>(sum.angular, node, forces.moment[0][corner], forces.moment[1][corner],
+                               forces.moment[2][corner], forces.rotational_stiffness);
   }
 }
 
 /// The first `count` lanes of the last pack of a chunk: kept out of the loop, where it would be the larger
 /// part of the code.
 template <class Kind, Floating Real>
-BRIO_CALLED void scatter_first(Nodes& nodes, const int* connectivity, int count,
+BRIO_CALLED void scatter_first(const NodalRows& sum, const int* connectivity, int count,
                                const ForcesOf<Kind, Lanes<Real>>& forces) {
   for (int corner = 0; corner < Kind::nodes; ++corner)
     for (int lane = 0; lane < count; ++lane) {
       const auto node = static_cast<std::size_t>(connectivity[corner * lane_count<Real> + lane]);
       for (int i = 0; i < 3; ++i) {
-        nodes.force[node].component[i] -= static_cast<double>(forces.force[i][corner][lane]);
+        sum.linear[node].component[i] -= static_cast<double>(forces.force[i][corner][lane]);
         if constexpr (Kind::rotations)
-          nodes.moment[node].component[i] -= static_cast<double>(forces.moment[i][corner][lane]);
+          sum.angular[node].component[i] -= static_cast<double>(forces.moment[i][corner][lane]);
       }
+      sum.linear[node].component[3] -= static_cast<double>(forces.stiffness[lane]);
+      if constexpr (Kind::rotations)
+        sum.angular[node].component[3] -= static_cast<double>(forces.rotational_stiffness[lane]);
     }
+}
+
+template <class Kind, Floating Real>
+BRIO_INLINE void scatter_pack(const NodalRows& sum, const int* connectivity, int count,
+                              const ForcesOf<Kind, Lanes<Real>>& forces) {
+  if (count == lane_count<Real>) {
+    scatter<Kind, Real>(sum, connectivity, forces);
+  } else {
+    scatter_first<Kind, Real>(sum, connectivity, count, forces);
+  }
 }
 
 /// Takes back the forces of lost lanes and their half of the step's work. Of an element that has inverted
@@ -133,11 +162,7 @@ class NodeExchange {
   template <class Header>
   BRIO_INLINE void scatter(const int* connectivity, int count, const Header&,
                            const ForcesOf<Kind, T>& forces) const {
-    if (count == lane_count<Real>) {
-      brio::scatter<Kind, Real>(nodes_, connectivity, forces);
-    } else {
-      scatter_first<Kind, Real>(nodes_, connectivity, count, forces);
-    }
+    scatter_pack<Kind, Real>({nodes_.force.data(), nodes_.moment.data()}, connectivity, count, forces);
   }
 
  private:

@@ -11,14 +11,16 @@ namespace brio {
 /// added to the nodes after the sweep. \param count lanes that are elements
 template <Floating Real, class Header>
 void scale_mass(Block& block, Chunk chunk, std::size_t pack, int count, Header& header,
-                Lanes<Real>& stable_step, SweepResult& result) {
+                Increment<Lanes<Real>>& increment, SweepResult& result) {
   using T = Lanes<Real>;
   const T wanted(block.scaled_step);
+  T& stable_step = increment.stable_step;
   const auto is_short = (stable_step < wanted) & (stable_step > T(0.0));
   if (!any(is_short)) return;
   const T ratio = wanted / where(is_short, stable_step, wanted);
   const T before = header.mass;
   header.mass = before * (ratio * ratio);
+  increment.frequency_squared = increment.frequency_squared / (ratio * ratio);
   stable_step = where(is_short, wanted, stable_step);
   constexpr std::size_t width = lane_count<Real>;
   for (int lane = 0; lane < count; ++lane) {

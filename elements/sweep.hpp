@@ -12,8 +12,10 @@
 #include "elements/base/bad_element.hpp"
 #include "elements/block.hpp"
 #include "elements/lose.hpp"
+#include "elements/nodal_stiffness.hpp"
 #include "elements/node_exchange.hpp"
 #include "elements/scale_mass.hpp"
+#include "elements/stiffness_product.hpp"
 #include "src/base/fetch_ahead.hpp"
 
 namespace brio {
@@ -120,6 +122,7 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   LaneSum<Real> internal_energy, hourglass_energy, viscous_energy;
   SweepResult result;
   result.stable_step = HUGE_VAL;
+  T damping(0.0), strain_rate_squared(0.0);
   for (std::size_t done = 0; done < chunk.element_count; done += width) {
     const std::size_t pack = chunk.first_pack + done / width;
     const int* connectivity =
@@ -143,7 +146,11 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
       hold<Real>(increment, block.held.data() + pack * 2 * width);
     }
     if (block.scaled_step > 0)
-      scale_mass<Real>(block, chunk, pack, count, Layout::header(block, pack), increment.stable_step, result);
+      scale_mass<Real>(block, chunk, pack, count, Layout::header(block, pack), increment, result);
+    if constexpr (Kind::kernel_traits.tangent)
+      strain_rate_squared = max(strain_rate_squared, increment.strain_rate_squared);
+    if constexpr (Kind::kernel_traits.bounded_alone)
+      damping = max(damping, give_stiffness(kind, Layout::header(block, pack), step, increment, forces));
     exchange.scatter(connectivity, count, Layout::header(block, pack), forces);
     internal_energy.add(increment.internal_energy, count);
     hourglass_energy.add(increment.hourglass_energy, count);
@@ -153,6 +160,11 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   result.internal_energy = internal_energy.sum();
   result.hourglass_energy = hourglass_energy.sum();
   result.viscous_energy = viscous_energy.sum();
+  for (int lane = 0; lane < width; ++lane) {
+    result.damping = std::max(result.damping, static_cast<double>(damping[lane]));
+    result.strain_rate_squared =
+        std::max(result.strain_rate_squared, static_cast<double>(strain_rate_squared[lane]));
+  }
   return result;
 }
 
@@ -276,11 +288,22 @@ double gyration_of_element(const Block& block, std::size_t e) {
 }
 
 template <class Kind, class Law, Floating Real>
+void multiply_stiffness_of_block(Block& block, Chunk chunk, const Nodes& nodes, const NodalRows& displacement,
+                                 const NodalRows& product) {
+  multiply_stiffness<Kind, Law, Real, PackLayout<Kind, Law, Real>>(kernel_of<Kind>(block.element),
+                                                                   law_of<Law>(block.material), block, chunk,
+                                                                   nodes, displacement, product);
+}
+
+template <class Kind, class Law, Floating Real>
 void set_kernel(Block& block) {
   block.pack_bytes = PackLayout<Kind, Law, Real>::bytes(kernel_of<Kind>(block.element));
   block.kernel = {sweep_chunk<Kind, Law, Real>,         initialize_block<Kind, Law, Real>,
                   sample_element<Kind, Law, Real>,      mass_of_element<Kind, Law, Real>,
-                  gyration_of_element<Kind, Law, Real>, nullptr};
+                  gyration_of_element<Kind, Law, Real>, nullptr,
+                  Kind::kernel_traits.bounded_alone,    nullptr};
+  if constexpr (Kind::kernel_traits.tangent)
+    block.kernel.multiply_stiffness = multiply_stiffness_of_block<Kind, Law, Real>;
   block.loses_elements = can_fail<Law> || block.deletion.names_a_criterion();
 }
 

@@ -124,7 +124,7 @@ BRIO_INLINE void store_impulses(const RowPack<with_friction>& pack, RowImpulse* 
     if constexpr (with_friction) force[axis] += j[1] * n[3 + axis] + j[2] * n[6 + axis];
   }
   Row4 rows[8];
-  transpose_lanes(force[0].v, force[1].v, force[2].v, rows);
+  transpose_lanes(force[0].v, force[1].v, force[2].v, Row8{}, rows);
 #pragma GCC unroll 8
   for (int lane = 0; lane < 8; ++lane) store_row(given[lane].force, rows[lane]);
   if constexpr (with_friction) {

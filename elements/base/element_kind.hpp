@@ -29,8 +29,8 @@
 ///                        ForcesOf<E, T>&) const;
 ///     ElementSample sample(const NodalMotionOf<E, double>&, const Law&, const Header<double, Law>&,
 ///                          const Point<double, Law>*) const;
-///     double gyration_of(const Header<double, Law>&) const;   // where nodes turn: rotational inertia of a
-///                                                             // node over its mass, length squared
+///     auto gyration_of(const Header<T, Law>&) const;  // where nodes turn: rotational inertia of a node over
+///                                                     // its mass, length squared; of lanes or for all
 ///
 /// Header and Point hold nothing but numbers T, so that a pack is an array [component][lane] and one lane of
 /// it can be read back as plain doubles. A kernel that sees more than its own nodes specializes SeenByKernel
@@ -80,6 +80,11 @@ struct KernelTraits {
   /// stations(): cross sections to which the points belong, one after the other, and each of which can fail
   /// by itself.
   bool stations = false;
+  /// Its bounds are those of an element by itself with the mass that it gives to its nodes.
+  bool bounded_alone = true;
+  /// undamped(), start_unstressed(now, header, point): its elastic stiffness can be multiplied with
+  /// displacements (elements/stiffness_product.hpp).
+  bool tangent = false;
   /// What is wrong with an element without mass.
   std::string_view shape_rule = "has no positive volume";
 };

@@ -27,10 +27,12 @@ struct RotatingNodalMotion : NodalMotion<T, N> {
 template <class T, int N>
 struct NodalForces {
   T force[3][N];
+  T stiffness;  ///< that the element gives to each of its nodes; of the sweep (nodal_stiffness.hpp)
 };
 template <class T, int N>
 struct RotatingNodalForces : NodalForces<T, N> {
   T moment[3][N];
+  T rotational_stiffness;
 };
 
 /// Work done on the element since the last step, by kind, and the largest step for which it is stable now.
@@ -41,6 +43,8 @@ struct Increment {
   T hourglass_energy;
   T viscous_energy;  ///< bulk viscosity and viscous hourglass control
   T stable_step;
+  T frequency_squared;    ///< bound of the undamped element with the mass that it gives to its nodes
+  T strain_rate_squared;  ///< D:D; 0 of kinds without a tangent (element_kind.hpp)
 };
 
 /// Lumped mass and rotational inertia that an element gives to each of its nodes (inertia 0 for solids).

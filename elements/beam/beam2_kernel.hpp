@@ -114,8 +114,10 @@ struct Beam2Kernel : Beam2 {
     BeamLoads<T> loads = stress_loads(g, change, law, header, point, increment);
     const auto moduli = plane_stress_moduli(law.template moduli<T>(point[0].history));
     const T axial_stiffness = T(fibres->area) * moduli.youngs * header.length * square(g.inverse_length);
-    const T undamped =
-        2.0 / sqrt(highest_frequency_square(g, moduli, axial_stiffness, abs(loads.axial_force), header));
+    increment.strain_rate_squared = T(0.0);
+    increment.frequency_squared =
+        highest_frequency_square(g, moduli, axial_stiffness, abs(loads.axial_force), header);
+    const T undamped = 2.0 / sqrt(increment.frequency_squared);
     increment.stable_step = where(valid & g.is_valid, undamped * damped_share(T(linear_bulk_viscosity)), 0.0);
     loads.axial_force +=
         viscous_force(axial_stiffness, undamped, g.length * change.stretch, step, header, increment);
@@ -345,7 +347,9 @@ struct Beam2Kernel : Beam2 {
     T force = volume * inverse_length * point[0].stress.xx;
     const T stiffness = volume * moduli.youngs * square(inverse_length);
     const T per_mass = 4.0 / header.mass;
-    const T undamped = 2.0 / sqrt(max(stiffness, abs(force) * inverse_length) * per_mass);
+    increment.strain_rate_squared = T(0.0);
+    increment.frequency_squared = max(stiffness, abs(force) * inverse_length) * per_mass;
+    const T undamped = 2.0 / sqrt(increment.frequency_squared);
     increment.stable_step = where(has_length, undamped * damped_share(T(linear_bulk_viscosity)), 0.0);
     T taut(1.0);
     if (formulation == BeamFormulation::cable) taut = where(header.slack < T(0.0), T(0.0), 1.0);

@@ -99,7 +99,7 @@ struct SeenByKernel<ParticleKernel, T> {
 
 struct ParticleKernel : Particle {
   using Settings = Particle;
-  static constexpr KernelTraits kernel_traits{};
+  static constexpr KernelTraits kernel_traits{.bounded_alone = false};
   static constexpr int most_points = 1;
   static constexpr int points() { return 1; }
   static double point_size(double volume) { return edge_of_cube(volume); }
@@ -243,6 +243,8 @@ struct ParticleKernel : Particle {
     // sum s |v_j - v_i|^2 <= 2 sum s (v_j^2 + v_i^2), as one of two in every pair.
     const T damping = frequency_squared * (linear + quadratic) / square(sound_speed) +
                       4.0 * forces.viscosity * motion.weight / header.mass;
+    increment.frequency_squared = frequency_squared;
+    increment.strain_rate_squared = T(0.0);
     increment.stable_step = where(volume.is_valid, damped_stable_step(frequency_squared, damping), T(-1.0));
     return increment;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "elements/base/tridiagonal.hpp"
 #include "elements/particle/particle_pairs.hpp"
 
 namespace brio {
@@ -11,7 +12,6 @@ namespace brio {
 namespace {
 
 constexpr int lanczos_steps = 40;
-constexpr int bisections = 60;
 /// For what so many steps have not found.
 constexpr double margin = 1.02;
 
@@ -98,28 +98,6 @@ struct Stiffness {
     return sum;
   }
 };
-
-/// Largest eigenvalue of a symmetric tridiagonal matrix, by bisection: with a shift above it all pivots are
-/// negative.
-double largest_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside) {
-  double lower = diagonal[0], upper = diagonal[0];
-  for (std::size_t i = 0; i < diagonal.size(); ++i) {
-    const double reach = (i > 0 ? beside[i - 1] : 0) + (i + 1 < diagonal.size() ? beside[i] : 0);
-    lower = std::max(lower, diagonal[i]);
-    upper = std::max(upper, diagonal[i] + reach);
-  }
-  for (int pass = 0; pass < bisections; ++pass) {
-    const double shift = 0.5 * (lower + upper);
-    double pivot = diagonal[0] - shift;
-    bool all_negative = pivot < 0;
-    for (std::size_t i = 1; i < diagonal.size() && all_negative; ++i) {
-      pivot = diagonal[i] - shift - beside[i - 1] * beside[i - 1] / pivot;
-      all_negative = pivot < 0;
-    }
-    (all_negative ? upper : lower) = shift;
-  }
-  return upper;
-}
 
 }  // namespace
 

@@ -22,7 +22,7 @@ namespace brio {
 
 struct Shell4Kernel : Shell4 {
   using Settings = Shell4;
-  static constexpr KernelTraits kernel_traits{.fetches_points_ahead = true};
+  static constexpr KernelTraits kernel_traits{.fetches_points_ahead = true, .tangent = true};
   static constexpr int most_points = most_thickness_points;
   int points() const { return thickness_points; }
   double point_size(double volume) const { return std::sqrt(volume / thickness); }
@@ -70,8 +70,27 @@ struct Shell4Kernel : Shell4 {
 
   /// Rotational inertia over mass.
   template <class Header>
-  double gyration_of(const Header& header) const {
-    return 1 / header.inverse_gyration;
+  auto gyration_of(const Header& header) const {
+    return 1.0 / header.inverse_gyration;
+  }
+
+  /// The same without damping forces.
+  Shell4Kernel undamped() const {
+    Shell4Kernel kernel = *this;
+    kernel.linear_bulk_viscosity = 0;
+    kernel.hourglass_viscosity = 0;
+    kernel.drilling_viscosity = 0;
+    return kernel;
+  }
+  /// State with the present shape and without stress. \param header out, zero before, as are the points
+  template <class T, class Law, class Other>
+  void start_unstressed(const Header<T, Law>& now, Header<T, Other>& header, Point<T, Other>*) const {
+    header.mass = now.mass;
+    header.thickness = now.thickness;
+    header.inverse_gyration = now.inverse_gyration;
+    header.reference = now.reference;
+    header.hourglass_stiffness = now.hourglass_stiffness;
+    header.drilling_stiffness = now.drilling_stiffness;
   }
 
   template <class T, class Law>
@@ -95,6 +114,8 @@ struct Shell4Kernel : Shell4 {
     if (hourglass_viscosity > 0)
       damping += hourglass_viscosity * (1.0 + 0.5 * (square(g.skew[0]) + square(g.skew[1])));
     if (drilling_stiffness > 0) damping += drilling_damping(g, header);
+    increment.frequency_squared = frequency;
+    increment.strain_rate_squared = strain_rate_squared(rates, header.thickness);
     increment.stable_step = where(g.is_valid, undamped * damped_share(damping), 0.0);
 
     // Viscosity as if the stiffness of equal stretch in both directions, E' (1 + nu) / 2, acted for b1 stable

@@ -36,6 +36,13 @@ struct ShellRates {
   T drilling;      ///< mean of the nodes' spins about the normal, less that of the material
 };
 
+/// D:D in the plane, of the middle and what bending adds at a surface.
+template <class T>
+BRIO_INLINE T strain_rate_squared(const ShellRates<T>& rates, T thickness) {
+  const auto squared = [](const T(&d)[3]) { return square(d[0]) + square(d[1]) + 2.0 * square(d[2]); };
+  return squared(rates.membrane) + square(0.5 * thickness) * squared(rates.curvature);
+}
+
 template <class T>
 BRIO_INLINE T along_diagonal(const T (&diagonal)[2], const T (&tensor)[3]) {
   return square(diagonal[0]) * tensor[0] + square(diagonal[1]) * tensor[1] +

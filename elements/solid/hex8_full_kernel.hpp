@@ -72,7 +72,8 @@ inline constexpr double point_volume = 1.0 / 512.0;
 template <ObjectiveRate rate>
 struct Hex8FullKernel : Hex8Full {
   using Settings = Hex8Full;
-  static constexpr KernelTraits kernel_traits{.uses_differences = true, .fetches_points_ahead = true};
+  static constexpr KernelTraits kernel_traits{
+      .uses_differences = true, .fetches_points_ahead = true, .tangent = true};
   static constexpr int most_points = hexahedron_points;
   static constexpr int points() { return hexahedron_points; }
   static double point_size(double volume) { return std::cbrt(volume / hexahedron_points); }
@@ -101,6 +102,20 @@ struct Hex8FullKernel : Hex8Full {
     return {mass, T(0.0)};
   }
 
+  /// The same without damping forces.
+  Hex8FullKernel undamped() const {
+    Hex8FullKernel kernel = *this;
+    kernel.linear_bulk_viscosity = 0;
+    kernel.quadratic_bulk_viscosity = 0;
+    return kernel;
+  }
+  /// State with the present shape and without stress. \param header, point out, zero before
+  template <class T, class Law, class Other>
+  void start_unstressed(const Header<T, Law>& now, Header<T, Other>& header, Point<T, Other>* point) const {
+    header.mass = now.mass;
+    for (int p = 0; p < hexahedron_points; ++p) start(point[p]);
+  }
+
   template <class T, class Law>
   BRIO_INLINE Increment<T> force(const NodalMotion<T, 8>& motion, T step, const Law& law,
                                  Header<T, Law>& header, Point<T, Law>* point,
@@ -115,7 +130,7 @@ struct Hex8FullKernel : Hex8Full {
     const T dilatation_rate = scaled_inverse_volume * trace(scaled_l);
 
     HexahedronModes<T> f{};
-    Increment<T> increment{T(0.0), T(0.0), T(0.0), T(0.0)};
+    Increment<T> increment{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)};
     ElasticModuli<T> moduli = law.moduli(point[0].history);
     const T least_determinant =
         (least_volume_share / (hexahedron_points * point_volume)) * max(b.volume, T(0.0));
@@ -171,10 +186,11 @@ struct Hex8FullKernel : Hex8Full {
     const T mean_pressure_force = (pressure_force - volume * viscosity.pressure) * scaled_inverse_volume;
     for (int m = 0; m < gradient_modes; ++m) f.sum[m] = f.sum[m] + mean_pressure_force * b.beta[m];
     corner_forces(f, forces);
-    const T frequency_squared =
+    increment.strain_rate_squared = strain_rate_squared(scaled_l, scaled_inverse_volume);
+    increment.frequency_squared =
         spectrum.uniform + distortion_excess(moduli, trace_g, gradient_square, volume, inverse_mass);
     increment.stable_step =
-        where(is_valid, damped_stable_step(frequency_squared, viscosity.damping), T(-1.0));
+        where(is_valid, damped_stable_step(increment.frequency_squared, viscosity.damping), T(-1.0));
     return increment;
   }
 

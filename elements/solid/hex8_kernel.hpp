@@ -18,7 +18,7 @@ namespace brio {
 template <ObjectiveRate rate>
 struct Hex8Kernel : Hex8 {
   using Settings = Hex8;
-  static constexpr KernelTraits kernel_traits{.uses_differences = true};
+  static constexpr KernelTraits kernel_traits{.uses_differences = true, .tangent = true};
   static constexpr int most_points = 1;
   static constexpr int points() { return 1; }
   static double point_size(double volume) { return std::cbrt(volume); }
@@ -48,6 +48,22 @@ struct Hex8Kernel : Hex8 {
     header.hourglass.scale = hourglass_scale(brio::hourglass_stiffness(
         hourglass_stiffness, law.template moduli<T>(point->history), volume, distortion));
     return {header.mass * 0.125, T(0.0)};
+  }
+
+  /// The same without damping forces.
+  Hex8Kernel undamped() const {
+    Hex8Kernel kernel = *this;
+    kernel.linear_bulk_viscosity = 0;
+    kernel.quadratic_bulk_viscosity = 0;
+    kernel.hourglass_viscosity = 0;
+    return kernel;
+  }
+  /// State with the present shape and without stress. \param header, point out, zero before
+  template <class T, class Law, class Other>
+  void start_unstressed(const Header<T, Law>& now, Header<T, Other>& header, Point<T, Other>* point) const {
+    header.mass = now.mass;
+    header.hourglass.scale = now.hourglass.scale;
+    start(*point);
   }
 
   template <class T, class Law>
@@ -117,6 +133,8 @@ struct Hex8Kernel : Hex8 {
     const T frequency_squared = spectrum.uniform + (8.0 * hourglass_overlap) * inverse_mass *
                                                        stiffness.bending * largest_eigenvalue_bound(g) *
                                                        distortion;
+    increment.frequency_squared = frequency_squared;
+    increment.strain_rate_squared = strain_rate_squared(scaled_l, scaled_inverse_volume);
     increment.stable_step = where(volume.is_valid, damped_stable_step(frequency_squared, damping), T(-1.0));
     return increment;
   }

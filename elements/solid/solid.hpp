@@ -150,6 +150,13 @@ BRIO_INLINE SolidSpectrum<T> solid_spectrum(const ElasticModuli<T>& moduli, cons
           factor * (moduli.first_lame + 2.0 * moduli.shear) * trace_g};
 }
 
+/// D:D of the mean gradient. \param scaled_l that over `scale`
+template <class T>
+BRIO_INLINE T strain_rate_squared(const Tensor<T>& scaled_l, T scale) {
+  const SymmetricTensor<T> d = symmetric_part(scaled_l);
+  return square(scale) * contract(d, d);
+}
+
 /// tr D at the middle of the step, where it is zero in rigid rotation; before the first time step that of the
 /// velocities. \param n dt/2 times the velocity gradient of the middle.
 template <class T>

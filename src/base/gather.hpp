@@ -39,13 +39,12 @@ BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z) {
   z = __builtin_shufflevector(xz01, xz23, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
-/// The inverse: eight rows (x, y, z, 0).
-BRIO_INLINE void transpose_lanes(Row8 x, Row8 y, Row8 z, Row4 rows[8]) {
-  const Row8 zero = {};
+/// The inverse, with a fourth: eight rows (x, y, z, w).
+BRIO_INLINE void transpose_lanes(Row8 x, Row8 y, Row8 z, Row8 w, Row4 rows[8]) {
   const Row8 xy_even = __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14);
   const Row8 xy_odd = __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Row8 z_even = __builtin_shufflevector(z, zero, 0, 8, 2, 10, 4, 12, 6, 14);
-  const Row8 z_odd = __builtin_shufflevector(z, zero, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Row8 z_even = __builtin_shufflevector(z, w, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Row8 z_odd = __builtin_shufflevector(z, w, 1, 9, 3, 11, 5, 13, 7, 15);
   rows[0] = __builtin_shufflevector(xy_even, z_even, 0, 1, 8, 9);
   rows[1] = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 8, 9);
   rows[2] = __builtin_shufflevector(xy_even, z_even, 2, 3, 10, 11);
@@ -87,21 +86,20 @@ BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z) {
   transpose_four_rows(rows + 4, x.high, y.high, z.high);
 }
 
-BRIO_INLINE void transpose_four_lanes(Row4 x, Row4 y, Row4 z, Row4* rows) {
-  const Row4 zero = {};
+BRIO_INLINE void transpose_four_lanes(Row4 x, Row4 y, Row4 z, Row4 w, Row4* rows) {
   const Row4 xy_even = __builtin_shufflevector(x, y, 0, 4, 2, 6);
   const Row4 xy_odd = __builtin_shufflevector(x, y, 1, 5, 3, 7);
-  const Row4 z_even = __builtin_shufflevector(z, zero, 0, 4, 2, 6);
-  const Row4 z_odd = __builtin_shufflevector(z, zero, 1, 5, 3, 7);
+  const Row4 z_even = __builtin_shufflevector(z, w, 0, 4, 2, 6);
+  const Row4 z_odd = __builtin_shufflevector(z, w, 1, 5, 3, 7);
   rows[0] = __builtin_shufflevector(xy_even, z_even, 0, 1, 4, 5);
   rows[1] = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 4, 5);
   rows[2] = __builtin_shufflevector(xy_even, z_even, 2, 3, 6, 7);
   rows[3] = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 6, 7);
 }
-/// The inverse: eight rows (x, y, z, 0).
-BRIO_INLINE void transpose_lanes(Row8 x, Row8 y, Row8 z, Row4 rows[8]) {
-  transpose_four_lanes(x.low, y.low, z.low, rows);
-  transpose_four_lanes(x.high, y.high, z.high, rows + 4);
+/// The inverse, with a fourth: eight rows (x, y, z, w).
+BRIO_INLINE void transpose_lanes(Row8 x, Row8 y, Row8 z, Row8 w, Row4 rows[8]) {
+  transpose_four_lanes(x.low, y.low, z.low, w.low, rows);
+  transpose_four_lanes(x.high, y.high, z.high, w.high, rows + 4);
 }
 
 typedef float Float4 __attribute__((vector_size(16)));
@@ -173,18 +171,20 @@ BRIO_INLINE void widen(Lanes<Real> lanes, Row8* wide) {
   }
 }
 
-/// Subtract three components from the rows of all lanes.
+/// Subtract four components from the rows of all lanes.
 template <Floating Real>
 BRIO_INLINE void subtract_from_rows(NodeVector* first, const int* node, Lanes<Real> x, Lanes<Real> y,
-                                    Lanes<Real> z) {
+                                    Lanes<Real> z, Lanes<Real> w) {
   WideVector<Real> wide;
+  Row8 fourth[WideVector<Real>::groups];
   widen(x, wide.x);
   widen(y, wide.y);
   widen(z, wide.z);
+  widen(w, fourth);
 #pragma GCC unroll 8
   for (int group = 0; group < WideVector<Real>::groups; ++group) {
     Row4 rows[8];
-    transpose_lanes(wide.x[group], wide.y[group], wide.z[group], rows);
+    transpose_lanes(wide.x[group], wide.y[group], wide.z[group], fourth[group], rows);
 #pragma GCC unroll 8
     for (int lane = 0; lane < 8; ++lane) {
       double* row = first[node[8 * group + lane]].component;

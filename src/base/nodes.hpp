@@ -15,9 +15,16 @@ struct alignas(64) NodeRecord {
   double inverse_mass;  ///< 0 where a node has no mass
 };
 
-/// Force, moment, angular velocity: three components and a fourth that keeps rows aligned.
+/// Force, moment, angular velocity: three components and a fourth that keeps rows aligned, of forces and
+/// moments minus the stiffness of the node (src/sweep/assembled_step.hpp).
 struct alignas(32) NodeVector {
   double component[4];
+};
+
+/// A vector of all nodes, and one of their rotations where there are any.
+struct NodalRows {
+  NodeVector* linear;
+  NodeVector* angular;
 };
 
 struct Nodes {

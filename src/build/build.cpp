@@ -379,6 +379,8 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   refuse_motions_through_walls(model);
   make_loads(deck, meshes, model);
   model.extent = scene_extent(model.nodes);
+  model.assembled_step = make_assembled_step(deck.time, bounds_assembled_step(model), model.blocks,
+                                             model.nodes, model.extent.width);
   start_balances(model);
   make_springs(deck, model);
   prepare_history(deck, model);

@@ -22,6 +22,7 @@
 #include "src/deck/force_output.hpp"
 #include "src/deck/mesh_source.hpp"
 #include "src/deck/spring.hpp"
+#include "src/deck/time_section.hpp"
 
 namespace brio {
 
@@ -169,58 +170,6 @@ struct ContactSection {
   std::vector<ContactPair> pairs;
   ContactOptions options;
   std::string place{};  ///< in the deck
-};
-
-/// Elements whose stable time step is below a target get the mass that raises it to the target.
-struct MassScaling {
-  double step = 0;
-  double largest_share = 0.05;
-  std::string place{};  ///< in the deck
-  static constexpr auto fields() {
-    return field_table(
-        required("step", &MassScaling::step, positive, "target time step, before and during the run, time"),
-        optional("largest_share", &MassScaling::largest_share, positive,
-                 "mass added over mass of all elements at which the run stops with exit code 3, -"));
-  }
-};
-
-/// The scene comes to rest under the loads of time 0 before the run.
-struct Relaxation {
-  double tolerance = 1e-4;
-  int steps = 1000000;
-  static constexpr auto fields() {
-    return field_table(
-        optional("tolerance", &Relaxation::tolerance, Range{.lower = 0, .upper = 0.1, .lower_open = true},
-                 "root of the kinetic over the internal energy below which the scene is at rest, -"),
-        optional("steps", &Relaxation::steps, at_least_one,
-                 "steps after which a scene that is not at rest ends the run with exit code 3, -"));
-  }
-};
-
-struct TimeSection {
-  double end = 0;
-  double step_scale = 0.9;
-  std::optional<double> step;
-  double step_growth = 1.05;
-  std::optional<MassScaling> mass_scaling{};
-  std::string place{};  ///< in the deck
-  std::optional<Relaxation> relaxation{};
-  static constexpr auto fields() {
-    return field_table(
-        required("end", &TimeSection::end, positive, "time at which the run ends"),
-        optional("step_scale", &TimeSection::step_scale, Range{.lower = 0, .upper = 1, .lower_open = true},
-                 "scale factor on the stable time step, -"),
-        optional("step", &TimeSection::step, positive,
-                 "constant time step; refused if above the stable time step"),
-        optional("step_growth", &TimeSection::step_growth, Range{.lower = 1, .lower_open = true},
-                 "largest ratio of a time step to the previous one, -"),
-        optional("mass_scaling", &TimeSection::mass_scaling, any_number,
-                 "mass added to small elements so that they do not set the stable time step; absent: none"),
-        optional(
-            "relaxation", &TimeSection::relaxation, any_number,
-            "the scene comes to rest under the loads of time 0, with supports that stand, before initial "
-            "velocities are given to it; absent: it starts without stress"));
-  }
 };
 
 /// Either equally spaced or at given times.

@@ -198,7 +198,8 @@ void add_contact(const Deck& deck, std::vector<ContactScene>&& contacts, Feature
 
 std::vector<BuiltFeature> built_features(const Deck& deck, Model&& model) {
   Features features;
-  features.push_back({"nodes", "parts", counted(model.nodes.size(), "node"), bytes_held(model.nodes)});
+  features.push_back({"nodes", "parts", counted(model.nodes.size(), "node"),
+                      bytes_held(model.nodes) + bytes_held(model.assembled_step)});
   if (model.nodes.has_rotations())
     features.push_back(
         {"rotations of nodes",

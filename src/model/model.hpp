@@ -26,6 +26,7 @@
 #include "src/motion/motion.hpp"
 #include "src/motion/rigid.hpp"
 #include "src/motion/springs.hpp"
+#include "src/sweep/assembled_step.hpp"
 #include "src/sweep/erosion.hpp"
 #include "src/sweep/mass_scaling.hpp"
 #include "src/sweep/particles.hpp"
@@ -66,6 +67,7 @@ struct Model {
   Ties ties;
   SweepSchedule schedule;
   std::vector<SweepResult> sweep_results;  ///< one a task
+  AssembledStep assembled_step;
   std::vector<ParticleSearch>
       particle_searches;  ///< of blocks of particles with an updated-Lagrangian kernel
   std::vector<ActiveLoad> loads;
@@ -94,5 +96,12 @@ struct Model {
   std::vector<KineticEnergy> kinetic_sums;  ///< one a range of nodes
   StageTimes stages;
 };
+
+/// Whether the assembled elements bound the time step instead of each by itself. The masses of ties and of
+/// joined nodes of rigid parts are not those of their elements.
+inline bool bounds_assembled_step(const Model& model) {
+  return model.control.settings.step_bound != StepBound::elements && model.ties.empty() &&
+         !model.rigid.has_joints();
+}
 
 }  // namespace brio

@@ -8,7 +8,7 @@ namespace {
 template <class Archive>
 void serialize(Archive& archive, Model& model) {
   archive.section(1);
-  archive(model.step, model.element_updates, model.times, model.control);
+  archive(model.step, model.element_updates, model.times, model.control, model.assembled_step);
   archive(model.energy, model.part_energy, model.momentum);
   archive.section(2);
   archive(model.nodes, model.blocks, model.parts, model.schedule);

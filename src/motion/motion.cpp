@@ -6,6 +6,8 @@ namespace brio {
 
 namespace {
 
+constexpr Row4 first_three{1, 1, 1, 0};
+
 double sum3(Row4 row) { return row[0] + row[1] + row[2]; }
 
 KineticEnergy total(std::span<const KineticEnergy> sums) {
@@ -21,10 +23,9 @@ KineticEnergy accelerate_range(Nodes& nodes, double mean_step, std::size_t begin
   Row4 half{}, now{};
   const bool keep = !nodes.velocity_before.empty();
   for (std::size_t i = begin; i < end; ++i) {
-    double* row =
-        nodes.record[i].velocity;  // x y z and the inverse mass, which a force with a zero there leaves alone
+    double* row = nodes.record[i].velocity;  // x y z and the inverse mass
     const Row4 before = load_row(row);
-    const Row4 after = before + load_row(nodes.force[i].component) * (before[3] * mean_step);
+    const Row4 after = before + load_row(nodes.force[i].component) * (before[3] * mean_step * first_three);
     store_row(row, after);
     if (keep) store_row(nodes.velocity_before[i].component, before);
     half += after * after * nodes.mass[i];
@@ -39,7 +40,7 @@ KineticEnergy turn_range(Nodes& nodes, double mean_step, std::size_t begin, std:
   for (std::size_t i = begin; i < end; ++i) {
     double* row = nodes.angular_velocity[i].component;
     const Row4 before = load_row(row);
-    const Row4 after = before + load_row(nodes.moment[i].component) * (before[3] * mean_step);
+    const Row4 after = before + load_row(nodes.moment[i].component) * (before[3] * mean_step * first_three);
     store_row(row, after);
     if (keep) store_row(nodes.angular_velocity_before[i].component, before);
     half += after * after * nodes.rotational_inertia[i];

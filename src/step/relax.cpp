@@ -147,6 +147,7 @@ void start_anew(Model& model) {
   model.element_updates = 0;
   const TimeSection time = model.control.settings;
   model.control = {.settings = time};
+  start_anew(model.assembled_step);
 }
 
 }  // namespace

@@ -40,10 +40,12 @@ void exchange_between_elements(Model& model, ThreadTeam& team) {
 }
 
 // Sums and the stable time step in the order of tasks, whatever the number of threads.
-Contribution gather_results(Model& model) {
+Contribution gather_results(Model& model, ThreadTeam& team) {
   Contribution energies;
   StepControl& control = model.control;
   control.stable = HUGE_VAL;
+  ElementBounds assembled;  // of elements whose nodes have a stiffness
+  double others = HUGE_VAL;
   for (std::size_t t = 0; t < model.schedule.tasks.size(); ++t) {
     const SweepTask& task = model.schedule.tasks[t];
     const SweepResult& result = model.sweep_results[t];
@@ -54,13 +56,24 @@ Contribution gather_results(Model& model) {
     energies.internal += result.internal_energy;
     energies.hourglass += result.hourglass_energy;
     energies.viscous += result.viscous_energy;
+    if (model.blocks[task.block].kernel.gives_stiffness) {
+      assembled.stable_step = std::min(assembled.stable_step, result.stable_step);
+      assembled.damping = std::max(assembled.damping, result.damping);
+      assembled.strain_rate_squared = std::max(assembled.strain_rate_squared, result.strain_rate_squared);
+    } else {
+      others = std::min(others, result.stable_step);
+    }
     if (!(result.stable_step < control.stable)) continue;
     control.stable = result.stable_step;
     control.critical_block = task.block;
     control.critical_element =
         static_cast<std::size_t>(model.parts[task.block].element_order[result.critical_element]);
   }
-  control.stable *= model.ties.step_share;
+  if (assembled.stable_step > 0 && assembled.stable_step < HUGE_VAL)
+    assembled.stable_step =
+        assembled_stable_step(model.assembled_step, assembled, model.times.previous, model.step,
+                              model.schedule, model.blocks, model.nodes, team);
+  control.stable = std::min(assembled.stable_step, others) * model.ties.step_share;
   return energies;
 }
 
@@ -72,7 +85,7 @@ Contribution sweep_elements(Model& model, ThreadTeam& team) {
     follow_neighbours(search, model.blocks[search.block], model.nodes, team);
   sweep_chunks(model, team);
   exchange_between_elements(model, team);
-  const Contribution energies = gather_results(model);
+  const Contribution energies = gather_results(model, team);
   if (!(model.control.stable > 0))
     throw Breakdown(element_name(model, model.control.critical_block, model.control.critical_element) +
                     " has inverted or holds a value that is not a number, at time " +

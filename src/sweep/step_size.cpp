@@ -16,7 +16,6 @@ constexpr double rounding_of_count = 1e-9;
 constexpr double few_steps = 100;
 /// By this share the chosen step may exceed a bound that falls, where that is below the stable step by more.
 constexpr double tolerated_excess = 1e-2;
-constexpr double largest_scale_with_excess = 0.95;
 
 }  // namespace
 
@@ -36,7 +35,7 @@ double whole_step(StepControl& control, double bound, double left) {
   if (bound >= left) return left;  // without elements there is no bound
   const double count = left / bound;
   if (!(count < few_steps)) return bound;
-  const bool has_margin = !control.settings.step && control.settings.step_scale <= largest_scale_with_excess;
+  const bool has_margin = !control.settings.step && control.settings.step_scale <= largest_scale_with_margin;
   if (control.whole > (1 + (has_margin ? tolerated_excess : 0)) * bound) control.whole = 0;
   if (control.whole == 0) {
     const double even = left / std::ceil(count * (1 - rounding_of_count));

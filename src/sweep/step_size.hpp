@@ -11,7 +11,7 @@ namespace brio {
 struct StepControl {
   TimeSection settings;
   double stable = 0;                 ///< stable time step of all elements, at the present time
-  std::size_t critical_block = 0;    ///< block of the element that sets it
+  std::size_t critical_block = 0;    ///< block of the element that has the least by itself
   std::size_t critical_element = 0;  ///< that element, of the part's mesh
   double held = 0;                   ///< least bound since the last increase
   double window_least = 0;           ///< least bound of the steps counted in `window`
@@ -28,6 +28,9 @@ struct StepControl {
             largest);
   }
 };
+
+/// Up to this share of the stable time step there is a margin for what it is not known to exactly.
+inline constexpr double largest_scale_with_margin = 0.95;
 
 /// A time step that follows the stable time step through every vibration is in phase with it and adds energy
 /// (Skeel 1993, Variable step size destabilizes the Stoermer/leapfrog/Verlet method). It therefore decreases

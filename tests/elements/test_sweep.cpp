@@ -55,24 +55,23 @@ TEST(Sweep, ScattersEveryCornerOfFullAndPartialPacks) {
     for (int corner = 0; corner < 8; ++corner)
       for (int lane = 0; lane < width; ++lane)
         forces.force[k][corner].set(lane, static_cast<float>(k + 3 * corner + 24 * lane));
+  for (int lane = 0; lane < width; ++lane) forces.stiffness.set(lane, static_cast<float>(7 * lane + 1));
   for (const int count : {1, 7, 8, 9, width}) {
     Nodes nodes(100, false);
-    if (count == width) {
-      scatter<Hex8Kernel<ObjectiveRate::jaumann>, float>(nodes, connectivity.data(), forces);
-    } else {
-      scatter_first<Hex8Kernel<ObjectiveRate::jaumann>, float>(nodes, connectivity.data(), count, forces);
-    }
-    std::vector<double> expected(300, 0.0);
+    scatter_pack<Hex8Kernel<ObjectiveRate::jaumann>, float>({nodes.force.data(), nullptr},
+                                                            connectivity.data(), count, forces);
+    std::vector<double> expected(400, 0.0);
     for (int corner = 0; corner < 8; ++corner)
       for (int lane = 0; lane < count; ++lane)
         for (int k = 0; k < 3; ++k) {
           const int* node = connectivity.data() + corner * width + lane;
-          double* row = expected.data() + 3 * *node;
+          double* row = expected.data() + 4 * *node;
           row[k] -= k + 3 * corner + 24 * lane;
+          if (k == 0) row[3] -= 7 * lane + 1;
         }
     for (std::size_t i = 0; i < 100; ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        EXPECT_EQ(nodes.force[i].component[k], expected[3 * i + k]) << count;
+      for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_EQ(nodes.force[i].component[k], expected[4 * i + k]) << count;
   }
 }
 

@@ -154,6 +154,7 @@ TEST(RigidJoints, AShellIsClampedToARigidPart) {
     force.force = {0, 0, 1};
     deck.loads = {force};
     deck.time.end = 0.05;
+    deck.time.step_bound = StepBound::elements;  // that of the joined one
     return deck;
   };
   std::vector<double> heights;

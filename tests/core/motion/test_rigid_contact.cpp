@@ -308,6 +308,7 @@ Model drive_blade(const Element& element) {
   deck.boundary_conditions = {fix("blade", {1, 2, 3, 4, 5}), drive};
   deck.contact.emplace();
   deck.time.end = 1e-2;
+  deck.time.step_bound = StepBound::elements;  // alike with and without elements of the blade
   Model model = build_model(deck);
   ThreadTeam team(1);
   run(model, deck, team);

@@ -50,6 +50,7 @@ class TurnedFromRest : public testing::TestWithParam<Turning> {
  protected:
   static void expect_balance(Deck deck, const std::string& set) {
     deck.boundary_conditions.push_back(turn(set, 4, GetParam().kind, GetParam().curve));
+    deck.time.step_bound = StepBound::elements;
     Model model = build_model(deck);
     ThreadTeam team(1);
     run(model, deck, team);

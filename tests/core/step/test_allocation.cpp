@@ -133,6 +133,7 @@ Counted count(const Deck& deck, int threads, int steps) {
   model.step = start.step;
   model.times = start.times;
   model.control = start.control;
+  model.assembled_step = start.assembled_step;
   model.nodes = start.nodes;
   model.blocks = start.blocks;
   model.energy = start.energy;

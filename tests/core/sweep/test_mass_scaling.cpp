@@ -54,6 +54,7 @@ double mass_of_nodes(const Model& model) {
 TEST(MassScaling, GivesSmallElementsTheStepThatIsAskedFor) {
   for (const Element& element : {Element(hex8()), Element(Hex8Full{})}) {
     Deck deck = sliced_bar(element);
+    deck.time.step_bound = StepBound::elements;
     Model plain = build_model(deck);
     run_to_end(plain, deck);
     const double wanted = 5 * plain.control.first;
@@ -176,6 +177,7 @@ double shortening(const Model& model) {
 
 TEST(MassScaling, HoldsTheStepWhileElementsAreCrushed) {
   Deck deck = crushed();
+  deck.time.step_bound = StepBound::elements;
   Model plain = build_model(deck);
   run_to_end(plain, deck);
   ASSERT_LT(plain.control.least, 0.6 * plain.control.first) << "the scene is worth it";

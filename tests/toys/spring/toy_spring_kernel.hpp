@@ -55,7 +55,8 @@ struct ToySpringKernel : ToySpring {
     header.internal_energy += work;
     const ElasticModuli<T> m = law.template moduli<T>(point->history);
     const T youngs = m.shear * (3.0 * m.first_lame + 2.0 * m.shear) / (m.first_lame + m.shear);
-    return {work, T(0.0), T(0.0), sqrt(header.mass * squared / (volume * youngs))};
+    const T frequency_squared = 4.0 * volume * youngs / (header.mass * squared);
+    return {work, T(0.0), T(0.0), 2.0 / sqrt(frequency_squared), frequency_squared, T(0.0)};
   }
 
   template <class Law>

@@ -77,6 +77,7 @@ def von_mises(source):
 def colour_by(displays, place, name, components, limits, view):
     table = simple.GetColorTransferFunction(name)
     table.ApplyPreset("Viridis (matplotlib)", True)
+    table.NanColor = [0.75, 0.75, 0.75]  # what does not have the field
     table.AutomaticRescaleRangeMode = "Never"
     for display in displays:
         own_place = "POINTS" if "Glyph" in str(display.Input.SMProxy.GetXMLName()) else place  # centres of cells

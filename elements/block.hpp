@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "elements/base/element_sample.hpp"
 #include "elements/base/motion.hpp"
 #include "elements/deletion.hpp"
 #include "elements/kinds.hpp"

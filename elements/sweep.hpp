@@ -261,8 +261,12 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
   sample.history_names = history_names<Law>;
   if constexpr (Law::traits.named_history) {
     std::size_t next = 0;
-    Law::named_history()(
-        [&](const auto& row) { sample.history[next++] = history_value(law, row, points.data(), count); });
+    Law::named_history()([&](const auto& row) {
+      sample.history[next++] = history_value(law, row, points.data(), count);
+      if (row.name != "equivalent_plastic_strain" || !Kind::Settings::traits.has_thickness) return;
+      for (ElementSample::Side* side : {&sample.top, &sample.bottom})
+        side->plastic_strain = history_value(law, row, &points[side->point], 1);
+    });
   }
   return sample;
 }

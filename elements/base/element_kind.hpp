@@ -42,6 +42,7 @@
 #include <variant>
 #include <vector>
 
+#include "elements/base/element_sample.hpp"
 #include "elements/base/motion.hpp"
 #include "materials/material_law.hpp"
 #include "src/base/cell_type.hpp"
@@ -69,6 +70,7 @@ struct ElementTraits {
   bool has_thickness = false;
   bool has_radius = false;
   bool has_density = false;
+  bool has_section = false;
 };
 
 /// What the sweep asks of a kernel.

@@ -1,9 +1,6 @@
 #pragma once
 /// What an element kernel sees: positions and velocities of its nodes, and what it hands back.
 
-#include <array>
-#include <span>
-#include <string_view>
 #include <type_traits>
 
 #include "materials/stress_state.hpp"
@@ -52,27 +49,6 @@ template <class T>
 struct NodalMass {
   T mass;
   T rotational_inertia;
-};
-
-/// What output asks of an element, on global axes.
-struct ElementSample {
-  SymmetricTensor<double> stress{};  ///< Cauchy stress; mean over the points
-  double internal_energy = 0;
-  double thickness = 0;  ///< shells; 0 for others
-  double radius = 0;     ///< beams and particles; 0 for others
-  double density = 0;    ///< particles; 0 for others
-
-  // Of the law, whatever the element (materials/named_history.hpp); the sweep fills it.
-  static constexpr std::size_t most_named = 8;
-  std::span<const std::string_view> history_names{};
-  std::array<double, most_named> history{};
-
-  /// The value of that name; 0 where the law knows none.
-  double named(std::string_view name) const {
-    for (std::size_t k = 0; k < history_names.size(); ++k)
-      if (history_names[k] == name) return history[k];
-    return 0;
-  }
 };
 
 template <class Element, class T>

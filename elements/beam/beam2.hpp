@@ -34,7 +34,8 @@ struct Beam2 {
   static constexpr ElementTraits traits{.cell = line_cell,
                                         .summary_key = "beam2",
                                         .precision = ElementPrecision::always_double,
-                                        .has_radius = true};
+                                        .has_radius = true,
+                                        .has_section = true};
   template <class Law>
   static constexpr bool accepts = Law::traits.update_fibre;
 

@@ -130,13 +130,22 @@ struct Beam2Kernel : Beam2 {
                        const Header<double, Law>& header, const Point<double, Law>* point) const {
     ElementSample out;
     FibreTensor<double> mean{};
+    out.section_force = out.section_moment = {};
     for (int p = 0; p < points(); ++p) {
-      const double share =
-          bends() ? 0.5 * fibres->fibre[static_cast<std::size_t>(p % fibres->count)].share : 1.0;
-      mean = mean + share * point[p].stress;
+      const BeamFibre fibre =
+          bends() ? fibres->fibre[static_cast<std::size_t>(p % fibres->count)] : BeamFibre{};
+      const FibreTensor<double> share = (bends() ? 0.5 * fibre.share : 1.0) * point[p].stress;
+      mean = mean + share;
+      out.section_force[1] += fibres->area * fibre.shear_y * share.xy;
+      out.section_force[2] += fibres->area * fibre.shear_z * share.xz;
+      out.section_moment[0] += fibres->area * (fibre.twist_y * share.xy + fibre.twist_z * share.xz);
+      out.section_moment[1] += fibres->area * fibre.z * share.xx;
+      out.section_moment[2] -= fibres->area * fibre.y * share.xx;
     }
     const Vector3<double> chord = chord_of(motion);
-    Vector3<double> x = (1 / std::sqrt(dot(chord, chord))) * chord;
+    const double length = std::sqrt(dot(chord, chord));
+    out.section_force[0] = fibres->area * header.length / length * mean.xx;
+    Vector3<double> x = (1 / length) * chord;
     Vector3<double> shear{};
     if (bends()) {
       const Quaternion<double> middle = middle_of(header.triad[0], header.triad[1]);

@@ -140,26 +140,19 @@ struct Shell4Kernel : Shell4 {
   ElementSample sample(const RotatingNodalMotion<double, 4>& motion, const Law&,
                        const Header<double, Law>& header, const Point<double, Law>* point) const {
     const ShellGeometry<double> g = shell_geometry(motion.position, header.reference);
-    ShellTensor<double> mean{};
     ElementSample out;
+    ShellTensor<double> mean{}, first_moment{};
     for (int p = 0; p < thickness_points; ++p) {
-      const double weight = rule().weight[static_cast<std::size_t>(p)];
-      const ShellTensor<double>& stress = point[p].stress;
-      mean = {mean.xx + weight * stress.xx, mean.yy + weight * stress.yy, mean.xy + weight * stress.xy,
-              mean.yz + weight * stress.yz, mean.xz + weight * stress.xz};
+      const auto k = static_cast<std::size_t>(p);
+      mean = mean + rule().weight[k] * point[p].stress;
+      first_moment = first_moment + rule().weight[k] * rule().place[k] * point[p].stress;
+      if (rule().place[k] > rule().place[out.top.point]) out.top.point = k;
+      if (rule().place[k] < rule().place[out.bottom.point]) out.bottom.point = k;
     }
-    const double local[3][3] = {
-        {mean.xx, mean.xy, mean.xz}, {mean.xy, mean.yy, mean.yz}, {mean.xz, mean.yz, 0}};
-    const Vector3<double> axes[3] = {g.axis[0], g.axis[1], g.normal};
-    Tensor<double> global{};
-    for (int a = 0; a < 3; ++a)
-      for (int b = 0; b < 3; ++b) {
-        const double u[3] = {axes[a].x, axes[a].y, axes[a].z};
-        const double v[3] = {axes[b].x, axes[b].y, axes[b].z};
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j) global(i, j) += local[a][b] * u[i] * v[j];
-      }
-    out.stress = symmetric_part(global);
+    out.stress = on_global_axes(g, mean);
+    out.bending_moment = on_global_axes(g, header.thickness * header.thickness * first_moment);
+    for (ElementSample::Side* side : {&out.top, &out.bottom})
+      side->stress = on_global_axes(g, point[side->point].stress);
     out.internal_energy = header.internal_energy;
     out.thickness = header.thickness;
     return out;
@@ -168,6 +161,21 @@ struct Shell4Kernel : Shell4 {
  private:
   /// Angle, in radians, at which resistance to drilling yields.
   static constexpr double drilling_limit = 0.01;
+
+  static SymmetricTensor<double> on_global_axes(const ShellGeometry<double>& g,
+                                                const ShellTensor<double>& a) {
+    const double local[3][3] = {{a.xx, a.xy, a.xz}, {a.xy, a.yy, a.yz}, {a.xz, a.yz, 0}};
+    const Vector3<double> axes[3] = {g.axis[0], g.axis[1], g.normal};
+    Tensor<double> global{};
+    for (int p = 0; p < 3; ++p)
+      for (int q = 0; q < 3; ++q) {
+        const double u[3] = {axes[p].x, axes[p].y, axes[p].z};
+        const double v[3] = {axes[q].x, axes[q].y, axes[q].z};
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) global(i, j) += local[p][q] * u[i] * v[j];
+      }
+    return symmetric_part(global);
+  }
 
   /// Update of stress at all points; forces and moments per length, new thickness, work.
   template <class T, class Law>

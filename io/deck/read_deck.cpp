@@ -27,14 +27,20 @@ void read_variables(Deck& deck, const YamlNode& root) {
     for (const std::string_view word : history_names_of(material))
       if (std::ranges::find(histories, word) == histories.end()) histories.push_back(word);
   std::vector<std::string_view> known{default_group, all_group};
-  for (const DerivedVariable& variable : derived_variables()) known.push_back(variable.name);
+  const auto is_had = [&](const CellVariable& variable) {
+    return variable.of == nullptr || std::ranges::any_of(deck.parts, [&](const Part& part) {
+             return traits_of(part.element).*variable.of;
+           });
+  };
+  for (const CellVariable& variable : chosen_variables())
+    if (is_had(variable)) known.push_back(variable.name);
   known.insert(known.end(), histories.begin(), histories.end());
   const YamlNode& list = *root.find("output")->value->find("fields")->value->find("variables")->value;
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (std::ranges::find(known, wanted[i]) == known.end())
       throw DeckError(list.items[i]->place,
                       "no field is called '" + wanted[i] + "'; " + accepted_words(wanted[i], known));
-  wanted = named_variables(wanted, histories);
+  wanted = named_variables(wanted, histories, is_had);
 }
 
 }  // namespace

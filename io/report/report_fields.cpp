@@ -37,8 +37,9 @@ std::vector<ReportField> numbers_of(const FieldInfo& field, const ResultInfo& in
       result.push_back(number(fmt::format("{}_{}", field.name, axes[i]), Take::component, i));
   }
   if (field.components == 6) {
-    if (!has_field(info, "von_mises")) result.push_back(number("von_mises", Take::von_mises));
-    if (!has_field(info, "pressure")) result.push_back(number("pressure", Take::pressure));
+    const std::string of = field.name == "stress" ? "" : "_of_" + field.name;
+    if (!has_field(info, "von_mises" + of)) result.push_back(number("von_mises" + of, Take::von_mises));
+    if (!has_field(info, "pressure" + of)) result.push_back(number("pressure" + of, Take::pressure));
     for (std::size_t i = 0; i < 6; ++i)
       result.push_back(number(fmt::format("{}_{}", field.name, tensor_axes[i]), Take::component, i));
   }
@@ -61,7 +62,9 @@ std::vector<ReportField> shown_by_default(const ResultInfo& info) {
 double derived(std::string_view name, const double* s) {
   ElementSample sample;
   sample.stress = {s[0], s[1], s[2], s[3], s[4], s[5]};
-  return std::ranges::find(derived_variables(), name, &DerivedVariable::name)->value(sample);
+  double value;
+  cell_variable(name).values(sample, &value);
+  return value;
 }
 
 double number_of(const ReportField& field, const double* row) {

@@ -184,9 +184,12 @@ struct FieldOutput {
         optional("times", &FieldOutput::times, non_negative, "times of dumps instead"),
         optional(
             "variables", &FieldOutput::variables, any_number,
-            "fields of cells, a list: default, all, von_mises, pressure, triaxiality, internal_energy, or "
-            "a name of the history of a material, such as temperature (0 in materials that do not know "
-            "it); part and element_id are written in any case; default: [default]"));
+            "fields of cells, a list: default, all, von_mises, pressure, triaxiality, internal_energy; of "
+            "shells stress_top, stress_bottom, equivalent_plastic_strain_top, "
+            "equivalent_plastic_strain_bottom, membrane_force, bending_moment; of beams beam_force, "
+            "beam_moment (not a number in other elements); or a name of the history of a material, such as "
+            "temperature (0 in materials that do not know it); part and element_id are written in any "
+            "case; default: [default] (docs/results.md)"));
   }
   std::string_view fault() const {
     return every && !times.empty() ? "both 'every' and 'times' are given; one of them is accepted" : "";

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "src/output/cell_variables.hpp"
 #include "src/output/result_order.hpp"
 
 namespace brio {
@@ -64,34 +63,34 @@ void FieldObserver::add_cell_field(std::string_view name, CellSource source) {
   const auto is_there = [&](const FieldArray& known) { return known.name == name; };
   if (std::ranges::any_of(snapshot_.cell_fields, is_there)) return;
   const bool fixed = source.kind == CellSource::Kind::part || source.kind == CellSource::Kind::element;
-  snapshot_.cell_fields.push_back(field(std::string(name), source.kind == CellSource::Kind::stress ? 6 : 1, 0,
-                                        fixed ? Storage::integer : Storage::single_precision, fixed));
+  const int components = source.variable != nullptr ? source.variable->components : 1;
+  snapshot_.cell_fields.push_back(
+      field(std::string(name), components, 0, fixed ? Storage::integer : Storage::single_precision, fixed));
+  snapshot_.cell_fields.back().is_partial = source.variable != nullptr && source.variable->of != nullptr;
   cell_source_.push_back(source);
 }
 
 void FieldObserver::add_cell_fields(const Model& model, std::span<const std::string> variables) {
   using Kind = CellSource::Kind;
-  const auto add_default = [&] {
-    add_cell_field("stress", {Kind::stress});
-    add_cell_field("equivalent_plastic_strain", {Kind::history});
-  };
-  const auto add_default_of_kinds = [&] {
-    if (any_has(model, &ElementTraits::has_thickness)) add_cell_field("thickness", {Kind::thickness});
-    if (any_has(model, &ElementTraits::has_radius)) add_cell_field("radius", {Kind::radius});
-    if (any_has(model, &ElementTraits::has_density)) add_cell_field("density", {Kind::density});
-    if (can_be_damaged(model)) add_cell_field("damage", {Kind::history});
+  const auto add_variable = [&](std::string_view name) {
+    add_cell_field(name, {Kind::variable, &cell_variable(name)});
   };
   const bool has_default =
       variables.empty() || std::ranges::find(variables, default_group) != variables.end();
-  if (has_default) add_default();
+  if (has_default) add_variable("stress");
+  if (has_default) add_cell_field("equivalent_plastic_strain", {Kind::history});
   add_cell_field("part", {Kind::part});
   add_cell_field("element_id", {Kind::element});
-  if (has_default) add_default_of_kinds();
+  if (has_default) {
+    if (any_has(model, &ElementTraits::has_thickness)) add_variable("thickness");
+    if (any_has(model, &ElementTraits::has_radius)) add_variable("radius");
+    if (any_has(model, &ElementTraits::has_density)) add_variable("density");
+    if (can_be_damaged(model)) add_cell_field("damage", {Kind::history});
+  }
   for (const std::string& name : variables) {
     if (name == default_group) continue;
-    const auto variable = std::ranges::find(derived_variables(), name, &DerivedVariable::name);
-    if (variable != derived_variables().end())
-      add_cell_field(name, {Kind::derived, variable->value});
+    if (std::ranges::find(chosen_variables(), name, &CellVariable::name) != chosen_variables().end())
+      add_variable(name);
     else
       add_cell_field(name, {Kind::history});
   }
@@ -169,31 +168,20 @@ void FieldObserver::fill_contact_force(const Model& model) {
 
 void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
                               FieldArray& field) {
-  using Kind = CellSource::Kind;
-  const auto value = [&] {
-    switch (source.kind) {
-      case Kind::part:
-        return static_cast<double>(at.part);
-      case Kind::element:
-        return static_cast<double>(at.element);
-      case Kind::derived:
-        return source.derived(sample);
-      case Kind::thickness:
-        return sample.thickness;
-      case Kind::radius:
-        return sample.radius;
-      case Kind::density:
-        return sample.density;
-      default:
-        return sample.named(field.name);
-    }
-  };
-  if (source.kind != Kind::stress) {
-    field.values[at.number] = value();
-    return;
+  double* values = &field.values[static_cast<std::size_t>(field.components) * at.number];
+  switch (source.kind) {
+    case CellSource::Kind::part:
+      *values = static_cast<double>(at.part);
+      return;
+    case CellSource::Kind::element:
+      *values = static_cast<double>(at.element);
+      return;
+    case CellSource::Kind::variable:
+      source.variable->values(sample, values);
+      return;
+    case CellSource::Kind::history:
+      *values = sample.named(field.name);
   }
-  const SymmetricTensor<double>& s = sample.stress;
-  std::ranges::copy(std::array{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}, &field.values[6 * at.number]);
 }
 
 void FieldObserver::fill_cells(const Model& model) {

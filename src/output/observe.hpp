@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/model/model.hpp"
+#include "src/output/cell_variables.hpp"
 #include "src/output/history.hpp"
 #include "src/output/snapshot.hpp"
 #include "src/output/summary.hpp"
@@ -36,9 +37,9 @@ class FieldObserver {
  private:
   /// What fills a field of cells.
   struct CellSource {
-    enum class Kind { stress, part, element, derived, thickness, radius, density, history };
+    enum class Kind { part, element, variable, history };
     Kind kind;
-    double (*derived)(const ElementSample&) = nullptr;
+    const CellVariable* variable = nullptr;
   };
 
   /// Of which part, which of its elements, and which of all cells.

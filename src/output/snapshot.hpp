@@ -25,6 +25,7 @@ struct FieldArray {
   /// True of what cannot change while the topology stays as it is (part, element number): written only with a
   /// new topology. Means nothing for a field of the whole scene.
   bool fixed_by_topology = false;
+  bool is_partial = false;  ///< not a number where there is no such thing
 };
 
 /// Cells over the points of a snapshot.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "src/output/cell_variables.hpp"
 #include "src/output/observe.hpp"
@@ -16,10 +17,9 @@ using namespace test;
 double derived(const std::string& name, const SymmetricTensor<double>& stress) {
   ElementSample sample;
   sample.stress = stress;
-  for (const DerivedVariable& variable : derived_variables())
-    if (variable.name == name) return variable.value(sample);
-  ADD_FAILURE() << name;
-  return 0;
+  double value = 0;
+  cell_variable(name).values(sample, &value);
+  return value;
 }
 
 TEST(CellVariables, OfUniaxialShearAndBiaxialStress) {
@@ -64,9 +64,151 @@ TEST(CellVariables, OnlyWhatIsNamedIsWritten) {
 TEST(CellVariables, AllStandsForTheDefaultWhatFollowsFromItAndHistories) {
   const std::vector<std::string> wanted{"pressure", "all"};
   const std::vector<std::string_view> histories{"temperature"};
-  EXPECT_EQ(named_variables(wanted, histories),
+  const auto of_solids = [](const CellVariable& variable) { return variable.of == nullptr; };
+  EXPECT_EQ(named_variables(wanted, histories, of_solids),
             (std::vector<std::string>{"pressure", "default", "von_mises", "triaxiality", "internal_energy",
                                       "temperature"}));
+  const auto of_any = [](const CellVariable&) { return true; };
+  EXPECT_EQ(named_variables(wanted, histories, of_any).size(), 2 + chosen_variables().size());
+}
+
+/// Values of a cell after one step from rest, with the spins given by place.
+std::vector<double> after_a_step(const Deck& deck, const std::string& name, std::size_t cell,
+                                 const std::function<Vector(const double*)>& spin,
+                                 const std::function<Vector(const double*)>& velocity, double& step) {
+  Model model = build_model(deck);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    NodeRecord& node = model.nodes.record[i];
+    const Vector w = spin(node.position), v = velocity(node.position);
+    std::copy_n(w.begin(), 3, model.nodes.angular_velocity[i].component);
+    std::copy_n(v.begin(), 3, node.velocity);
+  }
+  ThreadTeam team(1);
+  make_steps(model, 1, 1e9, team);
+  step = model.times.previous;
+  const std::vector<std::string> wanted{name};
+  FieldObserver observer(model, wanted);
+  const FieldArray& field = observer.observe(model).cell_fields.back();
+  EXPECT_EQ(field.name, name);
+  EXPECT_TRUE(field.is_partial);
+  const auto first = field.values.begin() + static_cast<std::ptrdiff_t>(cell) * field.components;
+  return {first, first + field.components};
+}
+
+constexpr double young = 1e9, thickness = 0.1, curving = 1e-3;
+
+Vector at_rest(const double*) { return {0, 0, 0}; }
+/// Of a part that is bent about y, with a rate of curvature: fibres above are stretched along x.
+Vector bending(const double* x) { return {0, curving * x[0], 0}; }
+
+Deck shell_deck(int points, const Material& material = elastic(0.3)) {
+  Deck deck;
+  deck.materials = {{"material", material}};
+  Shell4 shell;
+  shell.thickness = thickness;
+  shell.thickness_points = points;
+  shell.linear_bulk_viscosity = 0;  // it would act before the first step
+  PlateMesh mesh;
+  mesh.size = {1, 1};
+  mesh.elements = {1, 1};
+  deck.parts = {{"plate", mesh, {}, shell, "material"}};
+  deck.time.end = 1;
+  return deck;
+}
+
+// sigma = E / (1 - nu^2) z kappa: at the outermost of five Gauss points z = 0.9061798 h / 2.
+TEST(CellVariables, OfABentShellAreThoseOfAPlate) {
+  const double stretch = young / (1 - 0.09);
+  double step = 0;
+  for (const auto& [name, sign] : {std::pair{"stress_top", 1.0}, std::pair{"stress_bottom", -1.0}}) {
+    const auto stress = after_a_step(shell_deck(5), name, 0, bending, at_rest, step);
+    const double expected = sign * stretch * 0.906179845938664 * thickness / 2 * curving * step;
+    EXPECT_NEAR(stress[0], expected, 1e-6 * std::abs(expected)) << name;
+    EXPECT_NEAR(stress[1], 0.3 * expected, 1e-6 * std::abs(expected)) << name;
+    EXPECT_NEAR(stress[2], 0, 1e-6 * std::abs(expected)) << name;
+  }
+  const auto moment = after_a_step(shell_deck(5), "bending_moment", 0, bending, at_rest, step);
+  const double expected = stretch * std::pow(thickness, 3) / 12 * curving * step;
+  EXPECT_NEAR(moment[0], expected, 1e-6 * expected);
+  EXPECT_NEAR(moment[1], 0.3 * expected, 1e-6 * expected);
+  const auto pull = [](const double* x) { return Vector{curving * x[0], 0, 0}; };
+  const auto force = after_a_step(shell_deck(5), "membrane_force", 0, at_rest, pull, step);
+  EXPECT_NEAR(force[0], stretch * thickness * curving * step, 1e-5 * force[0]);
+  EXPECT_NEAR(force[1], 0.3 * force[0], 1e-6 * force[0]);
+}
+
+TEST(CellVariables, PlasticStrainOfAShellIsToldBySide) {
+  PowerLawHardening law;
+  law.density = 1000;
+  law.youngs_modulus = young;
+  law.poissons_ratio = 0.3;
+  law.yield_stress = 1;
+  law.hardening_constant = 1e8;
+  law.hardening_exponent = 1;
+  // Stretched as much as bent: the middle of the bottom half is at rest.
+  const auto pull = [](const double* x) { return Vector{0.5 * thickness * curving * x[0], 0, 0}; };
+  double step = 0;
+  const auto top = after_a_step(shell_deck(5, law), "equivalent_plastic_strain_top", 0, bending, pull, step);
+  const auto bottom =
+      after_a_step(shell_deck(5, law), "equivalent_plastic_strain_bottom", 0, bending, pull, step);
+  EXPECT_GT(top[0], 0.5 * thickness * curving * step);
+  EXPECT_LT(bottom[0], 0.1 * top[0]);
+}
+
+Deck beam_deck() {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  Beam2 beam;
+  beam.section = RectangleSection{0.02, 0.05};
+  beam.orientation = Triple{0, 0, 1};
+  LineMesh mesh;
+  mesh.start = {-0.5, 0, 0};
+  mesh.end = {0.5, 0, 0};
+  mesh.elements = 1;
+  deck.parts = {{"beam", mesh, {}, beam, "material"}};
+  deck.time.end = 1;
+  return deck;
+}
+
+TEST(CellVariables, OfABeamAreThoseOfItsSection) {
+  double step = 0;
+  const auto pull = [](const double* x) { return Vector{curving * x[0], 0, 0}; };
+  const auto force = after_a_step(beam_deck(), "beam_force", 0, at_rest, pull, step);
+  EXPECT_NEAR(force[0], young * 0.02 * 0.05 * curving * step, 1e-4 * force[0]);
+  EXPECT_NEAR(force[1], 0, 1e-9 * force[0]);
+  const auto turn = [](const double* x) { return Vector{curving * x[0], curving * x[0], 0}; };
+  const auto moment = after_a_step(beam_deck(), "beam_moment", 0, turn, at_rest, step);
+  const double section[2] = {0.02 * std::pow(0.05, 3) / 12, 0.05 * std::pow(0.02, 3) / 12};
+  const double about_y = young * curving * step;
+  const double either =
+      std::min(std::abs(moment[1] / about_y - section[0]), std::abs(moment[1] / about_y - section[1]));
+  EXPECT_LT(either, 0.03 * section[1]);
+  EXPECT_NEAR(moment[2], 0, 1e-9 * moment[1]);
+  EXPECT_GT(moment[0], 0);
+}
+
+// A field of shells is not a number in solids, and results hold it all the same; a field that all have must
+// be one.
+TEST(CellVariables, AreNotANumberWhereThereIsNoSuchThing) {
+  Deck deck = shell_deck(3);
+  deck.parts.push_back(box("cube", {1, 1, 1}, {1, 1, 1}, {0, 0, 5}, hex8()));
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  make_steps(model, 1, 1, team);
+  const std::vector<std::string> wanted{"stress_top", "membrane_force", "von_mises"};
+  FieldObserver observer(model, wanted);
+  Snapshot snapshot = observer.observe(model);
+  const std::size_t count = snapshot.cell_fields.size();
+  for (const FieldArray& field : {snapshot.cell_fields[count - 3], snapshot.cell_fields[count - 2]}) {
+    ASSERT_EQ(field.values.size(), 12u);
+    for (std::size_t k = 0; k < 6; ++k) {
+      EXPECT_EQ(field.values[k], 0) << field.name;
+      EXPECT_TRUE(std::isnan(field.values[6 + k])) << field.name;
+    }
+  }
+  EXPECT_EQ(what_results_cannot_hold(snapshot), "");
+  snapshot.cell_fields.back().values[1] = std::nan("");
+  EXPECT_EQ(what_results_cannot_hold(snapshot), "a value of 'von_mises'");
 }
 
 }  // namespace

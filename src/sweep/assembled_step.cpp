@@ -10,13 +10,13 @@ namespace {
 /// Gain over the elements' below which nodes are looked at now and then only.
 constexpr double worthwhile_gain = 1.02;
 constexpr std::int64_t looks_every = 50;
-/// Steps from one estimate to the next, longer each time that it gains little over the nodal bound.
-constexpr std::int64_t least_interval = 200, largest_interval = 3200;
+/// Steps from one estimate to the next, longer each time that it gains little over what held until then.
+constexpr std::int64_t least_interval = 200, largest_interval = 800;
 constexpr double little_gain = 0.95;  // of squares
 /// Growth since the estimate, of its square, upon which it is made anew, but not sooner than after so many
 /// steps.
-constexpr double much_growth = 0.05;
-constexpr std::int64_t soonest = 25;
+constexpr double much_growth = 0.1;
+constexpr std::int64_t soonest = 50;
 /// Norm of the strain of an element in a time step up to which estimates lengthen it.
 constexpr double largest_strain = 0.02;
 
@@ -64,18 +64,21 @@ bool is_due(const AssembledStep& assembled, const NodalBound& bound, std::int64_
                                              step >= assembled.estimated_at + soonest);
 }
 
-void estimate(AssembledStep& assembled, double damping, double nodal, std::int64_t step,
+void estimate(AssembledStep& assembled, double damping, const NodalBound& nodal, std::int64_t step,
               const SweepSchedule& schedule, std::span<Block> blocks, const Nodes& nodes, ThreadTeam& team) {
   team.for_ranges(nodes.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) assembled.reference[i] = stiffness_by_mass(nodes, i);
   });
+  const double known = assembled.frequency_squared + assembled.damping + nodal.growth;
+  const double until_now = assembled.frequency_squared > 0 ? std::min(known, nodal.largest) : nodal.largest;
   assembled.frequency_squared =
       assembled_frequency_squared(assembled.vectors, assembled.reference, schedule, blocks, nodes, team);
   assembled.damping = damping;
-  const bool gains = assembled.frequency_squared + damping < little_gain * nodal;
-  if (!gains) assembled.frequency_squared = 0;
-  assembled.interval =
-      gains ? least_interval : std::clamp(2 * assembled.interval, least_interval, largest_interval);
+  const double found = assembled.frequency_squared + damping;
+  assembled.interval = found < little_gain * until_now
+                           ? least_interval
+                           : std::clamp(2 * assembled.interval, least_interval, largest_interval);
+  if (!(found < little_gain * nodal.largest)) assembled.frequency_squared = 0;
   assembled.estimated_at = step;
   assembled.next_estimate = step + assembled.interval;
 }
@@ -117,7 +120,7 @@ double assembled_stable_step(AssembledStep& assembled, const ElementBounds& elem
   if (!is_looked_at) return elements.stable_step;
   NodalBound bound = nodal_bound(assembled, nodes, team);
   if (is_due(assembled, bound, step)) {
-    estimate(assembled, elements.damping, bound.largest, step, schedule, blocks, nodes, team);
+    estimate(assembled, elements.damping, bound, step, schedule, blocks, nodes, team);
     bound.growth = 0;
   }
   // Before the first time step those of longer elements count their damping at a longer one.

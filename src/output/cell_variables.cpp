@@ -35,9 +35,10 @@ void stress_top(const ElementSample& sample, double* out) { write(sample.top.str
 void stress_bottom(const ElementSample& sample, double* out) { write(sample.bottom.stress, out); }
 void plastic_strain_top(const ElementSample& sample, double* out) { *out = sample.top.plastic_strain; }
 void plastic_strain_bottom(const ElementSample& sample, double* out) { *out = sample.bottom.plastic_strain; }
+// Rigid parts have a thickness, and no stress.
 void membrane_force(const ElementSample& sample, double* out) {
-  const double h = sample.thickness > 0 ? sample.thickness : ElementSample::undefined;
-  write(h * sample.stress, out);
+  const bool carries = !std::isnan(sample.bending_moment.xx);
+  write((carries ? sample.thickness : ElementSample::undefined) * sample.stress, out);
 }
 void bending_moment(const ElementSample& sample, double* out) { write(sample.bending_moment, out); }
 void beam_force(const ElementSample& sample, double* out) { std::ranges::copy(sample.section_force, out); }

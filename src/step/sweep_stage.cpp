@@ -44,7 +44,7 @@ Contribution gather_results(Model& model, ThreadTeam& team) {
   Contribution energies;
   StepControl& control = model.control;
   control.stable = HUGE_VAL;
-  ElementBounds assembled;  // of elements whose nodes have a stiffness
+  ElementBounds bounds;  // of elements whose nodes have a stiffness
   double others = HUGE_VAL;
   for (std::size_t t = 0; t < model.schedule.tasks.size(); ++t) {
     const SweepTask& task = model.schedule.tasks[t];
@@ -57,9 +57,9 @@ Contribution gather_results(Model& model, ThreadTeam& team) {
     energies.hourglass += result.hourglass_energy;
     energies.viscous += result.viscous_energy;
     if (model.blocks[task.block].kernel.gives_stiffness) {
-      assembled.stable_step = std::min(assembled.stable_step, result.stable_step);
-      assembled.damping = std::max(assembled.damping, result.damping);
-      assembled.strain_rate_squared = std::max(assembled.strain_rate_squared, result.strain_rate_squared);
+      bounds.stable_step = std::min(bounds.stable_step, result.stable_step);
+      bounds.damping = std::max(bounds.damping, result.damping);
+      bounds.strain_rate_squared = std::max(bounds.strain_rate_squared, result.strain_rate_squared);
     } else {
       others = std::min(others, result.stable_step);
     }
@@ -69,11 +69,12 @@ Contribution gather_results(Model& model, ThreadTeam& team) {
     control.critical_element =
         static_cast<std::size_t>(model.parts[task.block].element_order[result.critical_element]);
   }
-  if (assembled.stable_step > 0 && assembled.stable_step < HUGE_VAL)
-    assembled.stable_step =
-        assembled_stable_step(model.assembled_step, assembled, model.times.previous, model.step,
-                              model.schedule, model.blocks, model.nodes, team);
-  control.stable = std::min(assembled.stable_step, others) * model.ties.step_share;
+  const bool are_any = bounds.stable_step > 0 && bounds.stable_step < HUGE_VAL;
+  const double assembled =
+      are_any ? assembled_stable_step(model.assembled_step, bounds, model.times.previous, model.step,
+                                      model.schedule, model.blocks, model.nodes, team)
+              : bounds.stable_step;
+  control.stable = std::min(assembled, others) * model.ties.step_share;
   return energies;
 }
 

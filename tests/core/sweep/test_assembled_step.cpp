@@ -321,7 +321,7 @@ TEST(AssembledStep, VibrationsStayBoundedAtTheLongestTimeStep) {
   }
 }
 
-// A bar is crushed to a third between two estimates, and is followed.
+// The foot of a bar is crushed until the time step is a tenth of the first one.
 TEST(AssembledStep, FollowsElementsThatAreCrushedBetweenEstimates) {
   Hex8 element;
   Deck deck;

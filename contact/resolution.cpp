@@ -108,7 +108,10 @@ class Resolution {
     scene_.step.searched = true;
     scene_.step.search_seconds += seconds_since(start);
   }
-  void select() { select_active(scene_.proximity, scene_.features, scene_.pairs, scene_.motion, team_); }
+  void select() {
+    select_active(scene_.proximity, scene_.features, scene_.surface, scene_.excluded, scene_.options,
+                  scene_.pairs, scene_.motion, team_);
+  }
   // Of pairs that were inactive in the predicted motion.
   void look_again() {
     if (scene_.pairs.is_due_after_solution(scene_.features, scene_.surface, scene_.motion, team_)) {

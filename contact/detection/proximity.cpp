@@ -217,9 +217,11 @@ double allowed_surplus(const SurfaceFeatures& features) {
   return share_of_band * proximity_band * features.smallest_edge;
 }
 
-void select_active(Proximity& proximity, const SurfaceFeatures& features, const FeaturePairs& pairs,
-                   const FeatureMotion& motion, ThreadTeam& team) {
+void select_active(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
+                   const Lists& excluded, const ContactOptions& options, FeaturePairs& pairs,
+                   FeatureMotion& motion, ThreadTeam& team) {
   const double surplus = 2 * allowed_surplus(features);
+  pairs.open_near(features, surface, excluded, options, motion, surplus, team);
   select_active_pairs(proximity.node_face_blocks, pairs.node_face, motion.of_node, motion.of_face, motion,
                       surplus, team, proximity.node_face);
   select_active_pairs(proximity.edge_edge_blocks, pairs.edge_edge, motion.of_edge, motion.of_edge, motion,

@@ -13,11 +13,11 @@
 #include <span>
 #include <vector>
 
-#include "contact/detection/active_pairs.hpp"
 #include "contact/features/feature_motion.hpp"
 #include "contact/features/features.hpp"
 #include "contact/options.hpp"
 #include "contact/pair.hpp"
+#include "contact/pairs/active_pairs.hpp"
 #include "contact/pairs/feature_pairs.hpp"
 
 namespace brio {
@@ -52,9 +52,11 @@ struct Proximity {
   }
 };
 
-/// Active pairs: those that may come within their radii in this step, by their motion bounds.
-void select_active(Proximity& proximity, const SurfaceFeatures& features, const FeaturePairs& pairs,
-                   const FeatureMotion& motion, ThreadTeam& team);
+/// Open pairs of faces that may come near, and list the active pairs: those that may come within their radii
+/// in this step, by their motion bounds.
+void select_active(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
+                   const Lists& excluded, const ContactOptions& options, FeaturePairs& pairs,
+                   FeatureMotion& motion, ThreadTeam& team);
 
 /// Replace `contacts` by the constraints of this step, those of nodes and faces by node, then those of edges.
 /// Directions and motion bounds of the pairs are renewed. Active pairs that are not near are dropped: they

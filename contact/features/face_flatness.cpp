@@ -121,8 +121,8 @@ bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotio
   return any;
 }
 
-void FaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion,
-                             std::vector<std::uint8_t>& joins) {
+void FaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion, std::uint8_t mark,
+                             std::vector<std::uint8_t>& flags) {
   for (std::size_t f = 0; f < flat_.size(); ++f) {
     const auto may = [&](double path) { return may_reach(path, features, f, motion); };
     if (flat_[f] == Flatness::none || !may(std::min(until_[f].thin, until_[f].convex))) continue;
@@ -132,8 +132,7 @@ void FaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotio
     const Flatness now = flatness_of(features, f, motion);
     if (now <= flat_[f]) continue;
     flat_[f] = now;
-    for (int e : features.diagonal_of_face[f])
-      if (e >= 0) joins[static_cast<std::size_t>(e)] = 1;
+    flags[f] |= mark;
   }
 }
 

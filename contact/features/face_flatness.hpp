@@ -42,10 +42,9 @@ class FaceFlatness {
   /// Whether a face is no longer as flat as it was at the end of the step.
   bool any_bends(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team);
   bool bends(const SurfaceFeatures& features, int face, const FeatureMotion& motion);
-  /// Take over what faces have become that bend more. \param joins of each edge: set where it is a diagonal
-  /// of such a face
-  void take_over(const SurfaceFeatures& features, const FeatureMotion& motion,
-                 std::vector<std::uint8_t>& joins);
+  /// Take over what faces have become that bend more. \param mark that the flags of such faces get
+  void take_over(const SurfaceFeatures& features, const FeatureMotion& motion, std::uint8_t mark,
+                 std::vector<std::uint8_t>& flags);
 
   /// Whether an edge is paired, with what keeps their radii.
   bool pairs(const EdgeFeature& edge, bool radii) const {

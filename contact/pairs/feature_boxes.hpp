@@ -17,6 +17,15 @@ struct TooManyNear : std::runtime_error {
   TooManyNear() : std::runtime_error("contact search: everything is near everything") {}
 };
 
+/// A box that is larger on all sides.
+inline CaptureBox grown(CaptureBox box, double by) {
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] -= by;
+    box.upper[axis] += by;
+  }
+  return box;
+}
+
 class FeatureBoxes {
  public:
   /// As many features, none of which has a box.

@@ -34,15 +34,46 @@ constexpr std::uint64_t most_of_rest = 3;
 constexpr double growth_of_rest = 1.1;
 constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
-CaptureBox grown(CaptureBox box, double by) {
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] -= by;
-    box.upper[axis] += by;
-  }
-  return box;
+using Flags = SearchedBoxes::Change;
+
+/// PairRecord::one_piece of pairs all of whose features are of one piece, and of those that never meet: no
+/// pair has these bits.
+constexpr std::uint8_t all_one_piece = 0xff, never = 0x0f;
+
+template <class T>
+T& at(std::vector<T>& of, int i) {
+  return of[static_cast<std::size_t>(i)];
+}
+template <class T>
+const T& at(const std::vector<T>& of, int i) {
+  return of[static_cast<std::size_t>(i)];
 }
 
 }  // namespace
+
+void SearchedBoxes::begin_search(std::size_t count) {
+  box.grow(count);
+  flag.assign(count, 0);
+  before.resize(count, empty_box);
+  leaving.clear();
+}
+
+void SearchedBoxes::leave(int i, const CaptureBox& other) {
+  at(before, i) = box.of(i);
+  box.change(i, other);
+}
+
+FeaturePairs::Scene FeaturePairs::scene_of(const SurfaceFeatures& features, const Surface& surface,
+                                           const Lists& excluded, const ContactOptions& options,
+                                           const SearchedDepth& depth) {
+  return {features,
+          surface,
+          excluded,
+          share_of_buffer * options.reach_buffer,
+          proximity_band * features.smallest_edge,
+          options.edges,
+          depth};
+}
 
 bool FeaturePairs::is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const {
   const NodeMotion64& node = motion.node[slave];
@@ -107,72 +138,115 @@ void FeaturePairs::place(std::size_t slave, const Scene& scene, const FeatureMot
   }
 }
 
-CaptureBox FeaturePairs::box_of(const Surface& surface, const Face& face) const {
-  CaptureBox box = empty_box;
-  for (int corner : face.node) box.include(reach_[static_cast<std::size_t>(surface.slave(corner))]);
-  return box;
+CaptureBox FeaturePairs::face_box(const Scene& scene, int face) const {
+  const std::array<int, 4>& nodes = at(scene.features.face_node, face);
+  return grown(box_of(nodes), at(face_radius_, face) + 0.5 * (scene.band + scene.depth.most_of(nodes)));
 }
-CaptureBox FeaturePairs::box_of(const EdgeFeature& edge) const {
-  CaptureBox box = reach_[static_cast<std::size_t>(edge.node[0])];
-  box.include(reach_[static_cast<std::size_t>(edge.node[1])]);
-  return box;
+CaptureBox FeaturePairs::round_box(const Scene& scene, int edge) const {
+  const std::array<int, 2>& nodes = at(scene.features.edge_node, edge);
+  return grown(box_of(nodes), at(round_radius_, edge) + 0.5 * (scene.band + scene.depth.most_of(nodes)));
 }
-CaptureBox FeaturePairs::node_box(const Scene& scene, std::size_t slave) const {
-  return grown(reach_[slave], scene.features.node_radius[slave] +
-                                  0.5 * (scene.band + scene.depth.of(static_cast<int>(slave))));
+
+CaptureBox FeaturePairs::debris_box(const Scene& scene, int slave) const {
+  return grown(at(reach_, slave),
+               at(scene.features.node_radius, slave) + 0.5 * (scene.band + scene.depth.of(slave)));
 }
-CaptureBox FeaturePairs::face_box(const Scene& scene, std::size_t face) const {
-  return grown(box_of(scene.surface, scene.surface.face[face]),
-               scene.features.face_radius[face] +
-                   0.5 * (scene.band + scene.depth.of(scene.surface, scene.surface.face[face])));
+
+// A node, a side or a beam may have a radius of its own.
+void FeaturePairs::measure_radii(const Scene& scene) {
+  const SurfaceFeatures& features = scene.features;
+  face_radius_.resize(features.face_node.size(), 0);
+  for (int f : faces_.leaving) {
+    double& radius = at(face_radius_, f);
+    radius = at(features.face_radius, f);
+    for (int node : at(features.face_node, f)) radius = std::max(radius, at(features.node_radius, node));
+    for (int e : at(features.edge_of_face, f))
+      if (e >= 0) radius = std::max(radius, at(features.edge_radius, e));
+  }
+  round_radius_.resize(rounds_.flag.size(), 0);
+  for (int e : rounds_.leaving) {
+    double& radius = at(round_radius_, e);
+    radius = at(features.edge_radius, e);
+    for (int node : at(features.edge_node, e)) radius = std::max(radius, at(features.node_radius, node));
+  }
 }
-CaptureBox FeaturePairs::edge_box(const Scene& scene, std::size_t edge) const {
-  const EdgeFeature& own = scene.features.edge[edge];
-  if (!flat_.pairs(own, false)) return empty_box;
-  return grown(box_of(own), own.radius + 0.5 * (scene.band + scene.depth.of(own)));
+
+void FeaturePairs::list_rounds_of_nodes(const Scene& scene) {
+  if (scene.features.all_of_faces) return;
+  round_of_node_.assign(scene.surface.slaves(), -1);
+  for (int e : scene.features.edge_of_round) {
+    if (e < 0) continue;
+    for (int node : at(scene.features.edge_node, e))
+      if (int& first = at(round_of_node_, node); first < 0 || e < first) first = e;
+  }
+}
+
+void FeaturePairs::list_debris(const Scene& scene) {
+  debris_node_.clear();
+  for (int s = 0; s < static_cast<int>(scene.surface.slaves()); ++s)
+    if (at(scene.surface.node, s) >= 0 && scene.surface.faces_of.of(s).empty() &&
+        (round_of_node_.empty() || at(round_of_node_, s) < 0))
+      debris_node_.push_back(s);
 }
 
 void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
                         const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
                         const SearchedDepth& depth) {
-  const Scene scene{features,
-                    surface,
-                    excluded,
-                    share_of_buffer * options.reach_buffer,
-                    proximity_band * features.smallest_edge,
-                    options.edges,
-                    depth};
+  const Scene scene = scene_of(features, surface, excluded, options, depth);
   ++searches_;
   const std::size_t all = surface.slaves() + surface.face.size() + features.edge.size();
   const std::uint64_t before = counts.candidate_pairs;
   most_pairs_ = depth.empty() ? before + most_pairs_a_feature * all + most_of_rest * met_at_rest_ : no_limit;
-  changed_ = !changes_.empty();
-  kept_node_face_.clear();
-  kept_edge_edge_.clear();
-  if (!reach_.empty()) take_in_changes(scene);
-  if (reach_.size() == surface.slaves() && collect_leaving(scene, motion)) {
-    find_leaving(scene, motion, team);
+  kept_.node_face.clear();
+  kept_.edge_edge.clear();
+  kept_.grown = changes_.grown;
+  kept_.changed = !changes_.empty();
+  const bool is_first = reach_.empty();
+  reach_.resize(surface.slaves(), empty_box);
+  if (!is_first) flat_.change(surface.face.size(), changes_.face);
+  faces_.begin_search(surface.face.size());
+  rounds_.begin_search(features.all_of_faces ? 0 : features.edge.size());
+  if (is_first || !changes_.empty()) {
+    list_rounds_of_nodes(scene);
+    list_debris(scene);
+  }
+  const bool has_debris = !debris_node_.empty() || debris_.box.size() > 0;
+  debris_.begin_search(has_debris ? surface.slaves() : 0);
+  if (!is_first && collect_leaving(scene, motion)) {
+    lay_boxes_of_leaving(scene, motion);
+    drop_pairs(scene, motion, team);
+    add_pairs(scene, motion.groups, team);
   } else {
-    find_all(scene, motion, team);
+    start_over(scene, motion, team);
+    add_pairs(scene, motion.groups, team);
     const std::uint64_t met = counts.candidate_pairs - before;
     const auto grown_rest = static_cast<std::uint64_t>(growth_of_rest * static_cast<double>(met_at_rest_));
     met_at_rest_ = depth.empty() && met_at_rest_ > 0 ? std::min(met, grown_rest) : met;
   }
-  node_face.close_up();
-  edge_edge.close_up();
-  forget_changes();
+  close_up();
+  changes_ = {};
+  if (!depth.empty()) open_all(scene, motion.groups);
 }
 
-void FeaturePairs::forget_changes() {
-  const auto forget = [](std::vector<std::uint8_t>& leaves, std::vector<int>& changed) {
-    for (int i : changed) leaves[static_cast<std::size_t>(i)] = 0;
-    changed.clear();
-  };
-  forget(node_leaves_, changes_.node);
-  forget(face_leaves_, changes_.face);
-  forget(edge_leaves_, changes_.edge);
-  changes_.grown.clear();
-  changes_.before_first_search = false;
+void FeaturePairs::close_up() {
+  for (const auto& [list, parents] :
+       {std::pair(&face_face, Parents::faces), std::pair(&round_face, Parents::rounds)}) {
+    std::vector<int> number;
+    list->close_up([&](std::size_t from, std::size_t to) {
+      number.resize(std::max(number.size(), from + 1), -1);
+      number[from] = static_cast<int>(to);
+    });
+    if (number.empty()) continue;
+    const auto renumber = [&](int parent) {
+      if (parent == no_parent || parents_of(parent) != parents) return parent;
+      return parent_number(parents,
+                           static_cast<std::size_t>(at(number, static_cast<int>(place_of_parent(parent)))));
+    };
+    node_face.renumber_parents(renumber);
+    edge_edge.renumber_parents(renumber);
+  }
+  node_face.close_up();
+  edge_edge.close_up();
 }
 
 void FeaturePairs::change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
@@ -202,243 +276,224 @@ std::vector<std::pair<std::size_t, int>> FeaturePairs::find_faces(std::vector<Ca
       box.upper[axis] -= moved;
     }
   SearchCounts apart;
-  face_box_.find(
+  faces_.box.find(
       boxes, team, apart, no_limit, false, [](std::size_t, int) { return true; },
       [&](std::size_t i, int f, bool) { found.emplace_back(i, f); });
   return found;
 }
 
-void FeaturePairs::take_in_changes(const Scene& scene) {
-  reach_.resize(scene.surface.slaves(), empty_box);
-  flat_.change(scene.surface.face.size(), changes_.face);
-  node_box_.grow(reach_.size());
-  face_box_.grow(scene.surface.face.size());
-  edge_box_.grow(scene.features.edge.size());
-  node_leaves_.resize(node_box_.size(), 0);
-  face_leaves_.resize(face_box_.size(), 0);
-  edge_leaves_.resize(edge_box_.size(), 0);
-}
-
-namespace {
-
-std::uint64_t key_of(int a, int b) {
-  return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
-}
-
-}  // namespace
-
-void FeaturePairs::remember(std::vector<std::uint64_t>& kept, int a, int b, Spacing spacing) const {
-  if (spacing == (changed_ ? Spacing::radii : Spacing::waiting)) kept.push_back(key_of(a, b));
-}
-
-Spacing FeaturePairs::spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b,
-                                     bool only_skins) const {
-  if (only_skins) return Spacing::radii;
-  const bool was_kept = std::binary_search(kept.begin(), kept.end(), key_of(a, b));
-  return was_kept == changed_ ? Spacing::radii : Spacing::waiting;
-}
-
-void FeaturePairs::find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
-  motion.restart(scene.features, scene.surface, team);
-  if (scene.depth.bends_faces)
-    flat_.forget(scene.surface.face.size());
-  else
-    flat_.measure(scene.features, motion);
-  const Surface& surface = scene.surface;
-  reach_.assign(surface.slaves(), empty_box);
-  node_box_.start(surface.slaves());
-  for (std::size_t s = 0; s < reach_.size(); ++s) {
-    if (surface.node[s] < 0) continue;
-    place(s, scene, motion);
-    node_box_.set(s, node_box(scene, s));
+// Nodes stand for all features at them, what has changed for all faces at it.
+void FeaturePairs::mark_changes(const Scene& scene) {
+  constexpr std::uint8_t both = Flags::leaves | Flags::is_new;
+  node_flag_.assign(reach_.size(), 0);
+  for (int s : changes_.node) at(node_flag_, s) |= both;
+  for (int f : changes_.face) at(faces_.flag, f) |= both;
+  for (int e : changes_.edge) {
+    if (!rounds_.flag.empty()) at(rounds_.flag, e) |= both;
+    for (int f : at(scene.features.edge, e).face)
+      if (f >= 0) at(faces_.flag, f) |= both;
   }
-  face_box_.start(surface.face.size());
-  for (std::size_t f = 0; f < surface.face.size(); ++f)
-    if (surface.face[f].alive()) face_box_.set(f, face_box(scene, f));
-  edge_box_.start(scene.features.edge.size());
-  for (std::size_t e = 0; e < scene.features.edge.size(); ++e)
-    if (scene.features.edge[e].alive()) edge_box_.set(e, edge_box(scene, e));
-  node_box_.build(team);
-  face_box_.build(team);
-  edge_box_.build(team);
-  node_leaves_.assign(node_box_.size(), 0);
-  face_leaves_.assign(face_box_.size(), 0);
-  edge_leaves_.assign(edge_box_.size(), 0);
-
-  const auto remember_all = [&](const PairList& pairs, std::vector<std::uint64_t>& kept) {
-    for (const PairRecord& pair : pairs.records()) remember(kept, pair.first, pair.second, pair.spacing);
-    std::sort(kept.begin(), kept.end());
-  };
-  remember_all(node_face, kept_node_face_);
-  remember_all(edge_edge, kept_edge_edge_);
-  node_face.clear();
-  node_box_.find(
-      face_box_.boxes(), team, counts, most_pairs_, Spacing::none,
-      [&](std::size_t f, int s) { return node_face_spacing(scene, s, static_cast<int>(f)); },
-      [&](std::size_t f, int s, Spacing spacing) {
-        add_node_face(scene, motion.groups, s, static_cast<int>(f), spacing);
-      });
-  edge_edge.clear();
-  edge_box_.find(
-      edge_box_.boxes(), team, counts, most_pairs_, Spacing::none,
-      [&](std::size_t e, int other) {
-        return other > static_cast<int>(e) ? edge_edge_spacing(scene, static_cast<int>(e), other)
-                                           : Spacing::none;
-      },
-      [&](std::size_t e, int other, Spacing spacing) {
-        add_edge_edge(scene, motion.groups, static_cast<int>(e), other, spacing);
-      });
+  if (!debris_.flag.empty())
+    for (int s : changes_.node) at(debris_.flag, s) |= both;
 }
 
 // \returns whether they are few
 bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& motion) {
   const Surface& surface = scene.surface;
-  for (int s : node_) node_leaves_[static_cast<std::size_t>(s)] = 0;
-  for (int f : face_) face_leaves_[static_cast<std::size_t>(f)] = 0;
-  for (int e : edge_) edge_leaves_[static_cast<std::size_t>(e)] = 0;
-  node_.clear();
-  face_.clear();
-  edge_.clear();
-  const auto mark = [](std::vector<std::uint8_t>& leaves, const std::vector<int>& changed) {
-    for (int i : changed) leaves[static_cast<std::size_t>(i)] = 1;
-  };
-  mark(node_leaves_, changes_.node);
-  mark(face_leaves_, changes_.face);
-  mark(edge_leaves_, changes_.edge);
+  mark_changes(scene);
+  std::size_t count = 0;
   for (std::size_t s = 0; s < reach_.size(); ++s)
-    if (surface.node[s] >= 0 && (node_leaves_[s] != 0 || !is_inside(s, motion, steps_of_notice))) {
-      node_.push_back(static_cast<int>(s));
-      node_leaves_[s] = 1;
+    if (surface.node[s] >= 0 && (node_flag_[s] != 0 || !is_inside(s, motion, steps_of_notice))) {
+      node_flag_[s] |= Flags::leaves;
+      ++count;
     }
-  const auto few = static_cast<double>(node_box_.size()) * most_leaving;
-  if (static_cast<double>(node_.size() + node_box_.changed()) > few) return false;
-  for (std::size_t f = 0; f < surface.face.size(); ++f) {
-    if (!surface.face[f].alive()) continue;
-    for (int corner : surface.face[f].node)
-      face_leaves_[f] |= node_leaves_[static_cast<std::size_t>(surface.slave(corner))];
-    if (face_leaves_[f] != 0) face_.push_back(static_cast<int>(f));
-  }
-  flat_.take_over(scene.features, motion, edge_leaves_);
-  for (std::size_t e = 0; e < scene.features.edge.size(); ++e) {
-    if (!scene.features.edge[e].alive() || !flat_.pairs(scene.features.edge[e], false)) continue;
-    for (int node : scene.features.edge[e].node)
-      edge_leaves_[e] |= node_leaves_[static_cast<std::size_t>(node)];
-    if (edge_leaves_[e] != 0) edge_.push_back(static_cast<int>(e));
-  }
+  const auto few = static_cast<double>(reach_.size()) * most_leaving;
+  if (static_cast<double>(count + faces_.box.changed() + rounds_.box.changed() + debris_.box.changed()) > few)
+    return false;
+  flat_.take_over(scene.features, motion, Flags::bends, faces_.flag);
+  const auto collect = [&](SearchedBoxes& boxes, int i, const auto& nodes) {
+    for (int node : nodes) at(boxes.flag, i) |= at(node_flag_, node);
+    if ((boxes.flag_of(i) & Flags::leaves) != 0) boxes.leaving.push_back(i);
+  };
+  for (int f = 0; f < static_cast<int>(surface.face.size()); ++f)
+    if (at(surface.face, f).alive()) collect(faces_, f, at(scene.features.face_node, f));
+  for (int e : scene.features.edge_of_round)
+    if (e >= 0) collect(rounds_, e, at(scene.features.edge_node, e));
+  std::sort(rounds_.leaving.begin(), rounds_.leaving.end());
+  for (int s : debris_node_) collect(debris_, s, std::array{s});
   return true;
 }
 
-void FeaturePairs::find_leaving(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
-  const auto leaves = [](const std::vector<std::uint8_t>& flags, int feature) {
-    return flags[static_cast<std::size_t>(feature)] != 0;
-  };
-  const auto gather = [&](const FeatureBoxes& boxes, const std::vector<int>& features) {
-    query_.clear();
-    for (int feature : features) query_.push_back(boxes.of(feature));
-  };
-  for (int s : node_) place(static_cast<std::size_t>(s), scene, motion);
-  for (int s : node_) node_box_.change(s, node_box(scene, static_cast<std::size_t>(s)));
-  for (int f : face_) face_box_.change(f, face_box(scene, static_cast<std::size_t>(f)));
-  for (int e : edge_) edge_box_.change(e, edge_box(scene, static_cast<std::size_t>(e)));
-  drop_dead(scene);
-
-  node_face.remove_if([&](int s, int f) { return leaves(node_leaves_, s) || leaves(face_leaves_, f); }, team,
-                      [&](int s, int f, Spacing spacing) { remember(kept_node_face_, s, f, spacing); });
-  std::sort(kept_node_face_.begin(), kept_node_face_.end());
-  gather(face_box_, face_);
-  node_box_.find(
-      query_, team, counts, most_pairs_, Spacing::none,
-      [&](std::size_t i, int s) { return node_face_spacing(scene, s, face_[i]); },
-      [&](std::size_t i, int s, Spacing spacing) {
-        add_node_face(scene, motion.groups, s, face_[i], spacing);
-      });
-  gather(node_box_, node_);
-  face_box_.find(
-      query_, team, counts, most_pairs_, Spacing::none,
-      [&](std::size_t i, int f) {
-        return leaves(face_leaves_, f) ? Spacing::none : node_face_spacing(scene, node_[i], f);
-      },
-      [&](std::size_t i, int f, Spacing spacing) {
-        add_node_face(scene, motion.groups, node_[i], f, spacing);
-      });
-
-  edge_edge.remove_if([&](int a, int b) { return leaves(edge_leaves_, a) || leaves(edge_leaves_, b); }, team,
-                      [&](int a, int b, Spacing spacing) { remember(kept_edge_edge_, a, b, spacing); });
-  std::sort(kept_edge_edge_.begin(), kept_edge_edge_.end());
-  gather(edge_box_, edge_);
-  edge_box_.find(
-      query_, team, counts, most_pairs_, Spacing::none,
-      [&](std::size_t i, int other) {
-        const int own = edge_[i];
-        if (other == own || (leaves(edge_leaves_, other) && other < own)) return Spacing::none;
-        return edge_edge_spacing(scene, std::min(own, other), std::max(own, other));
-      },
-      [&](std::size_t i, int other, Spacing spacing) {
-        add_edge_edge(scene, motion.groups, std::min(edge_[i], other), std::max(edge_[i], other), spacing);
-      });
-}
-
-// What is no more has no box; the flags of what changed stay for the removal of pairs.
-void FeaturePairs::drop_dead(const Scene& scene) {
-  for (int s : changes_.node)
-    if (scene.surface.node[static_cast<std::size_t>(s)] < 0) node_box_.change(s, empty_box);
-  for (int f : changes_.face)
-    if (!scene.surface.face[static_cast<std::size_t>(f)].alive()) face_box_.change(f, empty_box);
-  for (int e : changes_.edge)
-    if (!scene.features.edge[static_cast<std::size_t>(e)].alive()) edge_box_.change(e, empty_box);
-}
-
-// None: they are not paired.
-Spacing FeaturePairs::node_face_spacing(const Scene& scene, int slave, int f) const {
-  const Face& face = scene.surface.face[static_cast<std::size_t>(f)];
-  if (face.body == scene.surface.body[static_cast<std::size_t>(slave)] && !scene.depth.empty() &&
-      !grown(face_box_.of(f), -0.5 * (scene.depth.of(scene.surface, face) + scene.depth.of(slave)))
-           .overlaps(node_box_.of(slave)))
-    return Spacing::none;
-  if (face.has(scene.surface.node[static_cast<std::size_t>(slave)]) || scene.surface.never_touch(slave, face))
-    return Spacing::none;
-  const bool spaced = !is_excluded(scene.excluded, slave, f);
-  if (!spaced) {
-    const CaptureBox near = grown(box_of(scene.surface, face), 2 * scene.features.skin + scene.band);
-    return near.overlaps(reach_[static_cast<std::size_t>(slave)]) ? Spacing::skins : Spacing::none;
+// All leave, with new boxes.
+void FeaturePairs::start_over(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
+  motion.restart(scene.features, scene.surface, team);
+  if (scene.depth.bends_faces)
+    flat_.forget(scene.surface.face.size());
+  else
+    flat_.measure(scene.features, motion);
+  reach_.assign(scene.surface.slaves(), empty_box);
+  for (std::size_t s = 0; s < reach_.size(); ++s)
+    if (scene.surface.node[s] >= 0) place(s, scene, motion);
+  for (SearchedBoxes* boxes : {&faces_, &rounds_, &debris_}) {
+    boxes->leaving.clear();
+    boxes->box.start(boxes->flag.size());
+    boxes->flag.assign(boxes->flag.size(), Flags::leaves | Flags::is_new);
   }
-  const auto& grown_nodes = changes_.grown;
-  if (std::find(grown_nodes.begin(), grown_nodes.end(), slave) != grown_nodes.end()) return Spacing::waiting;
-  const double radii = scene.features.node_radius[static_cast<std::size_t>(slave)] +
-                       scene.features.face_radius[static_cast<std::size_t>(f)];
-  return spacing_of_new(kept_node_face_, slave, f, radii <= 2 * scene.features.skin);
+  for (int f = 0; f < static_cast<int>(scene.surface.face.size()); ++f)
+    if (at(scene.surface.face, f).alive()) faces_.leaving.push_back(f);
+  for (int e : scene.features.edge_of_round)
+    if (e >= 0) rounds_.leaving.push_back(e);
+  std::sort(rounds_.leaving.begin(), rounds_.leaving.end());
+  measure_radii(scene);
+  for (int f : faces_.leaving) faces_.box.set(static_cast<std::size_t>(f), face_box(scene, f));
+  for (int e : rounds_.leaving) rounds_.box.set(static_cast<std::size_t>(e), round_box(scene, e));
+  if (!debris_.flag.empty()) debris_.leaving = debris_node_;
+  for (int s : debris_.leaving) debris_.box.set(static_cast<std::size_t>(s), debris_box(scene, s));
+  for (SearchedBoxes* boxes : {&faces_, &rounds_, &debris_}) boxes->box.build(team);
+  for (const auto& [list, kept] :
+       {std::pair(&node_face, &kept_.node_face), std::pair(&edge_edge, &kept_.edge_edge)}) {
+    for (const PairRecord& pair : list->records()) remember(pair, *kept);
+    std::sort(kept->begin(), kept->end());
+  }
+  for (PairList* list : {&face_face, &round_face, &node_face, &edge_edge}) list->clear();
 }
 
-Spacing FeaturePairs::edge_edge_spacing(const Scene& scene, int first, int second) const {
-  const EdgeFeature& a = scene.features.edge[static_cast<std::size_t>(first)];
-  const EdgeFeature& b = scene.features.edge[static_cast<std::size_t>(second)];
-  if (!scene.edges && a.of_face() && b.of_face()) return Spacing::none;
-  if (a.body == b.body && !scene.depth.empty() &&
-      !grown(edge_box_.of(first), -0.5 * (scene.depth.of(a) + scene.depth.of(b)))
-           .overlaps(edge_box_.of(second)))
-    return Spacing::none;
-  if (!may_be_paired(scene.surface, a, b)) return Spacing::none;
-  const bool spaced = !are_of_one_piece(scene.features, scene.surface, scene.excluded, a, b);
-  if (!spaced && !grown(box_of(a), 2 * scene.features.skin + scene.band).overlaps(box_of(b)))
-    return Spacing::none;
-  const bool only_skins = a.radius + b.radius <= 2 * scene.features.skin;
-  const Spacing spacing =
-      spaced ? spacing_of_new(kept_edge_edge_, first, second, only_skins) : Spacing::skins;
-  // At the start nothing may be missing when such a face bends.
-  const bool radii = spacing == Spacing::radii && scene.depth.empty();
-  return flat_.pairs(a, radii) && flat_.pairs(b, radii) ? spacing : Spacing::none;
+void FeaturePairs::lay_boxes_of_leaving(const Scene& scene, const FeatureMotion& motion) {
+  for (std::size_t s = 0; s < reach_.size(); ++s)
+    if ((node_flag_[s] & Flags::leaves) != 0 && scene.surface.node[s] >= 0) place(s, scene, motion);
+  measure_radii(scene);
+  for (int f : faces_.leaving) faces_.leave(f, face_box(scene, f));
+  for (int e : rounds_.leaving) rounds_.leave(e, round_box(scene, e));
+  for (int s : debris_.leaving) debris_.leave(s, debris_box(scene, s));
+  for (int s : changes_.node)
+    if (!debris_.flag.empty() && !std::binary_search(debris_node_.begin(), debris_node_.end(), s))
+      debris_.leave(s, empty_box);
+  for (int f : changes_.face)
+    if (!at(scene.surface.face, f).alive()) faces_.leave(f, empty_box);
+  for (int e : changes_.edge)
+    if (!rounds_.flag.empty() && !at(scene.features.edge, e).alive()) rounds_.leave(e, empty_box);
 }
 
-void FeaturePairs::add_node_face(const Scene& scene, MotionGroups& groups, int slave, int f,
-                                 Spacing spacing) {
-  node_face.add(slave, f, spacing,
-                groups.relate(slave, scene.features.face_node[static_cast<std::size_t>(f)][0]));
+// Of what leaves, with all whose boxes it meets. Pairs whose boxes have met before are listed.
+void FeaturePairs::add_pairs(const Scene& scene, MotionGroups& groups, ThreadTeam& team) {
+  const auto is_listed = [](const SearchedBoxes& a, int i, const SearchedBoxes& b, int j) {
+    return ((a.flag_of(i) | b.flag_of(j)) & Flags::is_new) == 0 && a.last_box(i).overlaps(b.last_box(j));
+  };
+  const auto leaves = [](const SearchedBoxes& boxes, int i) {
+    return (boxes.flag_of(i) & Flags::leaves) != 0;
+  };
+  const auto find_in = [&](SearchedBoxes& others, const SearchedBoxes& own, auto none, const auto& judge,
+                           const auto& add) {
+    query_.clear();
+    for (int i : own.leaving) query_.push_back(own.box.of(i));
+    others.box.find(
+        query_, team, counts, most_pairs_, none,
+        [&](std::size_t i, int other) {
+          return is_listed(own, own.leaving[i], others, other) ? none : judge(own.leaving[i], other);
+        },
+        [&](std::size_t i, int other, auto judgement) { add(own.leaving[i], other, judgement); });
+  };
+  for (PairList* list : {&face_face, &round_face, &node_face, &edge_edge}) list->begin_changes();
+
+  const auto node_of_face = [&](int f) { return at(scene.features.face_node, f)[0]; };
+  const auto node_of_edge = [&](int e) { return at(scene.features.edge_node, e)[0]; };
+  const auto add = [&](PairList& list, const auto& node_of_first, int first, int second,
+                       std::uint8_t one_piece) {
+    list.add({.first = first,
+              .second = second,
+              .relation = groups.relate(node_of_first(first), node_of_face(second)),
+              .spacing = one_piece == all_one_piece ? Spacing::skins : Spacing::radii,
+              .one_piece = one_piece});
+  };
+  for (int f : faces_.leaving)
+    if ((faces_.flag_of(f) & Flags::is_new) != 0 && owns_opposite_sides(scene, f))
+      add(face_face, node_of_face, f, f, all_one_piece);
+  find_in(
+      faces_, faces_, never,
+      [&](int f, int g) {
+        if (f == g || (g < f && leaves(faces_, g))) return never;
+        return one_piece_of_faces(scene, std::min(f, g), std::max(f, g));
+      },
+      [&](int f, int g, std::uint8_t one_piece) {
+        add(face_face, node_of_face, std::min(f, g), std::max(f, g), one_piece);
+      });
+  const auto add_debris = [&](int s, int f, Spacing spacing) {
+    node_face.add(
+        {.first = s, .second = f, .relation = groups.relate(s, node_of_face(f)), .spacing = spacing});
+  };
+  find_in(
+      faces_, debris_, Spacing::none, [&](int s, int f) { return node_face_spacing(scene, s, f); },
+      add_debris);
+  find_in(
+      debris_, faces_, Spacing::none,
+      [&](int f, int s) { return leaves(debris_, s) ? Spacing::none : node_face_spacing(scene, s, f); },
+      [&](int f, int s, Spacing spacing) { add_debris(s, f, spacing); });
+  const auto add_round = [&](int e, int f, std::uint8_t one_piece) {
+    add(round_face, node_of_edge, e, f, one_piece);
+  };
+  find_in(
+      faces_, rounds_, never, [&](int e, int f) { return one_piece_of_round(scene, e, f); }, add_round);
+  find_in(
+      rounds_, faces_, never,
+      [&](int f, int e) { return leaves(rounds_, e) ? never : one_piece_of_round(scene, e, f); },
+      [&](int f, int e, std::uint8_t one_piece) { add_round(e, f, one_piece); });
+  find_in(
+      rounds_, rounds_, Spacing::none,
+      [&](int e, int other) {
+        if (e == other || (other < e && leaves(rounds_, other))) return Spacing::none;
+        return edge_edge_spacing(scene, std::min(e, other), std::max(e, other));
+      },
+      [&](int e, int other, Spacing spacing) {
+        const int first = std::min(e, other), second = std::max(e, other);
+        edge_edge.add({.first = first,
+                       .second = second,
+                       .relation = groups.relate(node_of_edge(first), node_of_edge(second)),
+                       .spacing = spacing});
+      });
 }
 
-void FeaturePairs::add_edge_edge(const Scene& scene, MotionGroups& groups, int first, int second,
-                                 Spacing spacing) {
-  const auto node_of = [&](int edge) { return scene.features.edge[static_cast<std::size_t>(edge)].node[0]; };
-  edge_edge.add(first, second, spacing, groups.relate(node_of(first), node_of(second)));
+namespace {
+
+// Whether rules or a common rigid body keep all features of both apart.
+template <std::size_t Count>
+bool never_meet(const Surface& surface, const std::array<int, Count>& slaves, int part, const Face& face) {
+  std::array<int, Count> node;
+  for (std::size_t k = 0; k < Count; ++k) node[k] = at(surface.node, slaves[k]);
+  const int rigid = surface.rigid_body_of_all(node);
+  if (rigid >= 0 && rigid == surface.rigid_body_of_all(face.node)) return true;
+  if (!surface.pairs.parts_apart(part, face.part)) return false;
+  const auto all_apart = [&](const auto& nodes, int from) {
+    return std::all_of(nodes.begin(), nodes.end(), [&](int n) { return surface.pairs.apart(n, from); });
+  };
+  return all_apart(node, face.part) && all_apart(face.node, part);
+}
+
+template <std::size_t Count>
+unsigned excluded_corners(const Lists& excluded, const std::array<int, Count>& slaves, int face) {
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < Count; ++k) bits |= unsigned{is_excluded(excluded, slaves[k], face)} << k;
+  return bits;
+}
+
+}  // namespace
+
+std::uint8_t FeaturePairs::one_piece_of_faces(const Scene& scene, int first, int second) const {
+  const Face &a = at(scene.surface.face, first), &b = at(scene.surface.face, second);
+  const auto &nodes = at(scene.features.face_node, first), &others = at(scene.features.face_node, second);
+  if (never_meet(scene.surface, nodes, a.part, b)) return never;
+  if (!scene.surface.tied.one_piece(a.body, b.body)) return 0;
+  const auto bits = static_cast<std::uint8_t>(excluded_corners(scene.excluded, nodes, second) |
+                                              excluded_corners(scene.excluded, others, first) << 4);
+  return bits == never ? 0 : bits;
+}
+
+std::uint8_t FeaturePairs::one_piece_of_round(const Scene& scene, int edge, int f) const {
+  const EdgeFeature& round = at(scene.features.edge, edge);
+  const Face& face = at(scene.surface.face, f);
+  if (never_meet(scene.surface, round.node, round.part, face)) return never;
+  if (!scene.surface.tied.one_piece(round.body, face.body)) return 0;
+  const unsigned bits = excluded_corners(scene.excluded, round.node, f);
+  return bits == 3 ? all_one_piece : static_cast<std::uint8_t>(bits);
 }
 
 }  // namespace brio

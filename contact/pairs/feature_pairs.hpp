@@ -1,17 +1,22 @@
 #pragma once
-/// Pairs of features that may come near each other before the next search: nodes and faces, edges and edges.
+/// Pairs of features that are near each other: nodes and faces, edges and edges.
 ///
 /// Every node has a box that contains its motion of some steps ahead (search margin, Verlet skin), in the
-/// frame of the mean motion; features whose boxes overlap are paired. A search is due when a node leaves its
-/// box at the end of a step, for the features at such nodes only: until then no pair is missing, and one fast
-/// fragment does not cause a search for all. Excluded are pairs that share a node, that belong to one rigid
-/// body, to one face (except its opposite sides), or that the deck excludes. Pairs of one piece (the fold of
-/// a shell, the sides of one element) are listed too: they keep two skins instead of their radii, which
-/// overlap in the mesh. Pairs that are new after a deletion may be nearer than their radii: such a pair keeps
-/// two skins until its distance has once reached its radii.
+/// frame of the mean motion. Faces whose boxes overlap are paired, and so are beams and particles with faces.
+/// A search is due when a node leaves its box at the end of a step, for the faces at such nodes only: until
+/// then no pair is missing, and one fast fragment does not cause a search for all.
+///
+/// A pair of faces is opened when a lower bound of the distance of their features (feature_distance.hpp) may
+/// come within contact in a step: then their features are paired, each with those that its face is the first
+/// to have, so that none is paired twice. It is closed at a search, when it is far again. Excluded are pairs
+/// that share a node, that belong to one rigid body, to one face (except its opposite sides), or that the
+/// deck excludes. Pairs of one piece (the fold of a shell, the sides of one element) are listed too: they
+/// keep two skins instead of their radii, which overlap in the mesh. Pairs that are new after a deletion may
+/// be nearer than their radii: such a pair keeps two skins until its distance has once reached its radii.
 ///
 /// Diagonals of flat faces are not paired (face_flatness.hpp).
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -21,16 +26,34 @@
 #include "contact/features/feature_motion.hpp"
 #include "contact/features/features.hpp"
 #include "contact/options.hpp"
+#include "contact/pairs/active_pairs.hpp"
 #include "contact/pairs/feature_boxes.hpp"
 #include "contact/pairs/pair_list.hpp"
 #include "contact/pairs/searched_depth.hpp"
 
 namespace brio {
 
+/// Boxes of faces, of beams and particles by their edges, or of debris: nodes without elements.
+struct SearchedBoxes {
+  FeatureBoxes box;
+  std::vector<std::uint8_t> flag;  ///< of each, in a search: bits of Change
+  std::vector<CaptureBox> before;  ///< of those that leave: the box that they had
+  std::vector<int> leaving;        ///< ascending
+
+  enum Change : std::uint8_t { leaves = 1, is_new = 2, bends = 4 };
+  std::uint8_t flag_of(int i) const { return flag[static_cast<std::size_t>(i)]; }
+  const CaptureBox& last_box(int i) const {
+    return (flag_of(i) & leaves) != 0 ? before[static_cast<std::size_t>(i)] : box.of(i);
+  }
+  void begin_search(std::size_t count);
+  void leave(int i, const CaptureBox& other);
+};
+
 class FeaturePairs {
  public:
-  PairList node_face;
-  PairList edge_edge;
+  PairList face_face;             ///< faces whose boxes meet; twice the same: its opposite sides
+  PairList round_face;            ///< edges that are beams or particles, and faces
+  PairList node_face, edge_edge;  ///< features of pairs that are open; debris and faces; beams and particles
   SearchCounts counts;
 
   /// Whether some node's step ends outside of its box, a face bends more than it did, or there has been no
@@ -40,12 +63,15 @@ class FeaturePairs {
   /// The same after the solution of a step at whose start no search was due, or was made.
   bool is_due_after_solution(const SurfaceFeatures& features, const Surface& surface,
                              const FeatureMotion& motion, ThreadTeam& team);
-  /// Renew the pairs of features that have left their boxes, or, if these are many, all; then the paths of
-  /// the motion restart. \throws TooManyNear where there is no depth. \param depth to which features of
-  /// different bodies are paired; not empty: a face is flat for all pairs or none
+  /// Renew the pairs of faces that have left their boxes, or, if these are many, all; then the paths of the
+  /// motion restart. \throws TooManyNear where there is no depth. \param depth to which features of different
+  /// bodies are paired, at once; not empty: a face is flat for all pairs or none
   void find(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
             const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
             const SearchedDepth& depth = {});
+  /// Open the pairs of faces that may come near in this step, or within a surplus of its predicted motion.
+  void open_near(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
+                 const ContactOptions& options, FeatureMotion& motion, double surplus, ThreadTeam& team);
   /// The surface has changed: features were added, and the listed ones have changed or were deleted. Nodes
   /// stand for all features at them. \param grown nodes whose radii have grown
   void change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
@@ -66,9 +92,9 @@ class FeaturePairs {
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(node_face, edge_edge, counts, reach_, flat_, node_box_, face_box_, edge_box_, node_, face_, edge_,
-            node_leaves_, face_leaves_, edge_leaves_, changes_, changed_, searches_, most_pairs_,
-            met_at_rest_);
+    archive(face_face, round_face, node_face, edge_edge, counts, face_blocks_, round_blocks_, reach_, flat_,
+            faces_.box, rounds_.box, debris_.box, face_radius_, round_radius_, round_of_node_, debris_node_,
+            changes_, kept_, searches_, most_pairs_, met_at_rest_);
   }
 
  private:
@@ -81,36 +107,62 @@ class FeaturePairs {
     bool edges;     ///< whether there is edge-edge contact
     SearchedDepth depth;
   };
+  static Scene scene_of(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
+                        const ContactOptions& options, const SearchedDepth& depth);
 
   bool is_inside(std::size_t slave, const FeatureMotion& motion, double steps) const;
   /// Length by which the box of a node exceeds its place.
   static double scale_of(std::size_t slave, const Scene& scene, const FeatureMotion& motion);
   void place(std::size_t slave, const Scene& scene, const FeatureMotion& motion);
-  CaptureBox box_of(const Surface& surface, const Face& face) const;
-  CaptureBox box_of(const EdgeFeature& edge) const;
-  CaptureBox node_box(const Scene& scene, std::size_t slave) const;
-  CaptureBox face_box(const Scene& scene, std::size_t face) const;
-  CaptureBox edge_box(const Scene& scene, std::size_t edge) const;
+  template <std::size_t Count>
+  CaptureBox box_of(const std::array<int, Count>& nodes) const {
+    CaptureBox box = empty_box;
+    for (int node : nodes) box.include(reach_[static_cast<std::size_t>(node)]);
+    return box;
+  }
+  CaptureBox face_box(const Scene& scene, int face) const;
+  CaptureBox round_box(const Scene& scene, int edge) const;
+  CaptureBox debris_box(const Scene& scene, int slave) const;
+  void measure_radii(const Scene& scene);
+  void list_rounds_of_nodes(const Scene& scene);
+  void list_debris(const Scene& scene);
 
-  void take_in_changes(const Scene& scene);
-  void forget_changes();
   bool collect_leaving(const Scene& scene, const FeatureMotion& motion);
-  void remember(std::vector<std::uint64_t>& kept, int a, int b, Spacing spacing) const;
+  void mark_changes(const Scene& scene);
+  void close_up();
+  void start_over(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
+  void lay_boxes_of_leaving(const Scene& scene, const FeatureMotion& motion);
+  void add_pairs(const Scene& scene, MotionGroups& groups, ThreadTeam& team);
+  /// PairRecord::one_piece
+  std::uint8_t one_piece_of_faces(const Scene& scene, int first, int second) const;
+  std::uint8_t one_piece_of_round(const Scene& scene, int edge, int face) const;
+
+  template <class Kind>
+  void open_kind(const Scene& scene, const Kind& kind, PairBlocks& blocks, double surplus,
+                 FeatureMotion& motion, ThreadTeam& team);
+  void open_all(const Scene& scene, MotionGroups& groups);
+  void open(const Scene& scene, Parents parents, std::size_t pair, MotionGroups& groups);
+  /// Whether the boxes of a pair part, or it has changed.
+  static bool parts(const SearchedBoxes& a, int i, const SearchedBoxes& b, int j);
+  template <class Kind>
+  void drop_of_kind(const Scene& scene, const Kind& kind, const SearchedBoxes& firsts, ThreadTeam& team);
+  void drop_pairs(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team);
+  static bool owns_opposite_sides(const Scene& scene, int face);
+  void remember(const PairRecord& record, std::vector<std::uint64_t>& kept) const;
   Spacing spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b, bool only_skins) const;
-  void find_all(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
-  void find_leaving(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
-  void drop_dead(const Scene& scene);
   Spacing node_face_spacing(const Scene& scene, int slave, int face) const;
   Spacing edge_edge_spacing(const Scene& scene, int first, int second) const;
-  void add_node_face(const Scene& scene, MotionGroups& groups, int slave, int face, Spacing spacing);
-  void add_edge_edge(const Scene& scene, MotionGroups& groups, int first, int second, Spacing spacing);
+  bool boxes_meet(const Scene& scene, int slave, int face) const;
+  bool boxes_meet(const Scene& scene, const EdgeFeature& a, const EdgeFeature& b) const;
 
-  std::vector<CaptureBox> reach_;  ///< of each slave node: where it may be until the next search
+  PairBlocks face_blocks_, round_blocks_;  ///< of pairs of faces, and of beams and particles with faces
+  std::vector<CaptureBox> reach_;          ///< of each slave node: where it may be until the next search
   FaceFlatness flat_;
-  FeatureBoxes node_box_, face_box_, edge_box_;
-  std::vector<int> node_, face_, edge_;  ///< features that have left their boxes, ascending
-  std::vector<std::uint8_t> node_leaves_, face_leaves_, edge_leaves_;
-  std::vector<CaptureBox> query_;
+  SearchedBoxes faces_, rounds_, debris_;
+  std::vector<std::uint8_t> node_flag_;             ///< as those of the faces at each slave node
+  std::vector<double> face_radius_, round_radius_;  ///< largest of the features of each
+  std::vector<int> round_of_node_;                  ///< of each slave node: its first beam or particle; -1
+  std::vector<int> debris_node_;                    ///< slaves, ascending
 
   struct Changes {
     std::vector<int> node, face, edge, grown;
@@ -120,11 +172,23 @@ class FeaturePairs {
     void serialize(Archive& archive) {
       archive(node, face, edge, grown, before_first_search);
     }
-  } changes_;             ///< since the last search
-  bool changed_ = false;  ///< whether this search follows a change
-  /// Pairs taken out in this search, ascending: those with radii where it follows a change, else those that
-  /// wait.
-  std::vector<std::uint64_t> kept_node_face_, kept_edge_edge_;
+  } changes_;  ///< since the last search
+  /// Of features taken out in the last search, until pairs are opened again: those with radii where the
+  /// search followed a change, else those that wait. Ascending.
+  struct Kept {
+    std::vector<std::uint64_t> node_face, edge_edge;
+    std::vector<int> grown;  ///< Changes::grown
+    bool changed = false;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(node_face, edge_edge, grown, changed);
+    }
+  } kept_;
+  std::vector<int> awake_;  ///< working space, as what follows
+  std::vector<std::size_t> near_;
+  std::vector<CaptureBox> query_;
+  enum class PairFate : std::uint8_t { stays, closes, leaves };
+  std::array<std::vector<PairFate>, 2> fate_;  ///< in a search, of each pair, by Parents
   std::uint64_t searches_ = 0;
   std::uint64_t most_pairs_ = 0;   ///< of `counts`, in this search
   std::uint64_t met_at_rest_ = 0;  ///< boxes

@@ -17,12 +17,26 @@ namespace brio {
 /// until then. None: the place is vacant.
 enum class Spacing : std::uint8_t { skins, radii, waiting, none };
 
+/// Of features, the pair of faces, or of a beam or particle and a face, that was opened for them.
+enum class Parents : std::uint8_t { faces, rounds };
+inline constexpr int no_parent = -1;
+constexpr int parent_number(Parents of, std::size_t pair) {
+  return of == Parents::faces ? static_cast<int>(pair) : -2 - static_cast<int>(pair);
+}
+constexpr Parents parents_of(int parent) { return parent >= 0 ? Parents::faces : Parents::rounds; }
+constexpr std::size_t place_of_parent(int parent) {
+  return static_cast<std::size_t>(parent >= 0 ? parent : -2 - parent);
+}
+
 /// What a look at a pair reads, side by side.
 struct alignas(32) PairRecord {
   int first = 0, second = 0;         ///< a node or an edge; a face or an edge
   std::array<float, 3> direction{};  ///< from the second to the first; zero: not known
   int relation = 0;                  ///< of their groups, in MotionGroups
   Spacing spacing = Spacing::none;
+  /// Of faces: bit k: corner k of the first is of one piece with the second, and from bit 4 on the reverse.
+  std::uint8_t one_piece = 0;
+  int parent = no_parent;  ///< parent_number
 
   bool operator==(const PairRecord&) const = default;
 };
@@ -49,13 +63,29 @@ class PairList {
   void end_wait(std::size_t pair) { record_[pair].spacing = Spacing::radii; }
 
   void clear();
-  void add(int first, int second, Spacing spacing, int relation);
-  /// Take out those for which `leaves(first, second)`; `removed(first, second, spacing)` is then called for
-  /// each, in the same order for any number of threads.
+  /// Before pairs are added or reset: blocks of them differ from what they were.
+  void begin_changes() { ++changes_; }
+  void add(const PairRecord& pair);
+  /// Another motion bound for a pair, which may be less than what it was.
+  void reset_wake(std::size_t pair, double bound) {
+    wake[pair] = bound;
+    change(pair);
+  }
+  /// Take out those for which `leaves(pair)`, any thread asks; `removed(record)` is then called for each, in
+  /// the same order for any number of threads.
   template <class Leaves, class Removed>
   void remove_if(const Leaves& leaves, ThreadTeam& team, const Removed& removed);
-  /// Close up where more than a quarter of the places are vacant.
-  void close_up();
+  /// Close up where more than a quarter of the places are vacant; `moved(from, to)` is called for each pair.
+  template <class Moved>
+  void close_up(const Moved& moved);
+  void close_up() {
+    close_up([](std::size_t, std::size_t) {});
+  }
+  /// Of features: their parents have got other numbers.
+  template <class Number>
+  void renumber_parents(const Number& number) {
+    for (PairRecord& pair : record_) pair.parent = number(pair.parent);
+  }
 
   /// Differs from what it was when a pair of the block came or went since.
   std::uint64_t version(std::size_t block) const { return version_[block]; }
@@ -94,7 +124,7 @@ void PairList::remove_if(const Leaves& leaves, ThreadTeam& team, const Removed& 
         const std::uint32_t bit = 1U << (i % block_size);
         if (pair.spacing == Spacing::none)
           leaving_[block].vacant |= bit;
-        else if (leaves(pair.first, pair.second))
+        else if (leaves(i))
           leaving_[block].leaving |= bit;
       }
     }
@@ -109,11 +139,28 @@ void PairList::remove_if(const Leaves& leaves, ThreadTeam& team, const Removed& 
       const std::size_t i = block * block_size + static_cast<std::size_t>(place);
       vacant_.push_back(static_cast<int>(i));
       if ((own.leaving >> place & 1U) == 0) continue;
-      removed(record_[i].first, record_[i].second, record_[i].spacing);
+      removed(record_[i]);
       record_[i] = {};
       wake[i] = infinity;
     }
   }
+}
+
+template <class Moved>
+void PairList::close_up(const Moved& moved) {
+  if (4 * vacant() <= size()) return;
+  ++changes_;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (record_[i].spacing == Spacing::none) continue;
+    moved(i, kept);
+    record_[kept] = record_[i];
+    wake[kept++] = wake[i];
+  }
+  record_.resize(kept);
+  wake.resize(kept);
+  vacant_.clear();
+  version_.assign((kept + block_size - 1) / block_size, changes_);
 }
 
 }  // namespace brio

@@ -22,6 +22,13 @@ struct SearchedDepth {
     for (int corner : face.node) least = std::min(least, of(surface.slave(corner)));
     return least;
   }
+  /// The most at the nodes.
+  template <class Slaves>
+  double most_of(const Slaves& slaves) const {
+    double most = 0;
+    for (int slave : slaves) most = std::max(most, of(slave));
+    return most;
+  }
 };
 
 }  // namespace brio

@@ -112,7 +112,8 @@ inline FeaturePairs all_pairs(RandomScene& scene, ThreadTeam& team) {
   ContactOptions everywhere = scene.options;
   everywhere.reach_buffer = 1e4;
   FeaturePairs pairs;
-  pairs.find(scene.features, scene.surface, scene.excluded, everywhere, motion, team);
+  const std::vector<double> any_depth(scene.surface.slaves(), 1);
+  pairs.find(scene.features, scene.surface, scene.excluded, everywhere, motion, team, {any_depth, true});
   return pairs;
 }
 

@@ -26,11 +26,15 @@ struct Detector {
     motion.begin(scene.features, scene.surface, scene.nodes, team);
     motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
     if (pairs.is_due(scene.features, scene.surface, motion, team)) search();
-    select_active(proximity, scene.features, pairs, motion, team);
+    select();
     active = {proximity.node_face, proximity.edge_edge};
     motion.set_limits(2, allowed_surplus(scene.features));
     find_proximities(proximity, scene.features, scene.surface, scene.excluded, scene.options, pairs, motion,
                      team, contacts);
+  }
+  void select() {
+    select_active(proximity, scene.features, scene.surface, scene.excluded, scene.options, pairs, motion,
+                  team);
   }
   void search() { pairs.find(scene.features, scene.surface, scene.excluded, scene.options, motion, team); }
 
@@ -51,7 +55,7 @@ struct Detector {
       search();
     else if (!motion.exceeds_limits())
       return;
-    select_active(proximity, scene.features, pairs, motion, team);
+    select();
   }
   void find() {
     find_hits(guard, proximity, scene.features, scene.surface, scene.options, pairs, motion, team);
@@ -173,7 +177,7 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
     if (first.restarts() > 0) detector.motion = first;
     detector.motion.begin(scene.features, scene.surface, scene.nodes, team);
     detector.motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
-    select_active(detector.proximity, scene.features, detector.pairs, detector.motion, team);
+    detector.select();
     find_proximities(detector.proximity, scene.features, scene.surface, scene.excluded, scene.options,
                      detector.pairs, detector.motion, team, detector.contacts);
     detector.find();
@@ -240,7 +244,7 @@ TEST(Passes, WhatSleepsIsNotNear) {
   Random random(3);
   ThreadTeam team(1);
   std::size_t asleep = 0, asleep_at_ends = 0, looked_at = 0;
-  for (int walk = 0; walk < 4; ++walk) {
+  for (int walk = 0; walk < 5; ++walk) {
     RandomScene scene({.room = 2.5}, random);
     Detector detector{scene, team};
     for (int step = 0; step < 1000; ++step) {

@@ -1,4 +1,4 @@
-#include "contact/detection/active_pairs.hpp"
+#include "contact/pairs/active_pairs.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -59,7 +59,7 @@ void look_at_awake(PairBlock& block, const PairList& pairs, const Ahead& ahead, 
     const double left = ahead.left_of(pairs, begin + static_cast<std::size_t>(std::countr_zero(bits)));
     if (ahead.is_awake(left)) continue;
     block.active &= ~(bits & -bits);
-    lay_down(block, total, left);
+    if (left < infinity) lay_down(block, total, left);
   }
 }
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "contact/features/feature_motion.hpp"
-#include "contact/pairs/feature_pairs.hpp"
+#include "contact/pairs/pair_list.hpp"
 
 namespace brio {
 

@@ -1,0 +1,365 @@
+// Opening and closing of pairs of faces, and of beams and particles with faces: their features.
+
+#include <algorithm>
+
+#include "contact/pairs/edge_pairs.hpp"
+#include "contact/pairs/feature_distance.hpp"
+#include "contact/pairs/feature_pairs.hpp"
+#include "contact/pairs/pair_packs.hpp"
+#include "contact/surface/exclusion.hpp"
+
+namespace brio {
+
+namespace {
+
+/// Distance beyond contact, over the mean edge, from which on a pair of faces is closed.
+constexpr double distance_to_close = 0.1;
+/// A direction is kept as long as it separates a pair for so many steps like this one.
+constexpr double steps_to_keep = 4;
+/// By which a bound is lowered, as its direction is kept in single precision.
+constexpr double rounding_of_direction = 1e-6;
+
+template <class T>
+const T& at(const std::vector<T>& of, int i) {
+  return of[static_cast<std::size_t>(i)];
+}
+
+/// Pairs of faces, and of beams or particles with faces, as passes over pairs take them (pair_packs.hpp).
+struct FacesAndFaces {
+  using Pairs = PackOfPairs<4, 4>;
+  static constexpr Parents parents = Parents::faces;
+  const SurfaceFeatures& features;
+  const FeatureMotion& motion;
+  PairList& list;
+  const std::vector<double>& radius_of_first;
+  const std::vector<double>& radius_of_face;
+
+  const PathAndAhead& first_ways() const { return motion.of_face; }
+  const PathAndAhead& second_ways() const { return motion.of_face; }
+  const std::vector<double>& first_radii() const { return radius_of_first; }
+  const std::vector<double>& second_radii() const { return radius_of_face; }
+  const std::array<int, 4>& first_nodes(int face) const { return at(features.face_node, face); }
+  const std::array<int, 4>& second_nodes(int face) const { return at(features.face_node, face); }
+};
+struct RoundsAndFaces {
+  using Pairs = PackOfPairs<2, 4>;
+  static constexpr Parents parents = Parents::rounds;
+  const SurfaceFeatures& features;
+  const FeatureMotion& motion;
+  PairList& list;
+  const std::vector<double>& radius_of_first;
+  const std::vector<double>& radius_of_face;
+
+  const PathAndAhead& first_ways() const { return motion.of_edge; }
+  const PathAndAhead& second_ways() const { return motion.of_face; }
+  const std::vector<double>& first_radii() const { return radius_of_first; }
+  const std::vector<double>& second_radii() const { return radius_of_face; }
+  const std::array<int, 2>& first_nodes(int edge) const { return at(features.edge_node, edge); }
+  const std::array<int, 4>& second_nodes(int face) const { return at(features.face_node, face); }
+};
+
+const double* start_rows(const FeatureMotion& motion) { return motion.node.data()->start; }
+
+template <class Points>
+DistanceBound distance_of_features(const OnePair<FacesAndFaces>& one, const Points& at) {
+  return one.a == one.b ? distance_of_opposite_sides(at.first) : CommonCorners(one, at).distance();
+}
+template <class Points>
+DistanceBound distance_of_features(const OnePair<RoundsAndFaces>& one, const Points& at) {
+  return CommonCorners(one, at).distance();
+}
+
+/// Path that a pair has left until it may come near, from the start of this step. \param ahead of this step
+template <class Kind>
+double path_left(const OnePair<Kind>& one, double band, double ahead) {
+  const auto points = one.points(start_rows(one.kind.motion));
+  const double skins = 2 * one.kind.features.skin;
+  const bool is_one_piece = one.record.spacing == Spacing::skins;
+  const double radii = is_one_piece ? skins : one.radii();
+  const Vector3<double> direction = one.direction();
+  if (dot(direction, direction) > 0.5) {
+    const double height = height_between(direction, points.first, points.second);
+    const double left = (1 - rounding_of_direction) * height - radii - band;
+    if (left > steps_to_keep * ahead) return left;
+  }
+  const DistanceBound bound = distance_of_features(one, points);
+  one.kind.list.set_direction(one.pair, bound.direction.x, bound.direction.y, bound.direction.z);
+  if (is_one_piece || one.record.one_piece == 0) return bound.distance - radii - band;
+  // What is of one piece is nearer than the radii of what is not.
+  const double left = bound.distance - skins - band;
+  return left > 0 ? std::min(left, distance_of_pieces(points, one.record.one_piece) - radii - band) : left;
+}
+
+std::uint64_t key_of(int a, int b) {
+  return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+}
+
+bool is_open(const PairList& list, std::size_t pair) {
+  return list.wake[pair] == infinity && list.spacing(pair) != Spacing::none;
+}
+
+/// What belongs to a face, or to a beam or particle: of nodes and sides that others share, those that it is
+/// the first to have.
+class OwnFeatures {
+ public:
+  OwnFeatures(const SurfaceFeatures& features, const Surface& surface, int face) {
+    const auto& corners = at(features.face_node, face);
+    const auto& faces_of = surface.faces_of;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (faces_of.of(corners[k]).front() == face &&
+          std::find(corners.begin(), corners.begin() + k, corners[k]) == corners.begin() + k)
+        add_node(features, corners[k]);
+    for (int e : at(features.edge_of_face, face))
+      if (e >= 0 && at(features.edge, e).face[0] == face) edge_[edges_++] = e;
+    for (int e : at(features.diagonal_of_face, face))
+      if (e >= 0) edge_[edges_++] = e;
+  }
+  OwnFeatures(const SurfaceFeatures& features, const Surface& surface, const std::vector<int>& round_of_node,
+              int round) {
+    edge_[edges_++] = round;
+    const auto& [a, b] = at(features.edge_node, round);
+    for (int node : {a, b})
+      if (surface.faces_of.of(node).empty() && at(round_of_node, node) == round &&
+          (nodes_ == 0 || node_[0] != node))
+        node_[nodes_++] = node;
+  }
+  std::span<const int> nodes() const { return {node_.data(), nodes_}; }
+  std::span<const int> edges() const { return {edge_.data(), edges_}; }
+
+ private:
+  void add_node(const SurfaceFeatures& features, int node) {
+    node_[nodes_++] = node;
+    if (features.point_of_node.empty()) return;
+    if (const int point = at(features.point_of_node, node); point >= 0) edge_[edges_++] = point;
+  }
+
+  std::array<int, 4> node_{};
+  std::array<int, 10> edge_{};
+  std::size_t nodes_ = 0, edges_ = 0;
+};
+
+}  // namespace
+
+bool FeaturePairs::owns_opposite_sides(const Scene& scene, int face) {
+  const std::array<int, 4>& sides = at(scene.features.edge_of_face, face);
+  const auto owns = [&](std::size_t k) {
+    return sides[k] >= 0 && at(scene.features.edge, sides[k]).face[0] == face;
+  };
+  return at(scene.features.diagonal_of_face, face)[0] >= 0 && ((owns(0) && owns(2)) || (owns(1) && owns(3)));
+}
+
+void FeaturePairs::open_near(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
+                             const ContactOptions& options, FeatureMotion& motion, double surplus,
+                             ThreadTeam& team) {
+  const Scene scene = scene_of(features, surface, excluded, options, {});
+  for (PairList* list : {&node_face, &edge_edge}) list->begin_changes();
+  open_kind(scene, FacesAndFaces{features, motion, face_face, face_radius_, face_radius_}, face_blocks_,
+            surplus, motion, team);
+  open_kind(scene, RoundsAndFaces{features, motion, round_face, round_radius_, face_radius_}, round_blocks_,
+            surplus, motion, team);
+  kept_ = {};
+}
+
+template <class Kind>
+void FeaturePairs::open_kind(const Scene& scene, const Kind& kind, PairBlocks& blocks, double surplus,
+                             FeatureMotion& motion, ThreadTeam& team) {
+  PairList& list = kind.list;
+  if (list.size() == 0) return;
+  select_active_pairs(blocks, list, kind.first_ways(), kind.second_ways(), motion, surplus, team, awake_);
+  if (awake_.empty()) return;
+  near_.assign((awake_.size() + pairs_a_range - 1) / pairs_a_range, 0);
+  team.for_ranges(awake_.size(), pairs_a_range, [&](std::size_t begin, std::size_t end) {
+    std::size_t last = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      prefetch_pairs(kind, awake_.data(), i, end);
+      const OnePair<Kind> one(kind, awake_[i]);
+      const double path = one.path(), ahead = one.ahead() - path + surplus;
+      const double left = path_left(one, scene.band, ahead);
+      list.wake[one.pair] = path + left;
+      if (!(left > ahead)) awake_[last++] = awake_[i];
+    }
+    near_[begin / pairs_a_range] = last - begin;
+  });
+  for (std::size_t range = 0; range < near_.size(); ++range)
+    for (std::size_t i = 0; i < near_[range]; ++i)
+      open(scene, Kind::parents, static_cast<std::size_t>(awake_[range * pairs_a_range + i]), motion.groups);
+}
+
+void FeaturePairs::open_all(const Scene& scene, MotionGroups& groups) {
+  for (PairList* list : {&node_face, &edge_edge}) list->begin_changes();
+  for (std::size_t i = 0; i < face_face.size(); ++i) open(scene, Parents::faces, i, groups);
+  for (std::size_t i = 0; i < round_face.size(); ++i) open(scene, Parents::rounds, i, groups);
+  kept_ = {};
+}
+
+void FeaturePairs::open(const Scene& scene, Parents parents, std::size_t pair, MotionGroups& groups) {
+  PairList& list = parents == Parents::faces ? face_face : round_face;
+  const PairRecord record = list[pair];
+  const int parent = parent_number(parents, pair), a = record.first, b = record.second;
+  list.wake[pair] = infinity;
+  const auto spacing_in = [&](Spacing spacing) {
+    return spacing == Spacing::radii && record.spacing == Spacing::skins ? Spacing::waiting : spacing;
+  };
+  const auto add_nodes = [&](std::span<const int> slaves, int f) {
+    for (int s : slaves)
+      if (const Spacing spacing = node_face_spacing(scene, s, f); spacing != Spacing::none)
+        node_face.add({.first = s,
+                       .second = f,
+                       .relation = groups.relate(s, at(scene.features.face_node, f)[0]),
+                       .spacing = spacing_in(spacing),
+                       .parent = parent});
+  };
+  const auto add_edges = [&](int e, int other) {
+    const int first = std::min(e, other), second = std::max(e, other);
+    if (const Spacing spacing = edge_edge_spacing(scene, first, second); spacing != Spacing::none)
+      edge_edge.add({.first = first,
+                     .second = second,
+                     .relation = groups.relate(at(scene.features.edge_node, first)[0],
+                                               at(scene.features.edge_node, second)[0]),
+                     .spacing = spacing_in(spacing),
+                     .parent = parent});
+  };
+  const OwnFeatures second(scene.features, scene.surface, b);
+  if (parents == Parents::faces && a == b) {
+    const std::array<int, 4>& sides = at(scene.features.edge_of_face, a);
+    for (std::size_t k = 0; k < 2; ++k)
+      if (std::count(second.edges().begin(), second.edges().end(), sides[k]) +
+              std::count(second.edges().begin(), second.edges().end(), sides[k + 2]) ==
+          2)
+        add_edges(sides[k], sides[k + 2]);
+    return;
+  }
+  const OwnFeatures first = parents == Parents::faces
+                                ? OwnFeatures(scene.features, scene.surface, a)
+                                : OwnFeatures(scene.features, scene.surface, round_of_node_, a);
+  add_nodes(first.nodes(), b);
+  if (parents == Parents::faces) add_nodes(second.nodes(), a);
+  for (int e : first.edges())
+    for (int other : second.edges()) add_edges(e, other);
+}
+
+// Pairs of what has changed, or whose boxes part, are taken out. Of those that stay, open ones with a face
+// that bends are closed, to be opened with its diagonals, and those that are far again.
+template <class Kind>
+void FeaturePairs::drop_of_kind(const Scene& scene, const Kind& kind, const SearchedBoxes& firsts,
+                                ThreadTeam& team) {
+  constexpr std::size_t pairs_a_task = 1024;
+  static_assert(pairs_a_task % PairList::block_size == 0);
+  PairList& list = kind.list;
+  std::vector<PairFate>& fate = fate_[static_cast<std::size_t>(Kind::parents)];
+  fate.assign(list.size(), PairFate::stays);
+  list.begin_changes();
+  const double far = distance_to_close * scene.features.mean_edge;
+  team.for_ranges(list.size(), pairs_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (list.spacing(i) == Spacing::none) continue;
+      if (parts(firsts, list.first(i), faces_, list.second(i))) {
+        fate[i] = PairFate::leaves;
+      } else if (is_open(list, i)) {
+        const OnePair<Kind> one(kind, static_cast<int>(i));
+        const bool bends = ((firsts.flag_of(one.a) | faces_.flag_of(one.b)) & SearchedBoxes::bends) != 0;
+        const double left = bends ? -1 : path_left(one, scene.band, far / steps_to_keep);
+        if (!bends && !(left > far)) continue;
+        list.reset_wake(i, one.path() + left);
+        fate[i] = PairFate::closes;
+      }
+    }
+  });
+}
+
+bool FeaturePairs::parts(const SearchedBoxes& a, int i, const SearchedBoxes& b, int j) {
+  const int flags = a.flag_of(i) | b.flag_of(j);
+  return (flags & SearchedBoxes::leaves) != 0 &&
+         ((flags & SearchedBoxes::is_new) != 0 || !a.box.of(i).overlaps(b.box.of(j)));
+}
+
+void FeaturePairs::drop_pairs(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team) {
+  drop_of_kind(scene, FacesAndFaces{scene.features, motion, face_face, face_radius_, face_radius_}, faces_,
+               team);
+  drop_of_kind(scene, RoundsAndFaces{scene.features, motion, round_face, round_radius_, face_radius_},
+               rounds_, team);
+  const auto fate_of = [&](Parents parents, std::size_t pair) {
+    return fate_[static_cast<std::size_t>(parents)][pair];
+  };
+  const auto loses_parent = [&](const PairRecord& pair) {
+    return fate_of(parents_of(pair.parent), place_of_parent(pair.parent)) != PairFate::stays;
+  };
+  node_face.remove_if(
+      [&](std::size_t i) {
+        const PairRecord& pair = node_face[i];
+        return pair.parent == no_parent ? parts(debris_, pair.first, faces_, pair.second)
+                                        : loses_parent(pair);
+      },
+      team, [&](const PairRecord& pair) { remember(pair, kept_.node_face); });
+  edge_edge.remove_if(
+      [&](std::size_t i) {
+        const PairRecord& pair = edge_edge[i];
+        return pair.parent == no_parent ? parts(rounds_, pair.first, rounds_, pair.second)
+                                        : loses_parent(pair);
+      },
+      team, [&](const PairRecord& pair) { remember(pair, kept_.edge_edge); });
+  std::sort(kept_.node_face.begin(), kept_.node_face.end());
+  std::sort(kept_.edge_edge.begin(), kept_.edge_edge.end());
+  for (const auto& [list, parents] :
+       {std::pair(&face_face, Parents::faces), std::pair(&round_face, Parents::rounds)})
+    list->remove_if([&, of = parents](std::size_t i) { return fate_of(of, i) == PairFate::leaves; }, team,
+                    [](const PairRecord&) {});
+}
+
+void FeaturePairs::remember(const PairRecord& pair, std::vector<std::uint64_t>& kept) const {
+  if (pair.spacing == (kept_.changed ? Spacing::radii : Spacing::waiting))
+    kept.push_back(key_of(pair.first, pair.second));
+}
+
+Spacing FeaturePairs::spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b,
+                                     bool only_skins) const {
+  if (only_skins) return Spacing::radii;
+  const bool was_kept = std::binary_search(kept.begin(), kept.end(), key_of(a, b));
+  return was_kept == kept_.changed ? Spacing::radii : Spacing::waiting;
+}
+
+// With a depth, whether boxes of a node and a face, or of two edges, meet: within a body they have none.
+bool FeaturePairs::boxes_meet(const Scene& scene, int slave, int f) const {
+  const Face& face = at(scene.surface.face, f);
+  const bool same = face.body == at(scene.surface.body, slave);
+  const auto grown_by = [&](double radius, double depth) {
+    return radius + 0.5 * (scene.band + (same ? 0 : depth));
+  };
+  return grown(at(reach_, slave), grown_by(at(scene.features.node_radius, slave), scene.depth.of(slave)))
+      .overlaps(grown(box_of(at(scene.features.face_node, f)),
+                      grown_by(at(scene.features.face_radius, f), scene.depth.of(scene.surface, face))));
+}
+bool FeaturePairs::boxes_meet(const Scene& scene, const EdgeFeature& a, const EdgeFeature& b) const {
+  const auto box = [&](const EdgeFeature& edge) {
+    return grown(box_of(edge.node),
+                 edge.radius + 0.5 * (scene.band + (a.body == b.body ? 0 : scene.depth.of(edge))));
+  };
+  return box(a).overlaps(box(b));
+}
+
+// None: they are not paired.
+Spacing FeaturePairs::node_face_spacing(const Scene& scene, int slave, int f) const {
+  const Face& face = at(scene.surface.face, f);
+  if (face.has(at(scene.surface.node, slave)) || scene.surface.never_touch(slave, face)) return Spacing::none;
+  if (!scene.depth.empty() && !boxes_meet(scene, slave, f)) return Spacing::none;
+  if (is_excluded(scene.excluded, slave, f)) return Spacing::skins;
+  if (std::find(kept_.grown.begin(), kept_.grown.end(), slave) != kept_.grown.end()) return Spacing::waiting;
+  const double radii = at(scene.features.node_radius, slave) + at(scene.features.face_radius, f);
+  return spacing_of_new(kept_.node_face, slave, f, radii <= 2 * scene.features.skin);
+}
+
+Spacing FeaturePairs::edge_edge_spacing(const Scene& scene, int first, int second) const {
+  const EdgeFeature &a = at(scene.features.edge, first), &b = at(scene.features.edge, second);
+  if (!scene.edges && a.of_face() && b.of_face()) return Spacing::none;
+  if (!may_be_paired(scene.surface, a, b)) return Spacing::none;
+  if (!scene.depth.empty() && !boxes_meet(scene, a, b)) return Spacing::none;
+  const bool spaced = !are_of_one_piece(scene.features, scene.surface, scene.excluded, a, b);
+  const bool only_skins = a.radius + b.radius <= 2 * scene.features.skin;
+  const Spacing spacing =
+      spaced ? spacing_of_new(kept_.edge_edge, first, second, only_skins) : Spacing::skins;
+  // At the start nothing may be missing when such a face bends.
+  const bool radii = spacing == Spacing::radii && scene.depth.empty();
+  return flat_.pairs(a, radii) && flat_.pairs(b, radii) ? spacing : Spacing::none;
+}
+
+}  // namespace brio

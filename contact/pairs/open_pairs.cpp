@@ -252,12 +252,13 @@ void FeaturePairs::drop_of_kind(const Scene& scene, const Kind& kind, const Sear
   const double far = distance_to_close * scene.features.mean_edge;
   team.for_ranges(list.size(), pairs_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (list.spacing(i) == Spacing::none) continue;
+      const unsigned flags = firsts.flag_of(list.first(i)) | faces_.flag_of(list.second(i));
+      if (flags == 0 || list.spacing(i) == Spacing::none) continue;
       if (parts(firsts, list.first(i), faces_, list.second(i))) {
         fate[i] = PairFate::leaves;
       } else if (is_open(list, i)) {
         const OnePair<Kind> one(kind, static_cast<int>(i));
-        const bool bends = ((firsts.flag_of(one.a) | faces_.flag_of(one.b)) & SearchedBoxes::bends) != 0;
+        const bool bends = (flags & SearchedBoxes::bends) != 0;
         const double left = bends ? -1 : path_left(one, scene.band, far / steps_to_keep);
         if (!bends && !(left > far)) continue;
         list.reset_wake(i, one.path() + left);

@@ -115,7 +115,12 @@ bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotio
   std::atomic<bool> any = false;
   team.for_ranges(flat_.size(), faces_a_range, [&](std::size_t begin, std::size_t end) {
     bool bent = false;
-    for (std::size_t f = begin; f < end; ++f) bent = bends(features, static_cast<int>(f), motion) || bent;
+    for (std::size_t f = begin; f < end; ++f) {
+      const bool may =
+          flat_[f] != Flatness::none &&
+          (motion.is_solution() || motion.of_face.ahead[f] > std::min(until_[f].thin, until_[f].convex));
+      if (may) bent = bends(features, static_cast<int>(f), motion) || bent;
+    }
     if (bent) any.store(true, std::memory_order_relaxed);
   });
   return any;

@@ -53,6 +53,8 @@ class FeatureMotion {
   /// Whether the last positions at the end of the step were beyond the limits of any node.
   bool exceeds_limits() const { return exceeds_; }
 
+  /// Whether the ends of nodes are those of a solution, for those that it has moved.
+  bool is_solution() const { return is_solution_; }
   /// Whether the end of a node is that of a solution, and not the predicted one.
   bool is_corrected(int slave) const {
     return is_solution_ && (corrected_ == nullptr || corrected_->contains(slave));

@@ -8,6 +8,8 @@
 #include <set>
 #include <tuple>
 
+#include "contact/geometry/closest_segments.hpp"
+#include "contact/geometry/hull_point.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -92,15 +94,40 @@ void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
   still.end_by_velocity(scene.features, scene.surface, nodes, 0, {}, team);
   ContactOptions options = scene.options;
   options.reach_buffer = 1e-6;
-  near.find(scene.features, scene.surface, scene.excluded, options, still, team);
-  const auto all_nodes = listed(scene.pairs.node_face), near_nodes = listed(near.node_face);
-  EXPECT_TRUE(std::includes(all_nodes.begin(), all_nodes.end(), near_nodes.begin(), near_nodes.end()));
+  const std::vector<double> no_depth(scene.surface.slaves(), 0);  // all whose boxes meet are paired
+  near.find(scene.features, scene.surface, scene.excluded, options, still, team, {no_depth, true});
+  const SurfaceFeatures& features = scene.features;
+  const auto touches = [&](double squared_distance, double radii, bool spaced) {
+    const double reach = (spaced ? radii : 2 * features.skin) + proximity_band * features.smallest_edge;
+    return squared_distance < square((1 - 1e-9) * reach);
+  };
+  const auto all_nodes = listed(scene.pairs.node_face);
+  for (const PairRecord& pair : near.node_face.records()) {
+    const auto s = static_cast<std::size_t>(pair.first), f = static_cast<std::size_t>(pair.second);
+    const std::array<int, 4>& corner = features.face_node[f];
+    const bool spaced = pair.spacing == Spacing::radii;
+    const HullPoint seen = closest_on_face(
+        still.start(pair.first),
+        {still.start(corner[0]), still.start(corner[1]), still.start(corner[2]), still.start(corner[3])},
+        spaced);
+    if (touches(seen.squared_distance, features.node_radius[s] + features.face_radius[f], spaced)) {
+      EXPECT_EQ(all_nodes.count({pair.first, pair.second}), 1U);
+    }
+  }
   const auto all_edges = listed(scene.pairs.edge_edge);
-  for (std::size_t i = 0; i < near.edge_edge.size(); ++i) {
-    const int a = near.edge_edge.first(i), b = near.edge_edge.second(i);
-    const bool radii = near.edge_edge.has_radii(i);
-    EXPECT_TRUE(all_edges.count({a, b}) == 1 || is_flat(scene, still, a, radii) ||
-                is_flat(scene, still, b, radii));
+  for (const PairRecord& pair : near.edge_edge.records()) {
+    const bool radii = pair.spacing == Spacing::radii;
+    if (is_flat(scene, still, pair.first, radii) || is_flat(scene, still, pair.second, radii)) continue;
+    const auto segment = [&](int e) -> Segment {
+      const std::array<int, 2>& node = features.edge_node[static_cast<std::size_t>(e)];
+      return {still.start(node[0]), still.start(node[1])};
+    };
+    const ClosestSegments seen = closest_points_of_segments(segment(pair.first), segment(pair.second));
+    const double both = features.edge_radius[static_cast<std::size_t>(pair.first)] +
+                        features.edge_radius[static_cast<std::size_t>(pair.second)];
+    if (touches(seen.squared_distance, both, radii)) {
+      EXPECT_EQ(all_edges.count({pair.first, pair.second}), 1U);
+    }
   }
   for (const auto& [s, f] : all_nodes) {
     ASSERT_GE(scene.surface.node[static_cast<std::size_t>(s)], 0);

@@ -215,6 +215,7 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   if (!is_first && collect_leaving(scene, motion)) {
     lay_boxes_of_leaving(scene, motion);
     drop_pairs(scene, motion, team);
+    add_diagonals(scene, motion.groups);
     add_pairs(scene, motion.groups, team);
   } else {
     start_over(scene, motion, team);

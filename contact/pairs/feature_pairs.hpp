@@ -147,6 +147,9 @@ class FeaturePairs {
   template <class Kind>
   void drop_of_kind(const Scene& scene, const Kind& kind, const SearchedBoxes& firsts, ThreadTeam& team);
   void drop_pairs(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team);
+  void add_edges(const Scene& scene, MotionGroups& groups, const PairRecord& record, int parent, int e,
+                 int other);
+  void add_diagonals(const Scene& scene, MotionGroups& groups);
   static bool owns_opposite_sides(const Scene& scene, int face);
   void remember(const PairRecord& record, std::vector<std::uint64_t>& kept) const;
   Spacing spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b, bool only_skins) const;
@@ -187,8 +190,12 @@ class FeaturePairs {
   std::vector<int> awake_;  ///< working space, as what follows
   std::vector<std::size_t> near_;
   std::vector<CaptureBox> query_;
-  enum class PairFate : std::uint8_t { stays, closes, leaves };
+  enum class PairFate : std::uint8_t { stays, bends, closes, leaves };
   std::array<std::vector<PairFate>, 2> fate_;  ///< in a search, of each pair, by Parents
+  PairFate fate_of(int parent) const {
+    return fate_[static_cast<std::size_t>(parents_of(parent))][place_of_parent(parent)];
+  }
+  std::vector<std::uint64_t> bending_;  ///< edges of pairs with faces that bend
   std::uint64_t searches_ = 0;
   std::uint64_t most_pairs_ = 0;   ///< of `counts`, in this search
   std::uint64_t met_at_rest_ = 0;  ///< boxes

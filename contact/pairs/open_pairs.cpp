@@ -98,6 +98,11 @@ bool is_open(const PairList& list, std::size_t pair) {
   return list.wake[pair] == infinity && list.spacing(pair) != Spacing::none;
 }
 
+/// What is nearer than its radii although all of the pair was of one piece waits.
+Spacing spacing_under(const PairRecord& parent, Spacing spacing) {
+  return spacing == Spacing::radii && parent.spacing == Spacing::skins ? Spacing::waiting : spacing;
+}
+
 /// What belongs to a face, or to a beam or particle: of nodes and sides that others share, those that it is
 /// the first to have.
 class OwnFeatures {
@@ -137,6 +142,12 @@ class OwnFeatures {
   std::array<int, 10> edge_{};
   std::size_t nodes_ = 0, edges_ = 0;
 };
+
+OwnFeatures own_features(const SurfaceFeatures& features, const Surface& surface,
+                         const std::vector<int>& round_of_node, Parents parents, int first) {
+  return parents == Parents::faces ? OwnFeatures(features, surface, first)
+                                   : OwnFeatures(features, surface, round_of_node, first);
+}
 
 }  // namespace
 
@@ -197,27 +208,14 @@ void FeaturePairs::open(const Scene& scene, Parents parents, std::size_t pair, M
   const PairRecord record = list[pair];
   const int parent = parent_number(parents, pair), a = record.first, b = record.second;
   list.wake[pair] = infinity;
-  const auto spacing_in = [&](Spacing spacing) {
-    return spacing == Spacing::radii && record.spacing == Spacing::skins ? Spacing::waiting : spacing;
-  };
   const auto add_nodes = [&](std::span<const int> slaves, int f) {
     for (int s : slaves)
       if (const Spacing spacing = node_face_spacing(scene, s, f); spacing != Spacing::none)
         node_face.add({.first = s,
                        .second = f,
                        .relation = groups.relate(s, at(scene.features.face_node, f)[0]),
-                       .spacing = spacing_in(spacing),
+                       .spacing = spacing_under(record, spacing),
                        .parent = parent});
-  };
-  const auto add_edges = [&](int e, int other) {
-    const int first = std::min(e, other), second = std::max(e, other);
-    if (const Spacing spacing = edge_edge_spacing(scene, first, second); spacing != Spacing::none)
-      edge_edge.add({.first = first,
-                     .second = second,
-                     .relation = groups.relate(at(scene.features.edge_node, first)[0],
-                                               at(scene.features.edge_node, second)[0]),
-                     .spacing = spacing_in(spacing),
-                     .parent = parent});
   };
   const OwnFeatures second(scene.features, scene.surface, b);
   if (parents == Parents::faces && a == b) {
@@ -226,20 +224,65 @@ void FeaturePairs::open(const Scene& scene, Parents parents, std::size_t pair, M
       if (std::count(second.edges().begin(), second.edges().end(), sides[k]) +
               std::count(second.edges().begin(), second.edges().end(), sides[k + 2]) ==
           2)
-        add_edges(sides[k], sides[k + 2]);
+        add_edges(scene, groups, record, parent, sides[k], sides[k + 2]);
     return;
   }
-  const OwnFeatures first = parents == Parents::faces
-                                ? OwnFeatures(scene.features, scene.surface, a)
-                                : OwnFeatures(scene.features, scene.surface, round_of_node_, a);
+  const OwnFeatures first = own_features(scene.features, scene.surface, round_of_node_, parents, a);
   add_nodes(first.nodes(), b);
   if (parents == Parents::faces) add_nodes(second.nodes(), a);
   for (int e : first.edges())
-    for (int other : second.edges()) add_edges(e, other);
+    for (int other : second.edges()) add_edges(scene, groups, record, parent, e, other);
 }
 
-// Pairs of what has changed, or whose boxes part, are taken out. Of those that stay, open ones with a face
-// that bends are closed, to be opened with its diagonals, and those that are far again.
+void FeaturePairs::add_edges(const Scene& scene, MotionGroups& groups, const PairRecord& record, int parent,
+                             int e, int other) {
+  const int first = std::min(e, other), second = std::max(e, other);
+  const Spacing spacing = edge_edge_spacing(scene, first, second);
+  if (spacing == Spacing::none) return;
+  edge_edge.add({.first = first,
+                 .second = second,
+                 .relation = groups.relate(at(scene.features.edge_node, first)[0],
+                                           at(scene.features.edge_node, second)[0]),
+                 .spacing = spacing_under(record, spacing),
+                 .parent = parent});
+}
+
+// Of open pairs with faces that bend: their diagonals, those of them that are not paired yet.
+void FeaturePairs::add_diagonals(const Scene& scene, MotionGroups& groups) {
+  if (std::none_of(fate_.begin(), fate_.end(), [](const std::vector<PairFate>& fate) {
+        return std::find(fate.begin(), fate.end(), PairFate::bends) != fate.end();
+      }))
+    return;
+  edge_edge.begin_changes();
+  bending_.clear();
+  for (const PairRecord& pair : edge_edge.records())
+    if (pair.parent != no_parent && fate_of(pair.parent) == PairFate::bends)
+      bending_.push_back(key_of(pair.first, pair.second));
+  std::sort(bending_.begin(), bending_.end());
+  const auto joins = [&](int e) {
+    const EdgeFeature& edge = at(scene.features.edge, e);
+    return edge.is_diagonal() && (faces_.flag_of(edge.face[0]) & SearchedBoxes::bends) != 0;
+  };
+  for (const Parents parents : {Parents::faces, Parents::rounds}) {
+    const std::vector<PairFate>& fate = fate_[static_cast<std::size_t>(parents)];
+    for (std::size_t i = 0; i < fate.size(); ++i) {
+      if (fate[i] != PairFate::bends) continue;
+      const PairRecord record = (parents == Parents::faces ? face_face : round_face)[i];
+      const OwnFeatures first = own_features(scene.features, scene.surface, round_of_node_, parents,
+                                             record.first),
+                        second(scene.features, scene.surface, record.second);
+      for (int e : first.edges())
+        for (int other : second.edges())
+          if ((joins(e) || joins(other)) &&
+              !std::binary_search(bending_.begin(), bending_.end(),
+                                  key_of(std::min(e, other), std::max(e, other))))
+            add_edges(scene, groups, record, parent_number(parents, i), e, other);
+    }
+  }
+}
+
+// Pairs of what has changed, or whose boxes part, are taken out. Of those that stay, open ones that leave
+// their boxes and are far again are closed.
 template <class Kind>
 void FeaturePairs::drop_of_kind(const Scene& scene, const Kind& kind, const SearchedBoxes& firsts,
                                 ThreadTeam& team) {
@@ -258,11 +301,13 @@ void FeaturePairs::drop_of_kind(const Scene& scene, const Kind& kind, const Sear
         fate[i] = PairFate::leaves;
       } else if (is_open(list, i)) {
         const OnePair<Kind> one(kind, static_cast<int>(i));
-        const bool bends = (flags & SearchedBoxes::bends) != 0;
-        const double left = bends ? -1 : path_left(one, scene.band, far / steps_to_keep);
-        if (!bends && !(left > far)) continue;
-        list.reset_wake(i, one.path() + left);
-        fate[i] = PairFate::closes;
+        const double left = path_left(one, scene.band, far / steps_to_keep);
+        if (left > far) {
+          list.reset_wake(i, one.path() + left);
+          fate[i] = PairFate::closes;
+        } else if ((flags & SearchedBoxes::bends) != 0 && one.a != one.b) {
+          fate[i] = PairFate::bends;
+        }
       }
     }
   });
@@ -279,12 +324,7 @@ void FeaturePairs::drop_pairs(const Scene& scene, const FeatureMotion& motion, T
                team);
   drop_of_kind(scene, RoundsAndFaces{scene.features, motion, round_face, round_radius_, face_radius_},
                rounds_, team);
-  const auto fate_of = [&](Parents parents, std::size_t pair) {
-    return fate_[static_cast<std::size_t>(parents)][pair];
-  };
-  const auto loses_parent = [&](const PairRecord& pair) {
-    return fate_of(parents_of(pair.parent), place_of_parent(pair.parent)) != PairFate::stays;
-  };
+  const auto loses_parent = [&](const PairRecord& pair) { return fate_of(pair.parent) >= PairFate::closes; };
   node_face.remove_if(
       [&](std::size_t i) {
         const PairRecord& pair = node_face[i];
@@ -303,8 +343,9 @@ void FeaturePairs::drop_pairs(const Scene& scene, const FeatureMotion& motion, T
   std::sort(kept_.edge_edge.begin(), kept_.edge_edge.end());
   for (const auto& [list, parents] :
        {std::pair(&face_face, Parents::faces), std::pair(&round_face, Parents::rounds)})
-    list->remove_if([&, of = parents](std::size_t i) { return fate_of(of, i) == PairFate::leaves; }, team,
-                    [](const PairRecord&) {});
+    list->remove_if([&fate = fate_[static_cast<std::size_t>(parents)]](
+                        std::size_t i) { return fate[i] == PairFate::leaves; },
+                    team, [](const PairRecord&) {});
 }
 
 void FeaturePairs::remember(const PairRecord& pair, std::vector<std::uint64_t>& kept) const {

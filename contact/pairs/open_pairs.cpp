@@ -24,55 +24,44 @@ const T& at(const std::vector<T>& of, int i) {
   return of[static_cast<std::size_t>(i)];
 }
 
-/// Pairs of faces, and of beams or particles with faces, as passes over pairs take them (pair_packs.hpp).
-struct FacesAndFaces {
-  using Pairs = PackOfPairs<4, 4>;
-  static constexpr Parents parents = Parents::faces;
+/// Pairs of faces, or of beams or particles with faces, as passes over pairs take them (pair_packs.hpp).
+template <Parents Of>
+struct ParentPairs {
+  static constexpr Parents parents = Of;
+  static constexpr bool of_faces = Of == Parents::faces;
+  using Pairs = PackOfPairs<of_faces ? 4 : 2, 4>;
   const SurfaceFeatures& features;
   const FeatureMotion& motion;
   PairList& list;
   const std::vector<double>& radius_of_first;
   const std::vector<double>& radius_of_face;
 
-  const PathAndAhead& first_ways() const { return motion.of_face; }
+  const PathAndAhead& first_ways() const { return of_faces ? motion.of_face : motion.of_edge; }
   const PathAndAhead& second_ways() const { return motion.of_face; }
   const std::vector<double>& first_radii() const { return radius_of_first; }
   const std::vector<double>& second_radii() const { return radius_of_face; }
-  const std::array<int, 4>& first_nodes(int face) const { return at(features.face_node, face); }
+  const auto& first_nodes(int first) const {
+    if constexpr (of_faces)
+      return at(features.face_node, first);
+    else
+      return at(features.edge_node, first);
+  }
   const std::array<int, 4>& second_nodes(int face) const { return at(features.face_node, face); }
 };
-struct RoundsAndFaces {
-  using Pairs = PackOfPairs<2, 4>;
-  static constexpr Parents parents = Parents::rounds;
-  const SurfaceFeatures& features;
-  const FeatureMotion& motion;
-  PairList& list;
-  const std::vector<double>& radius_of_first;
-  const std::vector<double>& radius_of_face;
+using FacesAndFaces = ParentPairs<Parents::faces>;
+using RoundsAndFaces = ParentPairs<Parents::rounds>;
 
-  const PathAndAhead& first_ways() const { return motion.of_edge; }
-  const PathAndAhead& second_ways() const { return motion.of_face; }
-  const std::vector<double>& first_radii() const { return radius_of_first; }
-  const std::vector<double>& second_radii() const { return radius_of_face; }
-  const std::array<int, 2>& first_nodes(int edge) const { return at(features.edge_node, edge); }
-  const std::array<int, 4>& second_nodes(int face) const { return at(features.face_node, face); }
-};
-
-const double* start_rows(const FeatureMotion& motion) { return motion.node.data()->start; }
-
-template <class Points>
-DistanceBound distance_of_features(const OnePair<FacesAndFaces>& one, const Points& at) {
-  return one.a == one.b ? distance_of_opposite_sides(at.first) : CommonCorners(one, at).distance();
-}
-template <class Points>
-DistanceBound distance_of_features(const OnePair<RoundsAndFaces>& one, const Points& at) {
+template <class Kind>
+DistanceBound distance_of_features(const OnePair<Kind>& one, const typename OnePair<Kind>::Points& at) {
+  if constexpr (Kind::of_faces)
+    if (one.a == one.b) return distance_of_opposite_sides(at.first);
   return CommonCorners(one, at).distance();
 }
 
 /// Path that a pair has left until it may come near, from the start of this step. \param ahead of this step
 template <class Kind>
 double path_left(const OnePair<Kind>& one, double band, double ahead) {
-  const auto points = one.points(start_rows(one.kind.motion));
+  const auto points = one.points(one.kind.motion.node.data()->start);
   const double skins = 2 * one.kind.features.skin;
   const bool is_one_piece = one.record.spacing == Spacing::skins;
   const double radii = is_one_piece ? skins : one.radii();

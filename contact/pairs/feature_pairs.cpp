@@ -23,12 +23,14 @@ constexpr double most_of_own_edge = 4;
 /// Of ContactOptions::reach_buffer: both features of a pair have a box that is larger on both sides.
 constexpr double share_of_buffer = 0.25;
 constexpr std::size_t nodes_a_range = 4096;
-/// Overlapping boxes in a search: so many a feature, and so many times those that do at rest (cells much
-/// finer than they are thick meet hundreds), where what is at rest grows by so much at a search for all.
-/// Where motion takes nodes past each other, all meet.
+/// Overlapping boxes in a search, and open pairs: so many a feature, and so many times those that do at rest
+/// (cells much finer than they are thick meet hundreds), where what is at rest grows by so much at a search
+/// for all. Where motion takes nodes past each other, all meet.
 constexpr std::uint64_t most_pairs_a_feature = 150;
 constexpr std::uint64_t most_of_rest = 3;
 constexpr double growth_of_rest = 1.1;
+constexpr std::uint64_t features_of_pair =
+    18;  ///< of two faces: pairs of features that they are the first to have
 constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
 using Flags = SearchedBoxes::Change;
@@ -189,7 +191,9 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   ++searches_;
   const std::size_t all = surface.slaves() + surface.face.size() + features.edge.size();
   const std::uint64_t before = counts.candidate_pairs;
-  most_pairs_ = depth.empty() ? before + most_pairs_a_feature * all + most_of_rest * met_at_rest_ : no_limit;
+  const std::uint64_t at_rest = most_of_rest * met_at_rest_;
+  most_pairs_ = depth.empty() ? before + most_pairs_a_feature * all + at_rest : no_limit;
+  most_open_ = depth.empty() ? most_pairs_a_feature * all + features_of_pair * at_rest : no_limit;
   kept_.node_face.clear();
   kept_.edge_edge.clear();
   kept_.grown = changes_.grown;

@@ -70,6 +70,7 @@ class FeaturePairs {
             const ContactOptions& options, FeatureMotion& motion, ThreadTeam& team,
             const SearchedDepth& depth = {});
   /// Open the pairs of faces that may come near in this step, or within a surplus of its predicted motion.
+  /// \throws TooManyNear
   void open_near(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
                  const ContactOptions& options, FeatureMotion& motion, double surplus, ThreadTeam& team);
   /// The surface has changed: features were added, and the listed ones have changed or were deleted. Nodes
@@ -94,7 +95,7 @@ class FeaturePairs {
   void serialize(Archive& archive) {
     archive(face_face, round_face, node_face, edge_edge, counts, face_blocks_, round_blocks_, reach_, flat_,
             faces_.box, rounds_.box, debris_.box, face_radius_, round_radius_, round_of_node_, debris_node_,
-            changes_, kept_, searches_, most_pairs_, met_at_rest_);
+            changes_, kept_, searches_, most_pairs_, most_open_, met_at_rest_);
   }
 
  private:
@@ -198,6 +199,7 @@ class FeaturePairs {
   std::vector<std::uint64_t> bending_;  ///< edges of pairs with faces that bend
   std::uint64_t searches_ = 0;
   std::uint64_t most_pairs_ = 0;   ///< of `counts`, in this search
+  std::uint64_t most_open_ = 0;    ///< pairs of features until the next search
   std::uint64_t met_at_rest_ = 0;  ///< boxes
 };
 

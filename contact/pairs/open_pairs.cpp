@@ -181,8 +181,10 @@ void FeaturePairs::open_kind(const Scene& scene, const Kind& kind, PairBlocks& b
     near_[begin / pairs_a_range] = last - begin;
   });
   for (std::size_t range = 0; range < near_.size(); ++range)
-    for (std::size_t i = 0; i < near_[range]; ++i)
+    for (std::size_t i = 0; i < near_[range]; ++i) {
+      if (node_face.size() + edge_edge.size() > most_open_) throw TooManyNear();
       open(scene, Kind::parents, static_cast<std::size_t>(awake_[range * pairs_a_range + i]), motion.groups);
+    }
 }
 
 void FeaturePairs::open_all(const Scene& scene, MotionGroups& groups) {

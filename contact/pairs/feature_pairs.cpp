@@ -227,22 +227,22 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
 }
 
 void FeaturePairs::close_up() {
-  for (const auto& [list, parents] :
-       {std::pair(&face_face, Parents::faces), std::pair(&round_face, Parents::rounds)}) {
+  const auto close = [&](PairList& list, Parents parents) {
     std::vector<int> number;
-    list->close_up([&](std::size_t from, std::size_t to) {
-      number.resize(std::max(number.size(), from + 1), -1);
+    list.close_up([&](std::size_t from, std::size_t to) {
+      number.resize(from + 1, -1);
       number[from] = static_cast<int>(to);
     });
-    if (number.empty()) continue;
+    if (number.empty()) return;
     const auto renumber = [&](int parent) {
       if (parent == no_parent || parents_of(parent) != parents) return parent;
-      return parent_number(parents,
-                           static_cast<std::size_t>(at(number, static_cast<int>(place_of_parent(parent)))));
+      return parent_number(parents, static_cast<std::size_t>(number[place_of_parent(parent)]));
     };
     node_face.renumber_parents(renumber);
     edge_edge.renumber_parents(renumber);
-  }
+  };
+  close(face_face, Parents::faces);
+  close(round_face, Parents::rounds);
   node_face.close_up();
   edge_edge.close_up();
 }

@@ -315,21 +315,14 @@ void FeaturePairs::drop_pairs(const Scene& scene, const FeatureMotion& motion, T
                team);
   drop_of_kind(scene, RoundsAndFaces{scene.features, motion, round_face, round_radius_, face_radius_},
                rounds_, team);
-  const auto loses_parent = [&](const PairRecord& pair) { return fate_of(pair.parent) >= PairFate::closes; };
-  node_face.remove_if(
-      [&](std::size_t i) {
-        const PairRecord& pair = node_face[i];
-        return pair.parent == no_parent ? parts(debris_, pair.first, faces_, pair.second)
-                                        : loses_parent(pair);
-      },
-      team, [&](const PairRecord& pair) { remember(pair, kept_.node_face); });
-  edge_edge.remove_if(
-      [&](std::size_t i) {
-        const PairRecord& pair = edge_edge[i];
-        return pair.parent == no_parent ? parts(rounds_, pair.first, rounds_, pair.second)
-                                        : loses_parent(pair);
-      },
-      team, [&](const PairRecord& pair) { remember(pair, kept_.edge_edge); });
+  const auto leaves = [&](const PairRecord& pair, const SearchedBoxes& first, const SearchedBoxes& second) {
+    return pair.parent == no_parent ? parts(first, pair.first, second, pair.second)
+                                    : fate_of(pair.parent) >= PairFate::closes;
+  };
+  node_face.remove_if([&](std::size_t i) { return leaves(node_face[i], debris_, faces_); }, team,
+                      [&](const PairRecord& pair) { remember(pair, kept_.node_face); });
+  edge_edge.remove_if([&](std::size_t i) { return leaves(edge_edge[i], rounds_, rounds_); }, team,
+                      [&](const PairRecord& pair) { remember(pair, kept_.edge_edge); });
   std::sort(kept_.node_face.begin(), kept_.node_face.end());
   std::sort(kept_.edge_edge.begin(), kept_.edge_edge.end());
   for (const auto& [list, parents] :

@@ -15,8 +15,6 @@ namespace {
 
 /// Distances below this fraction of the smallest edge have no direction.
 constexpr double no_distance = 1e-12;
-/// By which a separation is lowered, as its direction is kept in single precision.
-constexpr double rounding_of_direction = 1e-6;
 
 // Of unit length but for rounding to single precision, or zero.
 template <class Points>

@@ -32,6 +32,7 @@ void FeaturePairs::add_pairs(const Scene& scene, MotionGroups& groups, ThreadTea
   };
   const auto find_in = [&](SearchedBoxes& others, const SearchedBoxes& own, auto none, const auto& judge,
                            const auto& add) {
+    if (own.leaving.empty() || others.box.size() == 0) return;
     query_.clear();
     for (int i : own.leaving) query_.push_back(own.box.of(i));
     others.box.find(
@@ -140,8 +141,10 @@ std::uint8_t FeaturePairs::one_piece_of_round(const Scene& scene, int edge, int 
   const Face& face = at(scene.surface.face, f);
   if (never_meet(scene.surface, round.node, round.part, face)) return never;
   if (!scene.surface.tied.one_piece(round.body, face.body)) return 0;
+  // A beam with such a node is of one piece with all edges of the face: what is left is its other node.
   const unsigned bits = excluded_corners(scene.excluded, round.node, f);
-  return bits == 3 ? all_one_piece : static_cast<std::uint8_t>(bits);
+  constexpr unsigned corners_of_face = 0xf0;
+  return bits == 0 ? 0 : bits == 3 ? all_one_piece : static_cast<std::uint8_t>(bits | corners_of_face);
 }
 
 }  // namespace brio

@@ -38,7 +38,7 @@ class FewPoints {
     for (std::size_t i = 1; i < count_; ++i) {
       const double other = dot(direction, point_[i]);
       best = other > height ? i : best;
-      height = std::fmax(height, other);
+      height = std::max(height, other);
     }
     return point_[best];
   }

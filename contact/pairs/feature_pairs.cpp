@@ -29,8 +29,8 @@ constexpr std::size_t nodes_a_range = 4096;
 constexpr std::uint64_t most_pairs_a_feature = 150;
 constexpr std::uint64_t most_of_rest = 3;
 constexpr double growth_of_rest = 1.1;
-constexpr std::uint64_t features_of_pair =
-    18;  ///< of two faces: pairs of features that they are the first to have
+/// Of two faces: pairs of features that they are the first to have.
+constexpr std::uint64_t features_of_pair = 18;
 constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
 using Flags = SearchedBoxes::Change;
@@ -194,8 +194,7 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   const std::uint64_t at_rest = most_of_rest * met_at_rest_;
   most_pairs_ = depth.empty() ? before + most_pairs_a_feature * all + at_rest : no_limit;
   most_open_ = depth.empty() ? most_pairs_a_feature * all + features_of_pair * at_rest : no_limit;
-  kept_.node_face.clear();
-  kept_.edge_edge.clear();
+  kept_.clear();
   kept_.grown = changes_.grown;
   kept_.changed = !changes_.empty();
   const bool is_first = reach_.empty();
@@ -222,7 +221,7 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
     met_at_rest_ = depth.empty() && met_at_rest_ > 0 ? std::min(met, grown_rest) : met;
   }
   close_up();
-  changes_ = {};
+  changes_.clear();
   if (!depth.empty()) open_all(scene, motion.groups);
 }
 

@@ -172,6 +172,10 @@ class FeaturePairs {
     std::vector<int> node, face, edge, grown;
     bool before_first_search = false;
     bool empty() const { return node.empty() && face.empty() && edge.empty() && !before_first_search; }
+    void clear() {
+      for (std::vector<int>* list : {&node, &face, &edge, &grown}) list->clear();
+      before_first_search = false;
+    }
     template <class Archive>
     void serialize(Archive& archive) {
       archive(node, face, edge, grown, before_first_search);
@@ -183,6 +187,12 @@ class FeaturePairs {
     std::vector<std::uint64_t> node_face, edge_edge;
     std::vector<int> grown;  ///< Changes::grown
     bool changed = false;
+    void clear() {
+      node_face.clear();
+      edge_edge.clear();
+      grown.clear();
+      changed = false;
+    }
     template <class Archive>
     void serialize(Archive& archive) {
       archive(node_face, edge_edge, grown, changed);

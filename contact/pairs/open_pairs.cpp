@@ -16,8 +16,6 @@ namespace {
 constexpr double distance_to_close = 0.1;
 /// A direction is kept as long as it separates a pair for so many steps like this one.
 constexpr double steps_to_keep = 4;
-/// By which a bound is lowered, as its direction is kept in single precision.
-constexpr double rounding_of_direction = 1e-6;
 
 template <class T>
 const T& at(const std::vector<T>& of, int i) {
@@ -157,7 +155,7 @@ void FeaturePairs::open_near(const SurfaceFeatures& features, const Surface& sur
             surplus, motion, team);
   open_kind(scene, RoundsAndFaces{features, motion, round_face, round_radius_, face_radius_}, round_blocks_,
             surplus, motion, team);
-  kept_ = {};
+  kept_.clear();
 }
 
 template <class Kind>
@@ -191,7 +189,7 @@ void FeaturePairs::open_all(const Scene& scene, MotionGroups& groups) {
   for (PairList* list : {&node_face, &edge_edge}) list->begin_changes();
   for (std::size_t i = 0; i < face_face.size(); ++i) open(scene, Parents::faces, i, groups);
   for (std::size_t i = 0; i < round_face.size(); ++i) open(scene, Parents::rounds, i, groups);
-  kept_ = {};
+  kept_.clear();
 }
 
 void FeaturePairs::open(const Scene& scene, Parents parents, std::size_t pair, MotionGroups& groups) {

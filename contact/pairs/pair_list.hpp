@@ -28,6 +28,9 @@ constexpr std::size_t place_of_parent(int parent) {
   return static_cast<std::size_t>(parent >= 0 ? parent : -2 - parent);
 }
 
+/// By which a height along a direction is lowered, as directions are kept in single precision.
+inline constexpr double rounding_of_direction = 1e-6;
+
 /// What a look at a pair reads, side by side.
 struct alignas(32) PairRecord {
   int first = 0, second = 0;         ///< a node or an edge; a face or an edge

@@ -170,15 +170,24 @@ void take_over(Proximity& proximity, std::size_t ranges, std::vector<Contact>& c
     for (const FoundContact& entry : proximity.range[r].found) found.push_back(&entry);
     proximity.closest_points += proximity.range[r].closest_points;
   }
-  std::sort(found.begin(), found.end(), [](const FoundContact* a, const FoundContact* b) {
-    if (a->contact.slave != b->contact.slave) return a->contact.slave < b->contact.slave;
-    return std::tuple(a->support, !a->in_plane, a->contact.face, a->contact.node) <
-           std::tuple(b->support, !b->in_plane, b->contact.face, b->contact.node);
-  });
-  const auto last = std::unique(found.begin(), found.end(), [](const FoundContact* a, const FoundContact* b) {
-    return a->contact.slave == b->contact.slave && a->support == b->support;
-  });
-  for (auto entry = found.begin(); entry != last; ++entry) contacts.push_back((*entry)->contact);
+  std::vector<std::uint64_t>& order = proximity.order;
+  order.clear();
+  for (std::size_t i = 0; i < found.size(); ++i)
+    order.push_back(static_cast<std::uint64_t>(found[i]->contact.slave) << 32 | i);
+  std::sort(order.begin(), order.end());
+  for (auto first = order.begin(), last = first; first != order.end(); first = last) {
+    std::vector<const FoundContact*>& of_slave = proximity.of_slave;
+    of_slave.clear();
+    for (; last != order.end() && *last >> 32 == *first >> 32; ++last)
+      of_slave.push_back(found[*last & 0xffffffff]);
+    std::sort(of_slave.begin(), of_slave.end(), [](const FoundContact* a, const FoundContact* b) {
+      return std::tuple(a->support, !a->in_plane, a->contact.face, a->contact.node) <
+             std::tuple(b->support, !b->in_plane, b->contact.face, b->contact.node);
+    });
+    for (std::size_t i = 0; i < of_slave.size(); ++i)
+      if (i == 0 || of_slave[i]->support != of_slave[i - 1]->support)
+        contacts.push_back(of_slave[i]->contact);
+  }
 }
 
 // What the ranges have kept, without gaps.

@@ -42,8 +42,10 @@ struct Proximity {
     std::vector<FoundContact> found;
     std::size_t closest_points = 0;
   };
-  std::vector<Range> range;                ///< working space of ranges of pairs, one task each
-  std::vector<const FoundContact*> found;  ///< of all ranges
+  std::vector<Range> range;                   ///< working space of ranges of pairs, one task each
+  std::vector<const FoundContact*> found;     ///< of all ranges
+  std::vector<std::uint64_t> order;           ///< of each, Contact::slave and its place
+  std::vector<const FoundContact*> of_slave;  ///< of one slave
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>

@@ -94,7 +94,8 @@ bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot,
       if (neighbour < 0) return true;
       const Vector3d arm = motion_.start(neighbour) + share * motion_.displacement(neighbour) - from;
       const double height = arm.dot(away);
-      return height >= -slack * arm.norm() || height >= -allowed(neighbour) || is_one_piece(neighbour, other);
+      return height >= 0 || height * height <= slack * slack * arm.squaredNorm() ||
+             height >= -allowed(neighbour) || is_one_piece(neighbour, other);
     });
   };
   return look(foot.start, 0) || look(foot.end, 1);
@@ -221,6 +222,30 @@ bool ProximityFilter::lay_in_plane(const NearPair<4>& near, double slack, Contac
   return true;
 }
 
+// Of a node beside a side or a corner, whether it is near, may touch in this step, and is not constrained to
+// another face. \param contact its gap is enlarged at sharp edges
+bool ProximityFilter::is_kept_beside_rim(const NearPair<4>& near, const std::array<int, 2>& support,
+                                         bool in_plane, double slack, Contact& contact) const {
+  if (in_plane && contact.gap <= passing_gap(0)) return is_near(contact);  // whatever the faces at both
+  const int s = contact.slave, f = contact.face;
+  const std::array<int, 2> beside = support[1] >= 0 ? faces_of_side(f, support) : std::array{-1, -1};
+  const std::span<const int> at_foot =
+      support[1] >= 0 ? std::span<const int>(beside) : surface_.faces_of.of(support[0]);
+  const Edginess of_face = edginess(at_foot, near.normal);
+  const Edginess of_node = edginess(surface_.faces_of.of(s), Vector3d(-near.normal));
+  // Of two nodes of which only the first has a face at right angles to the direction, the second is the one
+  // that is constrained to a face: that constraint has the normal for its direction.
+  if (!in_plane && support[1] < 0 && tilt_of(of_node.cosine) < slack) return false;
+  const double tilt = in_plane ? 0 : tilt_of(std::max(of_face.cosine, of_node.cosine));
+  const bool skins = of_face.sharp && of_node.sharp && !surface_.face[static_cast<std::size_t>(f)].shell &&
+                     features_.node_radius[static_cast<std::size_t>(s)] <= features_.skin;
+  if (skins) contact.gap += spared_skin(tilt);
+  if (!is_near(contact)) return false;
+  const double reach = near.reach - (skins ? spared_skin(tilted_angle) : 0);
+  const bool as_hull = pairs_.node_face.has_radii(static_cast<std::size_t>(near.pair));
+  return contact.gap <= passing_gap(tilt) || !passes_by(s, f, as_hull, reach);
+}
+
 void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundContact>& found) const {
   const auto pair = static_cast<std::size_t>(near.pair);
   const int s = pairs_.node_face.first(pair), f = pairs_.node_face.second(pair);
@@ -252,24 +277,9 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   const bool inside = support[0] < -1;
   bool in_plane = false;
   if (!inside) {
-    const std::array<int, 2> beside = support[1] >= 0 ? faces_of_side(f, support) : std::array{-1, -1};
-    const std::span<const int> at_foot =
-        support[1] >= 0 ? std::span<const int>(beside) : surface_.faces_of.of(support[0]);
     if (!own && !look_away(features_.ring.of(s), point_of(s), near.normal, slack, {})) return;
-    const Edginess of_face = edginess(at_foot, near.normal);
-    const Edginess of_node = edginess(surface_.faces_of.of(s), Vector3d(-near.normal));
     in_plane = lay_in_plane(near, slack, contact);
-    const double tilt = in_plane ? 0 : tilt_of(std::max(of_face.cosine, of_node.cosine));
-    // Of two nodes of which only the first has a face at right angles to the direction, the second is the one
-    // that is constrained to a face: that constraint has the normal for its direction.
-    if (!in_plane && support[1] < 0 && tilt_of(of_node.cosine) < slack) return;
-    const bool skins = of_face.sharp && of_node.sharp && !face.shell &&
-                       features_.node_radius[static_cast<std::size_t>(s)] <= features_.skin;
-    if (skins) contact.gap += spared_skin(tilt);
-    if (!is_near(contact)) return;
-    if (contact.gap > passing_gap(tilt) && passes_by(s, f, pairs_.node_face.has_radii(pair),
-                                                     near.reach - (skins ? spared_skin(tilted_angle) : 0)))
-      return;
+    if (!is_kept_beside_rim(near, support, in_plane, slack, contact)) return;
   }
   contact.friction_coefficient =
       surface_.pairs.friction(surface_.node[static_cast<std::size_t>(s)], face.part, options_.friction);
@@ -303,7 +313,8 @@ ProximityFilter::Flatness ProximityFilter::flatness(const EdgeFeature& own, cons
   for (int neighbour : own.wing) {
     if (neighbour < 0) continue;
     const Vector3d arm = motion_.start(neighbour) - foot;
-    (std::abs(arm.dot(direction)) <= flat_sine * arm.norm() ? flat : steep) += 1;
+    const double height = arm.dot(direction);
+    (height * height <= flat_sine * flat_sine * arm.squaredNorm() ? flat : steep) += 1;
   }
   if (flat == 0) return Flatness::none;
   return steep == 0 && own.faces == 2 ? Flatness::inside : Flatness::rim;
@@ -330,6 +341,10 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const MovingPoint foot_a = foot(a, near.at[0]), foot_b = foot(b, near.at[1]);
   const double slack = slack_of(foot_a.start, near.distance);
   if (are_parallel(a, b, rounding_of_foot(slack, near.distance))) return;
+  const Flatness flat_a = flatness(a, foot_a.start, near.normal),
+                 flat_b = flatness(b, foot_b.start, near.normal);
+  const bool rims = flat_a == Flatness::rim && flat_b == Flatness::rim;
+  if (flat_a != Flatness::none && flat_b != Flatness::none && !rims) return;
   int on_a = 0, on_b = 0;
   const bool own = a.shell && b.shell && a.body == b.body;
   const OtherSide faces_of_a = own ? OtherSide(a.face) : OtherSide();
@@ -340,10 +355,6 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
       !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, radii, faces_of_a,
                           on_b))
     return;
-  const Flatness flat_a = flatness(a, foot_a.start, near.normal),
-                 flat_b = flatness(b, foot_b.start, near.normal);
-  const bool rims = flat_a == Flatness::rim && flat_b == Flatness::rim;
-  if (flat_a != Flatness::none && flat_b != Flatness::none && !rims) return;
 
   Contact contact;
   contact.slave = first_edge_slave + (on_a >= 0 ? on_a : ea);

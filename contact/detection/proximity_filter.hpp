@@ -65,6 +65,8 @@ class ProximityFilter {
   bool is_minimum_on_edge(int edge, double parameter, const MovingPoint& foot, const Eigen::Vector3d& away,
                           double slack, double distance, bool radii, OtherSide other, int& on) const;
   bool lay_in_plane(const NearPair<4>& near, double slack, Contact& contact) const;
+  bool is_kept_beside_rim(const NearPair<4>& near, const std::array<int, 2>& support, bool in_plane,
+                          double slack, Contact& contact) const;
   /// Of the faces at an edge or a node: the largest cosine of a normal and a direction; whether they bend.
   struct Edginess {
     double cosine = 0;

@@ -55,6 +55,8 @@ struct SidePoint {
   Couple couple = Couple::none;
   Vector3d point = Vector3d::Zero();
   double radius = 0;
+  std::size_t number = 0;  ///< 0 or 1
+  double upright = -1;     ///< largest squared cosine of a normal of its faces; negative: not known
 };
 
 class Builder {
@@ -70,7 +72,8 @@ class Builder {
 
   void add(const Contact& contact) {
     const auto own = index(contact.own);
-    const SidePoint first = side_of(contact, 0, own), second = side_of(contact, own, 5);
+    SidePoint first = side_of(contact, 0, own), second = side_of(contact, own, 5);
+    second.number = 1;
     normal_ = contact.normal;
     if (contact.along_meeting && add_without_spin(contact, first, second)) return;
     const bool rubs = contact.friction_coefficient > 0 && divide(contact, first, second);
@@ -138,7 +141,7 @@ class Builder {
   }
 
   // How far the contact point stands off both sides. \returns whether there is a place for it.
-  bool divide(const Contact& contact, const SidePoint& first, const SidePoint& second) {
+  bool divide(const Contact& contact, SidePoint& first, SidePoint& second) {
     const double distance = normal_.dot(first.point - second.point);
     const double share = first_share(contact, first, second);
     if (share < 0) return false;
@@ -164,9 +167,11 @@ class Builder {
     return first.radius / (first.radius + second.radius);
   }
 
-  bool can_take(const SidePoint& side, double height) {
+  bool can_take(SidePoint& side, double height) {
     if (height == 0 || side.couple == Couple::rigid || side.couple == Couple::rotations) return true;
-    return side.couple == Couple::faces && weigh_faces(side) > standing;
+    if (side.couple != Couple::faces) return false;
+    if (side.upright < 0) weigh_faces(side);
+    return side.upright > standing;
   }
 
   // The points do not lie one behind the other along the normal: equal and opposite impulses at them would
@@ -233,11 +238,11 @@ class Builder {
     }
   }
 
-  // Faces that have all nodes of the side, with their shares. \returns the largest squared cosine.
-  double weigh_faces(const SidePoint& side) {
-    all_.faces.clear();
-    share_.clear();
-    double largest = 0;
+  // Faces that have all nodes of the side, with the squared cosines of their normals.
+  void weigh_faces(SidePoint& side) {
+    std::vector<ContactRows::TiltedFace>& faces = all_.faces[side.number];
+    faces.clear();
+    side.upright = 0;
     for (int f : surface_.faces_of.of(surface_.slave(heaviest_of(side)))) {
       const Face& face = surface_.face[index(f)];
       bool has_all = face.alive();
@@ -249,11 +254,9 @@ class Builder {
       const double size = area.squaredNorm();
       const double along = normal_.dot(area);
       const double share = size > 0 ? along * along / size : 0;
-      all_.faces.push_back(f);
-      share_.push_back(share);
-      largest = std::max(largest, share);
+      faces.push_back({&face, share, g, h});
+      side.upright = std::max(side.upright, share);
     }
-    return largest;
   }
 
   static int heaviest_of(const SidePoint& side) {
@@ -269,30 +272,32 @@ class Builder {
   // The tilt of a face as seen along the normal n, by the dual basis of its mean tangents g and h in the
   // plane at right angles to n: gradients g_k of the shape functions with sum of x_k g_k^T = 1 - n n^T in
   // that plane. The point x + height n moves with sum of w_k v_k - height g_k (n . v_k).
+  // The faces of the side have been weighed, where the distance was divided.
   void add_tilted(const SidePoint& side, double sign, double height) {
     auto& tilted = all_.tilted;
     tilted.clear();
     for (std::size_t k = 0; k < side.count; ++k)
       tilted.push_back({side.node[k], sign * side.weight[k], {0, 0, 0}});
-    const double least = least_share * weigh_faces(side);
+    const double least = least_share * side.upright;
     double sum = 0;
-    for (double& share : share_) sum += share = share > least ? share : 0;
-    for (std::size_t i = 0; i < share_.size(); ++i)
-      if (share_[i] > 0) tilt_with(surface_.face[index(all_.faces[i])], height * share_[i] / sum);
+    for (ContactRows::TiltedFace& one : all_.faces[side.number])
+      sum += one.share = one.share > least ? one.share : 0;
+    for (const ContactRows::TiltedFace& one : all_.faces[side.number])
+      if (one.share > 0) tilt_with(one, height * one.share / sum);
     for (const ContactRows::TiltedNode& one : tilted) add_node(one.node, one.weight, one.tilt);
   }
 
-  void tilt_with(const Face& face, double height) {
+  void tilt_with(const ContactRows::TiltedFace& face, double height) {
     constexpr double along[4] = {-1, 1, 1, -1}, across[4] = {-1, -1, 1, 1};
-    const auto [g, h] = tangents(face);
+    const Vector3d &g = face.along, &h = face.across;
     const double area = normal_.dot(g.cross(h));
     const Vector3d dual_g = h.cross(normal_) / area, dual_h = normal_.cross(g) / area;
     for (std::size_t k = 0; k < 4; ++k) {
       const Vector tilt = to_vector(height * (along[k] * dual_g + across[k] * dual_h));
       const auto known = std::find_if(all_.tilted.begin(), all_.tilted.end(),
-                                      [&](const auto& one) { return one.node == face.node[k]; });
+                                      [&](const auto& one) { return one.node == face.face->node[k]; });
       if (known == all_.tilted.end())
-        all_.tilted.push_back({face.node[k], 0, tilt});
+        all_.tilted.push_back({face.face->node[k], 0, tilt});
       else
         known->tilt = known->tilt + tilt;
     }
@@ -441,7 +446,6 @@ class Builder {
   std::span<const RigidMotion> bodies_;
   Vector3d normal_;
   double height_[2] = {0, 0};
-  std::vector<double>& share_ = all_.share;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 /// Between sides of the same kind the point divides the distance in the ratio of their radii; for a node of a
 /// solid it is the node. Two particles, and sides without rotations and faces, have no friction.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -55,10 +56,15 @@ struct ContactRows {
     double weight;
     Vector3<double> tilt;
   };
-  std::vector<TiltedNode> tilted;   ///< working space
-  std::vector<int> faces;           ///< working space
-  std::vector<double> share;        ///< working space
-  std::vector<std::uint8_t> taken;  ///< working space
+  /// A face that may take a share of the couple of a side, with its mean tangents.
+  struct TiltedFace {
+    const Face* face;
+    double share;
+    Eigen::Vector3d along, across;
+  };
+  std::vector<TiltedNode> tilted;                ///< working space
+  std::array<std::vector<TiltedFace>, 2> faces;  ///< working space: of either side
+  std::vector<std::uint8_t> taken;               ///< working space
 
   /// Clear rows and blocks.
   void clear();

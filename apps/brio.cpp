@@ -234,7 +234,10 @@ void add_schema_command(CLI::App& program) {
   command->add_flag("--markdown", *markdown, "print the reference for people instead");
   auto of_study = std::make_shared<bool>(false);
   command->add_flag("--study", *of_study, "of studies instead of decks");
-  command->callback([of_study, markdown] { brio::print_schema(*of_study, *markdown); });
+  auto of_results = std::make_shared<bool>(false);
+  command->add_flag("--results", *of_results, "print what results hold, for people, instead");
+  command->callback(
+      [of_study, of_results, markdown] { brio::print_schema(*of_study, *of_results, *markdown); });
 }
 
 int run_command(int argument_count, char** arguments) {

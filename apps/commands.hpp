@@ -49,6 +49,6 @@ void plot(PlotOptions options, const std::vector<std::string>& words);
 /// A first deck, NAME.yaml. \throws DeckError where the name is taken, FileError
 void write_new_deck(const std::filesystem::path& name);
 void report(const ReportOptions& options);
-void print_schema(bool of_study, bool markdown);
+void print_schema(bool of_study, bool of_results, bool markdown);
 
 }  // namespace brio

@@ -4,7 +4,8 @@
 #include "io/deck/preset.hpp"
 #include "io/deck/read_fields.hpp"
 #include "io/yaml/yaml_source.hpp"
-#include "src/output/cell_variables.hpp"
+#include "src/fields/cell_variables.hpp"
+#include "src/fields/contact_fields.hpp"
 
 namespace brio {
 
@@ -26,6 +27,9 @@ void read_variables(Deck& deck, const YamlNode& root) {
   for (const auto& [name, material] : deck.materials)
     for (const std::string_view word : history_names_of(material))
       if (std::ranges::find(histories, word) == histories.end()) histories.push_back(word);
+  std::vector<std::string_view> others = std::move(histories);
+  if (deck.contact)
+    for (const PointVariable& variable : contact_variables()) others.push_back(variable.name);
   std::vector<std::string_view> known{default_group, all_group};
   const auto is_had = [&](const CellVariable& variable) {
     return variable.of == nullptr || std::ranges::any_of(deck.parts, [&](const Part& part) {
@@ -34,13 +38,13 @@ void read_variables(Deck& deck, const YamlNode& root) {
   };
   for (const CellVariable& variable : chosen_variables())
     if (is_had(variable)) known.push_back(variable.name);
-  known.insert(known.end(), histories.begin(), histories.end());
+  known.insert(known.end(), others.begin(), others.end());
   const YamlNode& list = *root.find("output")->value->find("fields")->value->find("variables")->value;
   for (std::size_t i = 0; i < wanted.size(); ++i)
     if (std::ranges::find(known, wanted[i]) == known.end())
       throw DeckError(list.items[i]->place,
                       "no field is called '" + wanted[i] + "'; " + accepted_words(wanted[i], known));
-  wanted = named_variables(wanted, histories, is_had);
+  wanted = named_variables(wanted, others, is_had);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "src/output/cell_variables.hpp"
+#include "src/fields/cell_variables.hpp"
 
 namespace brio {
 

@@ -74,6 +74,7 @@ void RunOutput::write(bool row, bool fields, ThreadTeam& team) {
   }
   if (fields) {
     writer_.write(*state_);
+    model_.impulse_sums.begin_interval();
     last_dump_ = model_.times.time;
   }
   if (fields || history_.full()) writer_.write(history_);

@@ -1,5 +1,6 @@
 #pragma once
-/// What a deck, and a study, may say, from the same tables that read it.
+/// What a deck, and a study, may say, from the same tables that read it; what results hold, from those that
+/// write them.
 
 #include <string>
 
@@ -13,5 +14,7 @@ std::string study_schema();
 /// The printed reference, in Markdown.
 std::string deck_reference();
 std::string study_reference();
+/// Fields, columns of the history and keys of the summary.
+std::string results_reference();
 
 }  // namespace brio

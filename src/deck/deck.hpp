@@ -184,8 +184,10 @@ struct FieldOutput {
         optional("times", &FieldOutput::times, non_negative, "times of dumps instead"),
         optional(
             "variables", &FieldOutput::variables, any_number,
-            "fields of cells, a list: default, all, von_mises, pressure, triaxiality, internal_energy; of "
-            "shells stress_top, stress_bottom, equivalent_plastic_strain_top, "
+            "fields of cells, a list: default, all, von_mises, pressure, triaxiality, internal_energy, "
+            "strain "
+            "(logarithmic); with contact contact_pressure, contact_gap; of shells stress_top, stress_bottom, "
+            "equivalent_plastic_strain_top, "
             "equivalent_plastic_strain_bottom, membrane_force, bending_moment; of beams beam_force, "
             "beam_moment (not a number in other elements); or a name of the history of a material, such as "
             "temperature (0 in materials that do not know it); part and element_id are written in any "

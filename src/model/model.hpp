@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact/audit/audit.hpp"
+#include "contact/impulse_sums.hpp"
 #include "contact/scene.hpp"
 #include "contact/start/initial_gap.hpp"
 #include "contact/ties/ties.hpp"
@@ -79,6 +80,7 @@ struct Model {
   RigidBodies rigid;
   std::vector<ContactScene> contacts;            ///< one if the deck names contact, else none
   std::optional<ContactAudits> contact_audits;   ///< if the deck asks for them
+  ImpulseSums impulse_sums;                      ///< with contact: since the last dump of fields
   std::vector<InitialOverlap> initial_overlaps;  ///< removed before the first step
 
   std::optional<Erosion> erosion;                 ///< if elements can be deleted

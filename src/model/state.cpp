@@ -14,7 +14,7 @@ void serialize(Archive& archive, Model& model) {
   archive(model.nodes, model.blocks, model.parts, model.schedule);
   archive(model.particle_searches, model.loads, model.springs, model.ties, model.rigid);
   archive.section(3);
-  archive(model.contacts, model.contact_audits);
+  archive(model.contacts, model.contact_audits, model.impulse_sums);
   archive.section(4);
   archive(model.erosion, model.added_mass);
   std::vector<double> forces;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "src/fields/strain.hpp"
 #include "src/output/result_order.hpp"
 
 namespace brio {
@@ -46,17 +47,46 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> va
   for (std::size_t node = 0; node < point_of_node_.size(); ++node)
     if (point_of_node_[node] >= 0)
       node_of_point_[static_cast<std::size_t>(point_of_node_[node])] = static_cast<int>(node);
-  const std::size_t points = node_of_point_.size();
-  snapshot_.points.resize(3 * points);
-  snapshot_.point_fields = {field("displacement", 3, points, Storage::double_precision),
-                            field("velocity", 3, points)};
-  if (!model.contacts.empty()) snapshot_.point_fields.push_back(field("contact_force", 3, points));
-  if (has_ids(model)) snapshot_.point_fields.push_back(field("node_id", 1, points, Storage::integer, true));
+  snapshot_.points.resize(3 * node_of_point_.size());
+  add_point_fields(model, variables);
   add_cell_fields(model, variables);
   take_topology(model);
-  fill_points(model);
-  if (has_ids(model)) fill_node_ids(model);
+  take_positions(model);
   reference_ = snapshot_.points;
+}
+
+void FieldObserver::add_point_field(FieldArray field, PointValues values) {
+  snapshot_.point_fields.push_back(std::move(field));
+  point_values_.push_back(std::move(values));
+}
+
+void FieldObserver::add_contact_field(const PointVariable& variable) {
+  FieldArray added = field(std::string(variable.name), variable.components, node_of_point_.size());
+  added.is_partial = variable.is_partial;
+  add_point_field(std::move(added), [&variable, this](const Model& model, std::size_t point, double* out) {
+    variable.values(model, node_of_point_[point], out);
+  });
+}
+
+void FieldObserver::add_point_fields(const Model& model, std::span<const std::string> variables) {
+  const std::size_t points = node_of_point_.size();
+  add_point_field(field("displacement", 3, points, Storage::double_precision),
+                  [this](const Model&, std::size_t point, double* out) {
+                    for (std::size_t i = 3 * point; i < 3 * point + 3; ++i)
+                      *out++ = snapshot_.points[i] - reference_[i];
+                  });
+  add_point_field(field("velocity", 3, points), [this](const Model& now, std::size_t point, double* out) {
+    std::copy_n(now.nodes.record[static_cast<std::size_t>(node_of_point_[point])].velocity, 3, out);
+  });
+  if (!model.contacts.empty()) {
+    add_contact_field(contact_force_variable());
+    for (const PointVariable& variable : contact_variables())
+      if (std::ranges::find(variables, variable.name) != variables.end()) add_contact_field(variable);
+  }
+  if (!has_ids(model)) return;
+  number_points(model);
+  add_point_field(field("node_id", 1, points, Storage::integer, true),
+                  [this](const Model&, std::size_t point, double* out) { *out = point_number_[point]; });
 }
 
 void FieldObserver::add_cell_field(std::string_view name, CellSource source) {
@@ -66,14 +96,16 @@ void FieldObserver::add_cell_field(std::string_view name, CellSource source) {
   const int components = source.variable != nullptr ? source.variable->components : 1;
   snapshot_.cell_fields.push_back(
       field(std::string(name), components, 0, fixed ? Storage::integer : Storage::single_precision, fixed));
-  snapshot_.cell_fields.back().is_partial = source.variable != nullptr && source.variable->of != nullptr;
+  snapshot_.cell_fields.back().is_partial = source.variable != nullptr && source.variable->is_partial();
   cell_source_.push_back(source);
 }
 
 void FieldObserver::add_cell_fields(const Model& model, std::span<const std::string> variables) {
   using Kind = CellSource::Kind;
   const auto add_variable = [&](std::string_view name) {
-    add_cell_field(name, {Kind::variable, &cell_variable(name)});
+    const CellVariable& variable = cell_variable(name);
+    add_cell_field(name, {variable.values == nullptr ? Kind::strain : Kind::variable, &variable});
+    if (variable.values == nullptr) note_thickness(model);
   };
   const bool has_default =
       variables.empty() || std::ranges::find(variables, default_group) != variables.end();
@@ -88,7 +120,9 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
     if (can_be_damaged(model)) add_cell_field("damage", {Kind::history});
   }
   for (const std::string& name : variables) {
-    if (name == default_group) continue;
+    if (name == default_group ||
+        std::ranges::find(contact_variables(), name, &PointVariable::name) != contact_variables().end())
+      continue;
     if (std::ranges::find(chosen_variables(), name, &CellVariable::name) != chosen_variables().end())
       add_variable(name);
     else
@@ -131,7 +165,7 @@ void FieldObserver::follow(const Model& model) {
   deleted_ = deleted_then;
 }
 
-void FieldObserver::fill_points(const Model& model) {
+void FieldObserver::take_positions(const Model& model) {
   for (std::size_t p = 0; p < node_of_point_.size(); ++p) {
     const NodeRecord& record = model.nodes.record[static_cast<std::size_t>(node_of_point_[p])];
     for (std::size_t i = 0; i < 3; ++i) snapshot_.points[3 * p + i] = record.position[i];
@@ -139,35 +173,58 @@ void FieldObserver::fill_points(const Model& model) {
 }
 
 // A node that parts share has its number in the first of them.
-void FieldObserver::fill_node_ids(const Model& model) {
-  std::vector<double>& values = snapshot_.point_fields.back().values;
-  std::vector<bool> is_known(values.size());
+void FieldObserver::number_points(const Model& model) {
+  point_number_.resize(node_of_point_.size());
+  std::vector<bool> is_known(point_number_.size());
   for (const PartInModel& part : model.parts)
     for (std::size_t i = 0; i < part.node.size(); ++i) {
       const auto point = static_cast<std::size_t>(point_of_node_[static_cast<std::size_t>(part.node[i])]);
-      if (!is_known[point]) values[point] = static_cast<double>(part.number_of_node(i));
+      if (!is_known[point]) point_number_[point] = static_cast<double>(part.number_of_node(i));
       is_known[point] = true;
     }
 }
 
-// Impulse of contact over the step, by the step: the mean force.
-void FieldObserver::fill_contact_force(const Model& model) {
-  std::vector<double>& values = snapshot_.point_fields[2].values;
-  for (std::size_t p = 0; p < node_of_point_.size(); ++p) {
-    for (std::size_t i = 0; i < 3; ++i) values[3 * p + i] = 0;
-    for (const ContactScene& scene : model.contacts) {
-      const int slave = scene.surface.slave(node_of_point_[p]);
-      if (slave < 0) continue;
-      const Eigen::Vector3d impulse = scene.normal_impulse[static_cast<std::size_t>(slave)] +
-                                      scene.friction_impulse[static_cast<std::size_t>(slave)];
-      for (std::size_t i = 0; i < 3; ++i)
-        values[3 * p + i] += impulse[static_cast<Eigen::Index>(i)] / model.times.mean();
-    }
+void FieldObserver::fill_points(const Model& model) {
+  for (std::size_t f = 0; f < point_values_.size(); ++f) {
+    FieldArray& field = snapshot_.point_fields[f];
+    const auto components = static_cast<std::size_t>(field.components);
+    for (std::size_t p = 0; p < node_of_point_.size(); ++p)
+      point_values_[f](model, p, &field.values[components * p]);
   }
 }
 
+void FieldObserver::note_thickness(const Model& model) {
+  for (const PartInModel& part : model.parts) {
+    std::vector<double>& of_part = thickness_.emplace_back();
+    if (part.rigid >= 0 || !traits_of(model.blocks[part.block].element).has_thickness) continue;
+    for (std::size_t e = 0; e < part.element_slot.size(); ++e)
+      of_part.push_back(sample_of(model, part, e).thickness);
+  }
+}
+
+// Of hexahedra and shells that are not rigid.
+void FieldObserver::strain_of(const ElementSample& sample, const Cell& at, double* out) const {
+  std::fill_n(out, 6, ElementSample::undefined);
+  const Topology& topology = snapshot_.topology;
+  const auto first = static_cast<std::size_t>(topology.offset[at.number]),
+             count = static_cast<std::size_t>(topology.offset[at.number + 1]) - first;
+  const bool shell = count == 4;
+  if (count < 4 || (shell && thickness_[at.part].empty())) return;
+  std::array<Eigen::Vector3d, 8> before, now;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto point = static_cast<std::size_t>(topology.connectivity[first + k]);
+    before[k] = Eigen::Vector3d(&reference_[3 * point]);
+    now[k] = Eigen::Vector3d(&snapshot_.points[3 * point]);
+  }
+  const std::span<const Eigen::Vector3d> from(before.data(), count), to(now.data(), count);
+  const SymmetricTensor<double> strain = logarithmic_strain(
+      shell ? deformation_of_shell(from, to, sample.thickness / thickness_[at.part][at.place])
+            : deformation_of_hexahedron(from, to));
+  std::ranges::copy(std::array{strain.xx, strain.yy, strain.zz, strain.xy, strain.yz, strain.xz}, out);
+}
+
 void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
-                              FieldArray& field) {
+                              FieldArray& field) const {
   double* values = &field.values[static_cast<std::size_t>(field.components) * at.number];
   switch (source.kind) {
     case CellSource::Kind::part:
@@ -178,6 +235,9 @@ void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sam
       return;
     case CellSource::Kind::variable:
       source.variable->values(sample, values);
+      return;
+    case CellSource::Kind::strain:
+      strain_of(sample, at, values);
       return;
     case CellSource::Kind::history:
       *values = sample.named(field.name);
@@ -192,7 +252,7 @@ void FieldObserver::fill_cells(const Model& model) {
       if (part.element_slot[e] < 0 && part.rigid < 0) continue;
       const ElementSample sample = sample_of(model, part, e);
       for (std::size_t k = 0; k < cell_source_.size(); ++k)
-        fill_cell(cell_source_[k], sample, {p, part.number_of_element(e), cell}, snapshot_.cell_fields[k]);
+        fill_cell(cell_source_[k], sample, {p, e, part.number_of_element(e), cell}, snapshot_.cell_fields[k]);
       ++cell;
     }
   }
@@ -205,14 +265,8 @@ const Snapshot& FieldObserver::observe(const Model& model) {
     take_topology(model);
     ++snapshot_.topology_version;
   }
+  take_positions(model);
   fill_points(model);
-  for (std::size_t i = 0; i < reference_.size(); ++i)
-    snapshot_.point_fields[0].values[i] = snapshot_.points[i] - reference_[i];
-  for (std::size_t p = 0; p < node_of_point_.size(); ++p)
-    for (std::size_t i = 0; i < 3; ++i)
-      snapshot_.point_fields[1].values[3 * p + i] =
-          model.nodes.record[static_cast<std::size_t>(node_of_point_[p])].velocity[i];
-  if (!model.contacts.empty()) fill_contact_force(model);
   fill_cells(model);
   return snapshot_;
 }

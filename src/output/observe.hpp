@@ -1,13 +1,15 @@
 #pragma once
 /// Output of a model: fields, history rows, end state.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "src/fields/cell_variables.hpp"
+#include "src/fields/contact_fields.hpp"
 #include "src/model/model.hpp"
-#include "src/output/cell_variables.hpp"
 #include "src/output/history.hpp"
 #include "src/output/snapshot.hpp"
 #include "src/output/summary.hpp"
@@ -37,34 +39,44 @@ class FieldObserver {
  private:
   /// What fills a field of cells.
   struct CellSource {
-    enum class Kind { part, element, variable, history };
+    enum class Kind { part, element, variable, strain, history };
     Kind kind;
     const CellVariable* variable = nullptr;
   };
+  /// What fills a field of points.
+  using PointValues = std::function<void(const Model&, std::size_t point, double* out)>;
 
-  /// Of which part, which of its elements, and which of all cells.
+  /// Of which part, the place among its elements, and which of all cells.
   struct Cell {
-    std::size_t part;
+    std::size_t part, place;
     std::int64_t element;  ///< its number in the mesh
     std::size_t number;
   };
 
-  static void fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
-                        FieldArray& field);
+  void fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
+                 FieldArray& field) const;
+  void add_point_fields(const Model& model, std::span<const std::string> variables);
+  void add_point_field(FieldArray field, PointValues values);
+  void add_contact_field(const PointVariable& variable);
+  void note_thickness(const Model& model);
+  void strain_of(const ElementSample& sample, const Cell& at, double* out) const;
   void add_cell_fields(const Model& model, std::span<const std::string> variables);
   void add_cell_field(std::string_view name, CellSource source);
   void take_topology(const Model& model);
+  void take_positions(const Model& model);
+  void number_points(const Model& model);
   void fill_points(const Model& model);
-  void fill_node_ids(const Model& model);
-  void fill_contact_force(const Model& model);
   void fill_cells(const Model& model);
 
   Snapshot snapshot_;
   std::vector<int> node_of_point_;
   std::vector<std::int64_t> point_of_node_;
-  std::int64_t deleted_ = 0;             ///< elements, when the topology was taken
-  std::vector<CellSource> cell_source_;  ///< of each cell field
+  std::int64_t deleted_ = 0;               ///< elements, when the topology was taken
+  std::vector<CellSource> cell_source_;    ///< of each cell field
+  std::vector<PointValues> point_values_;  ///< of each point field
   std::vector<double> reference_;
+  std::vector<double> point_number_;            ///< of each point, with mesh files
+  std::vector<std::vector<double>> thickness_;  ///< at the start, by part and element, for strains of shells
 };
 
 /// Names of the history's columns: time, step, energies, momenta, and the mean velocity of every part (of the

@@ -2,6 +2,7 @@
 
 #include "src/output/observe.hpp"
 #include "src/output/result_order.hpp"
+#include "src/output/result_tables.hpp"
 #include "src/output/rigid_columns.hpp"
 
 namespace brio {
@@ -29,38 +30,21 @@ Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBod
   return sum;
 }
 
+// Of a vector one for each axis.
+void add_column(std::string_view name, std::vector<std::string>& columns) {
+  if (!name.ends_with("_x")) {
+    columns.emplace_back(name);
+    return;
+  }
+  for (const char axis : {'x', 'y', 'z'})
+    columns.push_back(std::string(name.substr(0, name.size() - 1)) + axis);
+}
+
 }  // namespace
 
 std::vector<std::string> history_columns(const Model& model) {
-  std::vector<std::string> columns{"time",
-                                   "step",
-                                   "dt",
-                                   "kinetic",
-                                   "internal",
-                                   "hourglass",
-                                   "viscous",
-                                   "deleted",
-                                   "contact",
-                                   "friction",
-                                   "external",
-                                   "total",
-                                   "error_relative",
-                                   "contact_added_max",
-                                   "momentum_x",
-                                   "momentum_y",
-                                   "momentum_z",
-                                   "angular_momentum_x",
-                                   "angular_momentum_y",
-                                   "angular_momentum_z",
-                                   "linear_imbalance",
-                                   "angular_imbalance",
-                                   "support_impulse_x",
-                                   "support_impulse_y",
-                                   "support_impulse_z",
-                                   "wall_impulse_x",
-                                   "wall_impulse_y",
-                                   "wall_impulse_z",
-                                   "deleted_elements"};
+  std::vector<std::string> columns;
+  for (const HistoryColumn& column : common_columns()) add_column(column.name, columns);
   for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p)
     for (const char* axis : {".velocity_x", ".velocity_y", ".velocity_z"})
       columns.push_back(model.parts[p].name + axis);

@@ -46,6 +46,7 @@ Contribution resolve_scene(ContactScene& scene, Model& model, ThreadTeam& team) 
   model.stages[Stage::contact_search] += scene.step.search_seconds;
   model.stages[Stage::contact] -= scene.step.search_seconds;
   if (model.forces) add_forces(*model.forces, scene, model.walls);
+  model.impulse_sums.add(scene, model.nodes.size(), model.times.mean());
   return contribution_of(scene.step);
 }
 

@@ -50,8 +50,8 @@ function unit(quantity) {
 }
 
 function unitOfField(name) {
-  if (/^(stress|von_mises|pressure)/.test(name)) return unit("stress");
-  if (/^(displacement|thickness|radius|position)/.test(name)) return unit("length");
+  if (/^(stress|von_mises|pressure|contact_pressure)/.test(name)) return unit("stress");
+  if (/^(displacement|thickness|radius|position|contact_gap)/.test(name)) return unit("length");
   if (/^velocity/.test(name)) return unit("velocity");
   if (/^contact_force/.test(name)) return unit("force");
   if (/^density/.test(name)) return unit("density");

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "src/output/cell_variables.hpp"
+#include "src/fields/cell_variables.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
@@ -67,7 +67,7 @@ TEST(CellVariables, AllStandsForTheDefaultWhatFollowsFromItAndHistories) {
   const auto of_solids = [](const CellVariable& variable) { return variable.of == nullptr; };
   EXPECT_EQ(named_variables(wanted, histories, of_solids),
             (std::vector<std::string>{"pressure", "default", "von_mises", "triaxiality", "internal_energy",
-                                      "temperature"}));
+                                      "strain", "temperature"}));
   const auto of_any = [](const CellVariable&) { return true; };
   EXPECT_EQ(named_variables(wanted, histories, of_any).size(), 2 + chosen_variables().size());
 }

@@ -45,6 +45,7 @@ void expect_committed(const std::string& name, const std::string& text, const st
 TEST(Schema, CommittedReferencesAreUpToDate) {
   expect_committed("deck.md", deck_reference(), "brio schema --markdown");
   expect_committed("study.md", study_reference(), "brio schema --study --markdown");
+  expect_committed("results.md", results_reference(), "brio schema --results");
 }
 
 /// What validate_decks.py says of each deck; nothing if Python lacks a package.

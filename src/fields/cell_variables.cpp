@@ -1,4 +1,4 @@
-#include "src/output/cell_variables.hpp"
+#include "src/fields/cell_variables.hpp"
 
 #include <algorithm>
 #include <array>
@@ -47,24 +47,48 @@ void beam_moment(const ElementSample& sample, double* out) { std::ranges::copy(s
 constexpr auto shells = &ElementTraits::has_thickness;
 constexpr auto beams = &ElementTraits::has_section;
 
-constexpr CellVariable chosen[] = {{"von_mises", 1, von_mises},
-                                   {"pressure", 1, pressure},
-                                   {"triaxiality", 1, triaxiality},
-                                   {"internal_energy", 1, internal_energy},
-                                   {"stress_top", 6, stress_top, shells},
-                                   {"stress_bottom", 6, stress_bottom, shells},
-                                   {"equivalent_plastic_strain_top", 1, plastic_strain_top, shells},
-                                   {"equivalent_plastic_strain_bottom", 1, plastic_strain_bottom, shells},
-                                   {"membrane_force", 6, membrane_force, shells},
-                                   {"bending_moment", 6, bending_moment, shells},
-                                   {"beam_force", 3, beam_force, beams},
-                                   {"beam_moment", 3, beam_moment, beams}};
-constexpr CellVariable by_default[] = {
-    {"stress", 6, stress}, {"thickness", 1, thickness}, {"radius", 1, radius}, {"density", 1, density}};
+constexpr CellVariable chosen[] = {
+    {"von_mises", 1, von_mises, nullptr, "stress", "of `stress`"},
+    {"pressure", 1, pressure, nullptr, "stress", "of `stress`, positive in compression"},
+    {"triaxiality", 1, triaxiality, nullptr, "-",
+     "of `stress`: mean over von Mises stress; 0 without stress"},
+    {"internal_energy", 1, internal_energy, nullptr, "energy", "elastic and plastic work on the element"},
+    {"strain", 6, nullptr, nullptr, "-",
+     "logarithmic (Hencky) strain ln V since the start, in the middle of a hexahedron, or of the middle "
+     "surface of a shell, with its thickness; NaN in beams and particles"},
+    {"stress_top", 6, stress_top, shells, "stress",
+     "at the outermost integration point on the side to which the normal, by the right-hand rule about the "
+     "nodes, points. Gauss points are not on the surface (at 0.906 of the half thickness of 5); those of "
+     "`quadrature: lobatto` are"},
+    {"stress_bottom", 6, stress_bottom, shells, "stress", "the same on the other side"},
+    {"equivalent_plastic_strain_top", 1, plastic_strain_top, shells, "-", "at the point of `stress_top`"},
+    {"equivalent_plastic_strain_bottom", 1, plastic_strain_bottom, shells, "-",
+     "at the point of `stress_bottom`"},
+    {"membrane_force", 6, membrane_force, shells, "force/length",
+     "integral of the stress over the thickness"},
+    {"bending_moment", 6, bending_moment, shells, "force",
+     "moment per length: integral of the place from the middle towards the top times the stress"},
+    {"beam_force", 3, beam_force, beams, "force", "axial force, shear forces along y and z of the section"},
+    {"beam_moment", 3, beam_moment, beams, "moment",
+     "in the middle of the element, on axes of the section: torque, bending moments about y and z"}};
+constexpr CellVariable by_default[] = {{"stress", 6, stress, nullptr, "", ""},
+                                       {"thickness", 1, thickness, nullptr, "", ""},
+                                       {"radius", 1, radius, nullptr, "", ""},
+                                       {"density", 1, density, nullptr, "", ""}};
+constexpr DefaultField told_by_default[] = {
+    {"stress", 6, "elements", "stress", "Cauchy stress, mean over the integration points"},
+    {"equivalent_plastic_strain", 1, "elements", "-", "largest of the integration points"},
+    {"damage", 1, "elements, where a material fails", "-", "largest of the integration points"},
+    {"thickness", 1, "elements, with shells", "length", "present thickness; 0 in other elements"},
+    {"radius", 1, "elements, with beams or particles", "length", "0 in other elements"},
+    {"density", 1, "elements, with particles", "density", "0 in other elements"},
+    {"part", 1, "elements, always", "-", "index of the part in the deck from 0"},
+    {"element_id", 1, "elements, always", "-", "number of the element in its mesh"}};
 
 }  // namespace
 
 std::span<const CellVariable> chosen_variables() { return chosen; }
+std::span<const DefaultField> default_fields() { return told_by_default; }
 
 const CellVariable& cell_variable(std::string_view name) {
   const auto* found = std::ranges::find(chosen, name, &CellVariable::name);
@@ -72,7 +96,7 @@ const CellVariable& cell_variable(std::string_view name) {
 }
 
 std::vector<std::string> named_variables(std::span<const std::string> wanted,
-                                         std::span<const std::string_view> histories,
+                                         std::span<const std::string_view> others,
                                          const std::function<bool(const CellVariable&)>& is_had) {
   std::vector<std::string> names;
   const auto add = [&](std::string_view name) {
@@ -86,7 +110,7 @@ std::vector<std::string> named_variables(std::span<const std::string> wanted,
     add(default_group);
     for (const CellVariable& variable : chosen)
       if (is_had(variable)) add(variable.name);
-    for (const std::string_view history : histories) add(history);
+    for (const std::string_view other : others) add(other);
   }
   return names;
 }

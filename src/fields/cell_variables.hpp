@@ -12,27 +12,37 @@
 
 namespace brio {
 
-/// What follows from what an element tells of itself.
+/// What follows from what an element tells of itself, or from where its nodes were and are.
 struct CellVariable {
   std::string_view name;
   int components;  ///< 1, 3, or 6 of a symmetric tensor: xx, yy, zz, xy, yz, xz
-  void (*values)(const ElementSample&, double* out);
+  void (*values)(const ElementSample&, double* out);  ///< null: of its nodes
   /// Of the kinds of elements that have it; null: of all. Elsewhere it is not a number.
-  bool ElementTraits::*of = nullptr;
+  bool ElementTraits::*of;
+  std::string_view unit, meaning;  ///< for the manual
+
+  bool is_partial() const { return of != nullptr || values == nullptr; }
 };
 
-/// Those that a deck can name: of the stress that is written, energy, and of shells and beams alone.
+/// Those that a deck can name: of the stress that is written, energy, strain, and of shells and beams alone.
 std::span<const CellVariable> chosen_variables();
 /// Of these or of those that stand in the group `default`. \pre there is one of that name
 const CellVariable& cell_variable(std::string_view name);
+/// Fields that stand in the group `default`, or are written in any case.
+struct DefaultField {
+  std::string_view name;
+  int components;
+  std::string_view of, unit, meaning;  ///< for the manual
+};
+std::span<const DefaultField> default_fields();
 
 /// Groups of variables.
 inline constexpr std::string_view default_group = "default", all_group = "all";
 
 /// Names of a list, with `all` in place of what it stands for: `default`, variables of kinds of elements that
-/// the scene has, the histories.
+/// the scene has, and others: the histories, and fields of points.
 std::vector<std::string> named_variables(std::span<const std::string> wanted,
-                                         std::span<const std::string_view> histories,
+                                         std::span<const std::string_view> others,
                                          const std::function<bool(const CellVariable&)>& is_had);
 
 }  // namespace brio

@@ -1,0 +1,31 @@
+#include "contact/impulse_sums.hpp"
+
+#include "contact/scene.hpp"
+
+namespace brio {
+
+void ImpulseSums::add(const ContactScene& scene, std::size_t nodes, double step) {
+  duration_ += step;
+  place_.resize(nodes, -1);
+  const auto vector = [](const Eigen::Vector3d& a) { return Vector3<double>{a[0], a[1], a[2]}; };
+  scene.pushed.for_each([&](std::size_t s) {
+    const int node = scene.surface.node[s];
+    if (node < 0) return;
+    int& place = place_[static_cast<std::size_t>(node)];
+    if (place < 0) {
+      place = static_cast<int>(sum_.size());
+      sum_.push_back({.node = node});
+    }
+    OfNode& sum = sum_[static_cast<std::size_t>(place)];
+    sum.normal = sum.normal + vector(scene.normal_impulse[s]);
+    sum.friction = sum.friction + vector(scene.friction_impulse[s]);
+  });
+}
+
+void ImpulseSums::begin_interval() {
+  for (const OfNode& one : sum_) place_[static_cast<std::size_t>(one.node)] = -1;
+  sum_.clear();
+  duration_ = 0;
+}
+
+}  // namespace brio

@@ -1,0 +1,21 @@
+#pragma once
+/// Logarithmic strain of elements, of their middle, from where their nodes were and are.
+
+#include <Eigen/Dense>
+#include <span>
+
+#include "src/base/tensor.hpp"
+
+namespace brio {
+
+/// Hencky strain ln V of a deformation gradient F = V R; not a number where F is singular.
+SymmetricTensor<double> logarithmic_strain(const Eigen::Matrix3d& deformation_gradient);
+
+/// Deformation gradient in the middle of a hexahedron. \param before, now eight corners, x y z
+Eigen::Matrix3d deformation_of_hexahedron(std::span<const Eigen::Vector3d> before,
+                                          std::span<const Eigen::Vector3d> now);
+/// In the middle of the middle surface of a shell of four corners, its normal stretched as its thickness.
+Eigen::Matrix3d deformation_of_shell(std::span<const Eigen::Vector3d> before,
+                                     std::span<const Eigen::Vector3d> now, double thickness_stretch);
+
+}  // namespace brio

@@ -7,7 +7,7 @@ build="g++ cmake ninja-build libeigen3-dev libhdf5-dev libnetcdf-dev libyaml-cpp
 test="libgtest-dev libgmp-dev libboost-dev clang clang-format python3 python3-jsonschema python3-yaml python3-h5py locales-all"
 study="gnuplot-nox"
 gmsh="gmsh"
-paraview="paraview python3-paraview xvfb xauth"
+paraview="paraview python3-paraview python3-pil python3-yaml python3-h5py xvfb xauth"
 browser="chromium"
 tidy="clang-tidy"
 

@@ -1,45 +1,53 @@
-"""Pictures of a result, drawn offscreen by ParaView (5.11 or later).
+"""Pictures and animations of a result, drawn offscreen by ParaView (5.11 or later).
 
     xvfb-run -a pvbatch docs/render.py RESULT.xdmf2 --output PREFIX [options]
 
 (where ParaView stops with "bad X server connection", the server was caught restarting: add -s -noreset to xvfb-run)
 
-writes PREFIX_0.png, PREFIX_1.png, ... one for each time, at most 100 kB each, and prints what it drew.
+writes PREFIX_0.png, PREFIX_1.png, ... one for each time, and prints what it drew; with --animation one GIF.
 
   --times T ...        simulated times; a number followed by % is a part of the last time; default 0 25 50 75 100 %
-  --color FIELD        a point or cell field; of vectors the magnitude, of stress von Mises; without it, parts in grey
+  --animation FILE.gif all dumps, in a loop of --seconds S (default 5); --output is not needed
+  --color FIELD        a point or cell field; of vectors the magnitude, of stress von Mises; `part`: each part by its
+                       name; without it, in grey
   --range MIN MAX      of the colours; default what occurs at the times drawn
+  --hide PART ...      do not draw these parts; brick_* stands for all that begin so
+  --fade PART ...      draw these parts see-through
   --camera X Y Z       direction from the scene to the eye; default 1 -2 0.7, z is up
   --zoom FACTOR        above 1 is closer
   --clip X Y Z         cut the scene open through its middle, normal to this direction
-  --box X0 X1 Y0 Y1 Z0 Z1  what to frame; default all that occurs, debris too
+  --box X0 X1 Y0 Y1 Z0 Z1  what to frame; default all that occurs and is drawn, debris too
   --hide-edges         surface without the edges of elements
   --thicken            beams as tubes and particles as spheres of their radius
   --size WIDTH HEIGHT  default 800 600
+  --largest BYTES      fewer colours, then fewer pixels, until a picture has no more
 """
 import argparse
 import os
-import struct
 import sys
-import zlib
 
 import numpy as np
 from paraview import simple
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData
-from vtkmodules.vtkIOImage import vtkPNGReader
-from vtkmodules.vtkImagingColor import vtkImageQuantizeRGBToIndex
 
-LARGEST_PICTURE = 100_000  # bytes
+sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from render_deck import Deck, ranges  # noqa: E402
+from render_files import drawn, save_animation, save_picture  # noqa: E402
+
+PART_COLOURS = [(0.55, 0.63, 0.80), (0.99, 0.70, 0.38), (0.55, 0.80, 0.60), (0.90, 0.54, 0.76), (0.80, 0.75, 0.45),
+                (0.60, 0.85, 0.88), (0.77, 0.60, 0.52), (0.70, 0.70, 0.70)]
 
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("result")
-    parser.add_argument("--output", required=True)
+    parser.add_argument("--output")
     parser.add_argument("--times", nargs="+", default=["0%", "25%", "50%", "75%", "100%"])
+    parser.add_argument("--animation")
+    parser.add_argument("--seconds", type=float, default=5.0)
     parser.add_argument("--color")
     parser.add_argument("--range", nargs=2, type=float)
+    parser.add_argument("--hide", nargs="+", default=[])
+    parser.add_argument("--fade", nargs="+", default=[])
     parser.add_argument("--camera", nargs=3, type=float, default=[1.0, -2.0, 0.7])
     parser.add_argument("--zoom", type=float, default=1.0)
     parser.add_argument("--clip", nargs=3, type=float)
@@ -47,7 +55,13 @@ def arguments():
     parser.add_argument("--hide-edges", action="store_true")
     parser.add_argument("--thicken", action="store_true")
     parser.add_argument("--size", nargs=2, type=int, default=[800, 600])
-    return parser.parse_args()
+    parser.add_argument("--largest", type=int)
+    options = parser.parse_args()
+    if not options.output and not options.animation:
+        parser.error("one of --output and --animation is required")
+    if options.animation and not options.animation.endswith(".gif"):
+        parser.error("--animation writes a .gif")
+    return options
 
 
 def chosen_times(words, available):
@@ -74,7 +88,17 @@ def von_mises(source):
                              Function=expression)
 
 
-def colour_by(displays, place, name, components, limits, view):
+def only_parts(source, numbers):
+    """The cells of some parts."""
+    found = []
+    for first, last in ranges(numbers):
+        part = simple.Threshold(Input=source, Scalars=["CELLS", "part"], ThresholdMethod="Between")
+        part.LowerThreshold, part.UpperThreshold = first - 0.5, last + 0.5
+        found.append(part)
+    return found[0] if len(found) == 1 else simple.AppendDatasets(Input=found)
+
+
+def colour_by(displays, place, name, components, limits, unit, view):
     table = simple.GetColorTransferFunction(name)
     table.ApplyPreset("Viridis (matplotlib)", True)
     table.NanColor = [0.75, 0.75, 0.75]  # what does not have the field
@@ -84,13 +108,33 @@ def colour_by(displays, place, name, components, limits, view):
         simple.ColorBy(display, (own_place, name) if components == 1 else (own_place, name, "Magnitude"))
     table.RescaleTransferFunction(*limits)
     bar = simple.GetScalarBar(table, view)
-    bar.Title = name.replace("_", " ")
+    bar.Title = name.replace("_", " ") + (f" ({unit})" if unit else "")
     bar.ComponentTitle = "" if components == 1 else "magnitude"
+    style_bar(bar)
+
+
+def style_bar(bar):
     bar.TitleColor = bar.LabelColor = [0.1, 0.1, 0.1]
     bar.TitleFontSize, bar.LabelFontSize = 16, 14
     bar.ScalarBarLength = 0.45
     bar.WindowLocation = "Lower Right Corner"
     bar.Visibility = 1
+
+
+def colour_by_part(displays, deck, shown, view):
+    table = simple.GetColorTransferFunction("part")
+    table.InterpretValuesAsCategories = 1
+    table.AnnotationsInitialized = 1
+    table.Annotations = [text for i, part in enumerate(deck.parts) for text in (str(i), part)]
+    table.IndexedColors = [c for i in range(len(deck.parts)) for c in PART_COLOURS[i % len(PART_COLOURS)]]
+    for display in displays:
+        own_place = "POINTS" if "Glyph" in str(display.Input.SMProxy.GetXMLName()) else "CELLS"
+        simple.ColorBy(display, (own_place, "part"))
+    if len(shown) > 12:
+        return
+    bar = simple.GetScalarBar(table, view)
+    bar.Title, bar.ComponentTitle = "part", ""
+    style_bar(bar)
 
 
 def limits_over(source, times, place, name, components):
@@ -104,13 +148,14 @@ def limits_over(source, times, place, name, components):
     return (lower, upper) if upper > lower else (lower - 0.5, upper + 0.5)
 
 
-def box_over(source, times):
-    """The box that holds the scene at all times, so that the camera can stand still."""
+def box_over(sources, times):
+    """The box that holds what is drawn at all times, so that the camera can stand still."""
     box = [float("inf"), float("-inf")] * 3
     for time in times:
-        source.UpdatePipeline(time)
-        bounds = source.GetDataInformation().GetBounds()
-        box = [min(a, b) if i % 2 == 0 else max(a, b) for i, (a, b) in enumerate(zip(box, bounds))]
+        for source in sources:
+            source.UpdatePipeline(time)
+            bounds = source.GetDataInformation().GetBounds()
+            box = [min(a, b) if i % 2 == 0 else max(a, b) for i, (a, b) in enumerate(zip(box, bounds))]
     return box
 
 
@@ -131,129 +176,134 @@ def place_camera(view, box, direction, zoom, aspect):
     view.CameraViewUp = list(up)
 
 
-def chunk(kind, data):
-    """A chunk of a PNG file."""
-    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+def thick_shapes(source, time):
+    """Tubes and spheres. A sphere of its radius in the middle of a beam is inside its tube, so that beams and
+    particles need not be told apart."""
+    if "radius" not in source.CellData.keys():
+        return []
+    with_radius = simple.Threshold(Input=source, Scalars=["CELLS", "radius"])
+    with_radius.ThresholdMethod, with_radius.UpperThreshold = "Above Upper Threshold", 1e-30
+    on_points = simple.CellDatatoPointData(Input=with_radius, PassCellData=1)
+    surface = simple.ExtractSurface(Input=on_points)
+    tubes = simple.Tube(Input=surface, Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar", NumberofSides=12)
+    tubes.UpdatePipeline(time)
+    shapes = [tubes] if tubes.GetDataInformation().GetNumberOfPoints() > 0 else []  # ParaView cannot show what is empty
+    on_cells = simple.PointDatatoCellData(Input=with_radius)  # centres have what cells have
+    centres = simple.CellCenters(Input=on_cells, VertexCells=1)
+    spheres = simple.Glyph(Input=centres, GlyphType="Sphere", ScaleArray=["POINTS", "radius"], ScaleFactor=2.0,
+                           GlyphMode="All Points")
+    return shapes + [spheres]
 
 
-def drawn(path, view, pixels):
-    """The view as height x width x 3 bytes. Drawn twice as large: edges come out half a pixel wide."""
-    simple.SaveScreenshot(path, view, ImageResolution=[2 * n for n in pixels])
-    reader = vtkPNGReader()
-    reader.SetFileName(path)
-    reader.Update()
-    colours = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-    width, height = pixels
-    return colours.reshape(height, 2, width, 2, -1)[..., :3].mean(axis=(1, 3)).astype(np.uint8)
+class Scene:
+    """What is drawn of a result."""
+
+    def __init__(self, options):
+        self.options = options
+        self.reader = simple.OpenDataFile(options.result)
+        if self.reader is None:
+            sys.exit(f"ParaView cannot open {options.result}")
+        self.deck = Deck(options.result)
+        available = list(self.reader.TimestepValues)
+        self.times = available if options.animation else chosen_times(options.times, available)
+        self.reader.UpdatePipeline(self.times[0])
+        source = self.reader
+        if options.color == "stress":
+            information(source, "stress")
+            source, options.color = von_mises(source), "von Mises stress"
+            source.UpdatePipeline(self.times[0])
+        self.colour = information(source, options.color) if options.color else None
+        hidden, faded = self.deck.numbers(options.hide), self.deck.numbers(options.fade)
+        self.shown = set(range(len(self.deck.parts))) - hidden - faded
+        if not self.shown:
+            sys.exit("all parts are hidden or faded")
+        self.solid = source if not hidden and not faded else only_parts(source, self.shown)
+        self.faded = [only_parts(source, faded - hidden)] if faded - hidden else []
+        self.box = options.box or box_over([self.solid] + self.faded, self.times)
+        self.limits = options.range
+        if self.colour and options.color != "part" and not self.limits:
+            self.limits = limits_over(self.solid, self.times, self.colour[0], options.color, self.colour[1])
+
+    def clipped(self, source):
+        if not self.options.clip:
+            return source
+        clip = simple.Clip(Input=source, ClipType="Plane", Crinkleclip=1)
+        clip.ClipType.Origin = [(self.box[0] + self.box[1]) / 2, (self.box[2] + self.box[3]) / 2,
+                                (self.box[4] + self.box[5]) / 2]
+        clip.ClipType.Normal = self.options.clip
+        return clip
+
+    def show(self, view):
+        displays = []
+        solid = self.clipped(self.solid)
+        solid.UpdatePipeline(self.times[0])
+        thick = thick_shapes(solid, self.times[0]) if self.options.thicken else []
+        for shape in [solid] + thick + [self.clipped(faded) for faded in self.faded]:
+            display = simple.Show(shape, view)
+            is_faded = len(displays) > len(thick)
+            with_edges = not (self.options.hide_edges or displays)
+            display.Representation = "Surface With Edges" if with_edges else "Surface"
+            display.EdgeColor = [0.15, 0.15, 0.15]
+            display.LineWidth = 1.0
+            display.DiffuseColor = [0.75, 0.78, 0.82]
+            display.Opacity = 0.2 if is_faded else 1.0
+            simple.ColorBy(display, None)
+            displays.append(display)
+        solid_displays = displays[:1 + len(thick)]
+        name = self.options.color
+        if name == "part":
+            colour_by_part(solid_displays, self.deck, self.shown, view)
+        elif self.colour:
+            colour_by(solid_displays, self.colour[0], name, self.colour[1], self.limits, self.deck.unit(name), view)
+
+    def cells_at(self, time):
+        self.reader.UpdatePipeline(time)
+        return self.reader.GetDataInformation().GetNumberOfCells()
 
 
-def write_with_palette(path, colours, number):
-    """A PNG file of so many different colours: a third of the size of one with all, no difference to see."""
-    height, width, _ = colours.shape
-    image = vtkImageData()
-    image.SetDimensions(width, height, 1)
-    image.GetPointData().SetScalars(numpy_to_vtk(colours.reshape(-1, 3), deep=True))
-    quantized = vtkImageQuantizeRGBToIndex()
-    quantized.SetInputData(image)
-    quantized.SetNumberOfColors(number)
-    quantized.Update()
-    index = vtk_to_numpy(quantized.GetOutput().GetPointData().GetScalars())
-    rows = index.astype(np.uint8).reshape(height, width)[::-1]
-    rows = np.hstack([np.zeros((height, 1), np.uint8), rows])  # every row begins with its filter: none
-    table = quantized.GetLookupTable()
-    palette = b"".join(bytes(round(255 * c) for c in table.GetTableValue(i)[:3])
-                       for i in range(table.GetNumberOfTableValues()))
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0))
-                   + chunk(b"PLTE", palette) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 9)) + chunk(b"IEND", b""))
-
-
-def save(path, view, size):
-    """Fewer colours, then fewer pixels, until the picture is small enough."""
-    for scale, number in ((1.0, 256), (1.0, 64), (1.0, 32), (0.85, 64), (0.7, 64), (0.5, 64)):
-        pixels = [int(scale * n) for n in size]
-        write_with_palette(path, drawn(path, view, pixels), number)
-        if os.path.getsize(path) <= LARGEST_PICTURE:
-            break
-    return pixels
-
-
-def shown_shapes(source, options, time):
-    """What to draw: the scene itself, and tubes and spheres if they are asked for. A sphere of its radius in the
-    middle of a beam is inside its tube, so that beams and particles need not be told apart."""
-    shapes = [source]
-    if options.thicken and "radius" in source.CellData.keys():
-        with_radius = simple.Threshold(Input=source, Scalars=["CELLS", "radius"])
-        with_radius.ThresholdMethod, with_radius.UpperThreshold = "Above Upper Threshold", 1e-30
-        on_points = simple.CellDatatoPointData(Input=with_radius, PassCellData=1)
-        surface = simple.ExtractSurface(Input=on_points)
-        tubes = simple.Tube(Input=surface, Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar",
-                            NumberofSides=12)
-        tubes.UpdatePipeline(time)
-        if tubes.GetDataInformation().GetNumberOfPoints() > 0:  # ParaView cannot show what is empty
-            shapes.append(tubes)
-        centres = simple.CellCenters(Input=with_radius, VertexCells=1)
-        shapes.append(simple.Glyph(Input=centres, GlyphType="Sphere", ScaleArray=["POINTS", "radius"],
-                                   ScaleFactor=2.0, GlyphMode="All Points"))
-    return shapes
-
-
-def main():
-    options = arguments()
-    reader = simple.OpenDataFile(options.result)
-    if reader is None:
-        sys.exit(f"ParaView cannot open {options.result}")
-    available = list(reader.TimestepValues)
-    times = chosen_times(options.times, available)
-    reader.UpdatePipeline(times[0])
-
-    source = reader
-    if options.color == "stress":
-        information(source, "stress")
-        source, options.color = von_mises(source), "von Mises stress"
-        source.UpdatePipeline(times[0])
-    colour = (*information(source, options.color),) if options.color else None
-    box = options.box or box_over(source, times)
-    limits = options.range or (limits_over(source, times, colour[0], options.color, colour[1]) if colour else None)
-    if options.clip:
-        source = simple.Clip(Input=source, ClipType="Plane", Crinkleclip=1)
-        source.ClipType.Origin = [(box[0] + box[1]) / 2, (box[2] + box[3]) / 2, (box[4] + box[5]) / 2]
-        source.ClipType.Normal = options.clip
-
-    view = simple.CreateRenderView(ViewSize=options.size)
+def white_view(size):
+    view = simple.CreateRenderView(ViewSize=size)
     view.UseColorPaletteForBackground = 0
     view.Background = [1.0, 1.0, 1.0]
     view.OrientationAxesVisibility = 1
     view.OrientationAxesLabelColor = [0.1, 0.1, 0.1]
-    displays = []
-    for shape in shown_shapes(source, options, times[0]):
-        display = simple.Show(shape, view)
-        display.Representation = "Surface" if options.hide_edges or displays else "Surface With Edges"
-        display.EdgeColor = [0.15, 0.15, 0.15]
-        display.LineWidth = 1.0
-        display.DiffuseColor = [0.75, 0.78, 0.82]
-        simple.ColorBy(display, None)
-        displays.append(display)
-    if colour:
-        colour_by(displays, colour[0], options.color, colour[1], limits, view)
-    simple.Render(view)  # the first picture places a camera of its own
-    place_camera(view, box, options.camera, options.zoom, options.size[0] / options.size[1])
+    return view
 
+
+def time_label(view):
     label = simple.Text()
-    label_display = simple.Show(label, view)
-    label_display.Color = [0.1, 0.1, 0.1]
-    label_display.FontSize = 16
-    label_display.WindowLocation = "Upper Left Corner"
-    for number, time in enumerate(times):
+    display = simple.Show(label, view)
+    display.Color = [0.1, 0.1, 0.1]
+    display.FontSize = 16
+    display.WindowLocation = "Upper Left Corner"
+    return label
+
+
+def main():
+    options = arguments()
+    scene = Scene(options)
+    view = white_view(options.size)
+    scene.show(view)
+    simple.Render(view)  # the first picture places a camera of its own
+    place_camera(view, scene.box, options.camera, options.zoom, options.size[0] / options.size[1])
+    label, unit = time_label(view), scene.deck.units.get("time", "")
+    frames = []
+    for number, time in enumerate(scene.times):
         view.ViewTime = time
-        label.Text = f"t = {time:.4g}"
+        label.Text = f"t = {time:.4g} {unit}".strip()
         simple.Render(view)
+        if options.animation:
+            frames.append(drawn(options.animation + ".png", view, options.size))
+            continue
         path = f"{options.output}_{number}.png"
-        pixels = save(path, view, options.size)
-        reader.UpdatePipeline(time)
-        cells = reader.GetDataInformation().GetNumberOfCells()
-        what = f", {options.color} from {limits[0]:.6g} to {limits[1]:.6g}" if colour else ""
-        print(f"{path}: time {time:.6g}, {cells} cells{what}, {pixels[0]} x {pixels[1]}, {os.path.getsize(path)} bytes")
+        pixels = save_picture(path, view, options.size, options.largest)
+        what = f", {options.color} from {scene.limits[0]:.6g} to {scene.limits[1]:.6g}" if scene.limits else ""
+        print(f"{path}: time {time:.6g}, {scene.cells_at(time)} cells{what}, {pixels[0]} x {pixels[1]}, "
+              f"{os.path.getsize(path)} bytes")
+    if options.animation:
+        os.remove(options.animation + ".png")
+        save_animation(options.animation, frames, options.seconds)
+        print(f"{options.animation}: {len(frames)} frames, {os.path.getsize(options.animation)} bytes")
 
 
 main()

@@ -51,7 +51,8 @@ void turn_to_global(NodalLoad& load, const Deck& deck, const std::string& system
   if (system.empty()) return;
   const Vector components = load.force;
   if (!load.bodies.empty())
-    load.force = from_components(axes_everywhere(deck, system, "a rigid part", place), components);
+    load.force =
+        from_components(axes_everywhere(deck, system, "a moment on a rigid part", place), components);
   const std::vector<SystemAxes> axes = axes_at_nodes(deck, system, load.nodes, place, model);
   for (std::size_t k = 0; k < axes.size(); ++k) {
     const bool across = components[0] != 0 || components[1] != 0;

@@ -221,10 +221,12 @@ void ForceSums::add_reaction(int condition, const Vector& impulse) {
 }
 
 void ForceSums::add_skew_support(int node, const Vector& impulse) {
-  for (const SkewShare& share : std::ranges::equal_range(skew, node, {}, &SkewShare::node)) {
-    Vector push = share.direction;
-    for (double& component : push) component *= dot(share.dual, impulse);
-    add_reaction(share.condition, push);
+  const auto comes_before = [](const SkewShare& share, int other) { return share.node < other; };
+  for (auto share = std::lower_bound(skew.begin(), skew.end(), node, comes_before);
+       share != skew.end() && share->node == node; ++share) {
+    Vector push = share->direction;
+    for (double& component : push) component *= dot(share->dual, impulse);
+    add_reaction(share->condition, push);
   }
 }
 

@@ -22,7 +22,7 @@ constexpr double other_direction = 1e-3;
 /// Independent directions of a node, at most three.
 struct Basis {
   int count = 0;
-  Matrix3d direction, orthonormal;  ///< rows
+  Matrix3d direction = Matrix3d::Zero(), orthonormal = Matrix3d::Zero();  ///< rows
 };
 
 [[noreturn]] void refuse(const PrescribedNodes& given, const double* x) {

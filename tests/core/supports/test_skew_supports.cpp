@@ -7,6 +7,7 @@
 
 #include "src/model/state.hpp"
 #include "src/step/relax.hpp"
+#include "src/sweep/erosion.hpp"
 #include "tests/core/supports/turned_scene.hpp"
 
 namespace brio {
@@ -345,6 +346,17 @@ TEST(SkewSupports, ForcesAlongACylindricalSystemAreRadialTangentialAndAxial) {
   EXPECT_EQ(seen, 14);
 }
 
+TEST(SkewSupports, ForcesOfRemovedNodesAreRemovedWithThem) {
+  NodalLoad forces;
+  forces.nodes = {2, 5, 7};
+  forces.own_force = {{2, 0, 0}, {5, 0, 0}, {7, 0, 0}};
+  ActiveLoad load{forces, {}};
+  remove_nodes(load, std::vector<int>{1, 5});
+  const auto& left = std::get<NodalLoad>(load.load);
+  EXPECT_EQ(left.nodes, (std::vector<int>{2, 7}));
+  EXPECT_EQ(left.own_force, (std::vector<Vector>{{2, 0, 0}, {7, 0, 0}}));
+}
+
 // ---- what is refused
 
 std::string fault_of_scene(const Deck& deck) {
@@ -412,6 +424,54 @@ TEST(SkewSupports, AThirdMotionInThePlaneOfTwoMustBeTheirSum) {
       fault_of_scene(driven_block({{10, component(10)}, {75, component(75)}, {130, 1.001 * component(130)}}))
           .find("is prescribed here and, otherwise"),
       std::string::npos);
+}
+
+// An acceleration and a velocity agree where the velocity at the start does.
+TEST(SkewSupports, MotionsOfDifferentKindsMustAgree) {
+  Deck deck = driven_block({{20, 0}, {200, 0}});
+  const auto motion = [&](std::size_t i) -> PrescribedMotion& {
+    return std::get<PrescribedMotion>(deck.boundary_conditions[i]);
+  };
+  motion(0).components[0].curve = Curve{{{0, 3}, {1e-3, 5}}};
+  motion(1).components[0].curve = Curve{{{0, -2000}}};
+  motion(1).kind = MotionKind::acceleration;
+  EXPECT_NE(fault_of_scene(deck).find("is prescribed here and, otherwise"), std::string::npos);
+  const double phi = std::numbers::pi / 9;
+  deck.initial_conditions = {moving("block", {3 * std::cos(phi), 3 * std::sin(phi), 7})};
+  EXPECT_EQ(fault_of_scene(deck), "");
+  std::swap(deck.boundary_conditions[0], deck.boundary_conditions[1]);
+  EXPECT_EQ(fault_of_scene(deck), "");
+  deck.initial_conditions = {moving("block", {-3 * std::cos(phi), -3 * std::sin(phi), 7})};
+  EXPECT_NE(fault_of_scene(deck).find("is prescribed here and, otherwise"), std::string::npos);
+}
+
+// Nodes that go with the velocity (speed, 0), given by two components that are not at right angles.
+TEST(SkewSupports, MotionsThroughAWallAreRefused) {
+  const auto towards_wall = [](double speed) {
+    const auto along_x = [&](double degrees) { return speed * std::cos(degrees * std::numbers::pi / 180); };
+    Deck deck = driven_block({{10, along_x(10)}, {75, along_x(75)}});
+    deck.boundary_conditions.push_back(RigidWall{{-0.7, 0, 0}, {1, 0, 0}, {}, 0});
+    return fault_of_scene(deck);
+  };
+  EXPECT_EQ(towards_wall(-199), "");
+  const std::string fault = towards_wall(-300);
+  EXPECT_NE(fault.find("through the rigid wall"), std::string::npos) << fault;
+  EXPECT_NE(fault.find("it would be 0.1 behind it at time 0.001"), std::string::npos) << fault;
+}
+
+TEST(SkewSupports, AxesThatDifferFromPlaceToPlaceAreNotThoseOfARigidPart) {
+  Deck deck = driven_block({});
+  deck.parts.push_back(box("ram", {1, 1, 1}, {1, 1, 1}, {0, 0, 3}, Rigid{}));
+  deck.coordinate_systems = {{"axle", CylindricalSystem{{5, 0, 0}, {0, 0, 1}}}};
+  deck.boundary_conditions = {along("axle", "ram", 2, 0)};
+  EXPECT_NE(fault_of_scene(deck).find("accepted is a rectangular system"), std::string::npos);
+  deck.boundary_conditions.clear();
+  NodalMoment moment;
+  moment.where.set = "ram";
+  moment.moment = {1, 0, 0};
+  moment.system = "axle";
+  deck.loads = {moment};
+  EXPECT_NE(fault_of_scene(deck).find("accepted is a rectangular system"), std::string::npos);
 }
 
 TEST(SkewSupports, NodesOnTheAxisHaveNoRadialDirection) {

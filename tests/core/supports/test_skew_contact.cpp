@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 
 #include "tests/core/supports/turned_scene.hpp"
@@ -70,6 +71,51 @@ TEST(SkewContact, NodesThatTouchAtTheStartMoveAlongTheirSupports) {
   EXPECT_FALSE(build_model(deck).initial_overlaps.empty());
   deck.time.end = 1e-3;
   expect_turned(deck, same_in_contact);
+}
+
+// Nodes of the edge of two planes at 60 degrees, one of which moves, are struck and rubbed.
+TEST(SkewContact, AnEdgeOfTwoPlanesThatIsStruckStaysOnBoth) {
+  Deck deck = struck_corner(1e-3);
+  const double c = 0.5, s = std::sqrt(3.0) / 2;
+  deck.coordinate_systems = {{"plane", RectangularSystem{{s, -c, 0}, {0, 0, 1}}}};
+  auto& east = std::get<PrescribedMotion>(deck.boundary_conditions[0]);
+  east.system = "plane";
+  east.components[0].curve = Curve{{{0, 1}}};
+  deck.parts[1].placement.translate[0] = -0.2;
+  deck.time.end = 4e-3;
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  double largest = 0, struck = 0;
+  test::run(model, deck, team, [&](Model& now) {
+    for (std::size_t i = 0; i < now.nodes.size(); ++i) {
+      const double* x = now.nodes.record[i].position;
+      const double* v = now.nodes.record[i].velocity;
+      if (std::popcount(static_cast<unsigned>(now.nodes.prescribed_translations(i))) < 2 || x[2] < 0.1)
+        continue;
+      largest = std::max({largest, std::abs(v[1]), std::abs(s * v[0] - c * v[1] - 1)});
+      const int slave = now.contacts[0].surface.slave(static_cast<int>(i));
+      struck += now.contacts[0].normal_impulse[static_cast<std::size_t>(slave)].norm();
+    }
+  });
+  EXPECT_GT(struck, 0);
+  EXPECT_LT(largest, 1e-13);
+  EXPECT_LT(model.energy.friction.at_step(), -1e-3 * model.energy.kinetic_start);
+  EXPECT_LE(model.energy.contact_added_max, 1e-6 * model.energy.kinetic_start);
+  EXPECT_LT(model.energy.error_max, 1e-3);
+  model.momentum.now = momentum(model.nodes).total;
+  EXPECT_LT(model.momentum.linear_imbalance(), 1e-13);
+  EXPECT_LT(model.momentum.angular_imbalance(), 1e-13);
+  // Reactions, those of contact among them, are along the normals of their planes and sum to those of all
+  // supports.
+  const std::vector<Vector> reactions = reactions_of(model);
+  const double size = std::sqrt(dot(reactions[2], reactions[2]));
+  EXPECT_GT(std::abs(reactions[0][0]), 1e-2 * size);
+  EXPECT_GT(std::abs(reactions[1][1]), 1e-2 * size);
+  EXPECT_NEAR(c * reactions[0][0] + s * reactions[0][1], 0, 1e-13 * size);
+  EXPECT_NEAR(reactions[1][0], 0, 1e-13 * size);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(reactions[0][i] + reactions[1][i] + reactions[2][i], model.momentum.supports.linear[i],
+                1e-12 * size);
 }
 
 Part panel(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Triple centre) {

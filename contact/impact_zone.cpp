@@ -69,21 +69,22 @@ class RigidFit {
     one.moment = one.inertia * (turning - one.angular_velocity);
     for (int c = 0; c < 6; ++c)
       if (one.prescribed[static_cast<std::size_t>(c)])
-        (c < 3 ? one.impulse[c] : one.moment[c - 3]) -= scaled(one, c).dot(support_);
+        (c < 3 ? one.impulse : one.moment) -= scaled(one, c).dot(support_) * one.axes.col(c % 3);
   }
 
  private:
   // Of a velocity component by the six of the zone.
   Vector6d derivative(const ZoneMember& one, int component) const {
-    Vector6d by = Vector6d::Unit(component);
-    if (component < 3) by.tail<3>() = (one.position - centre_).cross(Vector3d::Unit(component));
+    Vector6d by = Vector6d::Zero();
+    by.segment<3>(component < 3 ? 0 : 3) = one.axes.col(component % 3);
+    if (component < 3) by.tail<3>() = (one.position - centre_).cross(one.axes.col(component));
     return by;
   }
   Vector6d scaled(const ZoneMember& one, int component) const {
     return mass_.matrixL().solve(derivative(one, component));
   }
   static double velocity(const ZoneMember& one, int component) {
-    return component < 3 ? one.velocity[component] : one.angular_velocity[component - 3];
+    return (component < 3 ? one.velocity : one.angular_velocity).dot(one.axes.col(component % 3));
   }
 
   // In components scaled by the root of the mass matrix: change = B+ r, and the supports' B^T change.
@@ -207,15 +208,17 @@ class Zones {
       const RigidMotion& motion = body(u);
       one = {motion.mass, motion.centre, motion.velocity, motion.inertia, motion.angular_velocity};
       for (int axis = 0; axis < 3; ++axis) {
-        one.prescribed[static_cast<std::size_t>(axis)] = motion.inverse_mass[axis] == 0;
-        one.prescribed[static_cast<std::size_t>(axis + 3)] = motion.inverse_inertia(axis, axis) == 0;
+        one.prescribed[static_cast<std::size_t>(axis)] = motion.translation_is_given(axis);
+        one.prescribed[static_cast<std::size_t>(axis + 3)] = motion.rotation_is_given(axis);
       }
+      one.axes = motion.axes.transpose();
       return one;
     }
     const NodeRecord& record = nodes_.record[global(u)];
     one = {1 / record.inverse_mass, Vector3d(record.position), Vector3d(record.velocity)};
-    for (int axis = 0; axis < 3; ++axis)
-      one.prescribed[static_cast<std::size_t>(axis)] = nodes_.free_inverse_mass(global(u), axis) == 0;
+    one.prescribed = static_cast<unsigned>(nodes_.prescribed_translations(global(u)));
+    if (const SupportAxes* own = nodes_.own_axes(global(u)))
+      for (int i = 0; i < 9; ++i) one.axes(i % 3, i / 3) = own->linear.m[i / 3][i % 3];
     return one;
   }
 
@@ -250,14 +253,17 @@ class Zones {
       RigidMotion& motion = body(u);
       motion.impulse += one.impulse;
       motion.moment += one.moment;
-      motion.velocity += motion.inverse_mass.cwiseProduct(one.impulse);
+      motion.velocity += motion.free_inverse_mass() * one.impulse;
       motion.angular_velocity += motion.inverse_inertia * one.moment;
       return;
     }
     const auto s = static_cast<std::size_t>(u);
     double* velocity = nodes_.record[global(u)].velocity;
-    for (int axis = 0; axis < 3; ++axis)
-      velocity[axis] += nodes_.free_inverse_mass(global(u), axis) * one.impulse[axis];
+    const Vector3<double> change =
+        nodes_.free_inverse_mass(global(u)) * Vector3<double>{one.impulse[0], one.impulse[1], one.impulse[2]};
+    velocity[0] += change.x;
+    velocity[1] += change.y;
+    velocity[2] += change.z;
     scene_.velocity[s] = Vector3d(velocity);
     scene_.zone_impulse[s] += one.impulse;
     scene_.in_contact.insert(u);

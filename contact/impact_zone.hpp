@@ -21,6 +21,7 @@ struct ZoneMember {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the position
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
   std::bitset<6> prescribed = 0;  ///< components of the velocity, then of the angular velocity
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: directions of these components
   /// Impulse and moment by the other members, without supports: they sum to zero. A prescribed component
   /// keeps its velocity: its support balances the impulse.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();

@@ -339,9 +339,8 @@ class Resolution {
       const Vector3d before(nodes_.velocity_before[node].component), after(nodes_.record[node].velocity);
       step.normal_work_before += impulse.dot(before);
       step.normal_work_after += impulse.dot(after);
-      Vector3d reaction = Vector3d::Zero();
-      for (int axis = 0; axis < 3; ++axis)
-        if (nodes_.free_inverse_mass(node, axis) == 0) reaction[axis] = -impulse[axis];
+      const Vector3<double> given{impulse[0], impulse[1], impulse[2]};
+      const Vector3d reaction = to_eigen(nodes_.free_translations(node) * given - given);
       if (scene_.log && !reaction.isZero(0))
         scene_.log->supports.push_back({.node = scene_.surface.node[s], .impulse = reaction});
       const Vector3d position(nodes_.record[node].position);

@@ -17,12 +17,13 @@
 
 namespace brio {
 
-/// Three unknown velocities with their inverse mass: the translation of a node (diagonal; 0 along axes where
-/// motion is prescribed), its rotation (a multiple of one; 0 where prescribed), the translation or the
+/// Three unknown velocities with their inverse mass: the translation of a node (a multiple of the projection
+/// on the directions in which its motion is not prescribed), its rotation (likewise), the translation or the
 /// rotation of a rigid body.
 struct VelocityBlock {
   Vector3<double> velocity;
   SymmetricTensor<double> inverse_mass;  ///< or inverse inertia
+  double norm = 0;                       ///< its spectral norm, where that is known; 0: bounded
 };
 
 /// A translation: weight v + n_tilt (normal . v), where the tilt is a vector in the tangential plane, given
@@ -156,10 +157,6 @@ inline Vector3<double> tilt_of(const ConstraintRow& row, const TranslationEntry&
 }
 inline Vector3<double> impulse_of(const ConstraintRow& row) {
   return row.impulse * row.normal + row.friction;
-}
-inline Vector3<double> operator*(const SymmetricTensor<double>& a, const Vector3<double>& b) {
-  return {a.xx * b.x + a.xy * b.y + a.xz * b.z, a.xy * b.x + a.yy * b.y + a.yz * b.z,
-          a.xz * b.x + a.yz * b.y + a.zz * b.z};
 }
 inline Vector3<double> operator*(const Tensor<double>& a, const Vector3<double>& b) {
   return {a.m[0][0] * b.x + a.m[0][1] * b.y + a.m[0][2] * b.z,

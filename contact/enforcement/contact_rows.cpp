@@ -127,9 +127,12 @@ class Builder {
     return side;
   }
 
-  bool is_prescribed(int node, int axis) const {
-    return surface_.rigid_body(node) < 0 && !ties_.is_tied(node) &&
-           nodes_.free_inverse_mass(index(node), axis) == 0;
+  // Square of what of a vector is not prescribed.
+  double free_square(int node, const Vector3d& seen) const {
+    if (surface_.rigid_body(node) >= 0 || ties_.is_tied(node)) return seen.squaredNorm();
+    if (nodes_.record[index(node)].inverse_mass == 0) return 0;
+    const Vector all = to_vector(seen);
+    return dot(all, nodes_.free_translations(index(node)) * all);
   }
   bool turns(int node) const {
     if (!nodes_.has_rotations()) return false;
@@ -193,9 +196,7 @@ class Builder {
     const double left = size - spin.dot(inertia * spin);
     double free = 0;
     for_nodes(first, second, [&](int node, double weight) {
-      const Vector3d seen = weight * normal_ - spin.cross(position(nodes_, node) - middle);
-      for (int axis = 0; axis < 3; ++axis)
-        if (!is_prescribed(node, axis)) free += seen[axis] * seen[axis];
+      free += free_square(node, weight * normal_ - spin.cross(position(nodes_, node) - middle));
     });
     if (!(left > least_share_left * size) || !(free > least_share_free * size)) return false;
     rows_.add_row(to_vector(normal_), contact.gap, 0).impulse = contact.impulse;
@@ -393,15 +394,13 @@ class Builder {
     int& block = all_.block_of_node[index(node)];
     if (block >= 0) return block;
     const auto n = index(node);
-    const SymmetricTensor<double> inverse{nodes_.free_inverse_mass(n, 0),
-                                          nodes_.free_inverse_mass(n, 1),
-                                          nodes_.free_inverse_mass(n, 2),
-                                          0,
-                                          0,
-                                          0};
-    block = add_block(BlockOwner::Kind::node, node, {vector_of(nodes_.record[n].velocity), inverse},
-                      vector_of(nodes_.velocity_before[n].component),
-                      {.position = vector_of(nodes_.record[n].position)});
+    const bool skew = nodes_.own_axes(n) != nullptr && nodes_.prescribed_translations(n) != 0;
+    const double norm = skew && nodes_.prescribed_translations(n) != 7 ? nodes_.record[n].inverse_mass : 0;
+    block = add_block(
+        BlockOwner::Kind::node, node,
+        {vector_of(nodes_.record[n].velocity), nodes_.free_inverse_mass(n), norm},
+        vector_of(nodes_.velocity_before[n].component),
+        {.position = vector_of(nodes_.record[n].position), .skew = skew, .mass = skew ? nodes_.mass[n] : 0});
     return block;
   }
 
@@ -411,13 +410,12 @@ class Builder {
     if (block >= 0) return block;
     const auto n = index(node);
     const double* rate = nodes_.angular_velocity[n].component;
-    const auto inverse = [&](int axis) {
-      const bool given = !nodes_.prescribed.empty() && (nodes_.prescribed[n] >> (axis + 3) & 1) != 0;
-      return given ? 0 : rate[3];
-    };
+    const bool skew = nodes_.own_axes(n) != nullptr && nodes_.prescribed_rotations(n) != 0;
+    const double norm = skew && nodes_.prescribed_rotations(n) != 7 ? rate[3] : 0;
     block = add_block(BlockOwner::Kind::rotation_of_node, node,
-                      {vector_of(rate), {inverse(0), inverse(1), inverse(2), 0, 0, 0}},
-                      vector_of(nodes_.angular_velocity_before[n].component), {.turns = true});
+                      {vector_of(rate), nodes_.free_inverse_inertia(n), norm},
+                      vector_of(nodes_.angular_velocity_before[n].component),
+                      {.turns = true, .skew = skew, .mass = skew ? nodes_.rotational_inertia[n] : 0});
     return block;
   }
 
@@ -425,15 +423,17 @@ class Builder {
     int& block = all_.block_of_body[index(body)];
     if (block >= 0) return block;
     const RigidMotion& motion = bodies_[index(body)];
-    const Vector3d& inverse = motion.inverse_mass;
+    const bool skew = motion.has_own_axes();
     all_.body_inertia[index(body)] = symmetric(motion.inertia);
-    block = add_block(BlockOwner::Kind::body, body,
-                      {to_vector(motion.velocity), {inverse[0], inverse[1], inverse[2], 0, 0, 0}},
-                      to_vector(motion.velocity_before), {.position = to_vector(motion.centre)});
+    block = add_block(
+        BlockOwner::Kind::body, body,
+        {to_vector(motion.velocity), symmetric(motion.free_inverse_mass()), motion.inverse_mass.maxCoeff()},
+        to_vector(motion.velocity_before),
+        {.position = to_vector(motion.centre), .skew = skew, .mass = skew ? motion.mass : 0});
     add_block(BlockOwner::Kind::rotation_of_body, body,
               {to_vector(motion.angular_velocity), symmetric(motion.inverse_inertia)},
               to_vector(motion.angular_velocity_before),
-              {.turns = true, .inertia = &all_.body_inertia[index(body)]});
+              {.turns = true, .inertia = &all_.body_inertia[index(body)], .skew = skew});
     return block;
   }
 

@@ -253,7 +253,8 @@ void ImpulseSolver::Unconverged::add(const ConstraintRows& from, std::uint32_t i
       if (number[b] == no_row) {
         number[b] = static_cast<std::uint32_t>(blocks.size());
         const double* velocity = velocities[b].component;
-        blocks.push_back({{velocity[0], velocity[1], velocity[2]}, all_blocks[b].inverse_mass});
+        blocks.push_back(
+            {{velocity[0], velocity[1], velocity[2]}, all_blocks[b].inverse_mass, all_blocks[b].norm});
         block.push_back(static_cast<std::uint32_t>(b));
       }
       to.push_back(entries[e]);

@@ -20,8 +20,10 @@ constexpr double held_share = 1e-6;
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-// Bound of the spectral norm: exact where the matrix is diagonal.
-double norm_bound(const SymmetricTensor<double>& a) {
+// Bound of the spectral norm: exact where it is known or the matrix is diagonal.
+double norm_bound(const VelocityBlock& block) {
+  if (block.norm > 0) return block.norm;
+  const SymmetricTensor<double>& a = block.inverse_mass;
   const double xy = std::abs(a.xy);
   const double yz = std::abs(a.yz);
   const double xz = std::abs(a.xz);
@@ -69,7 +71,7 @@ bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<con
   // \param given impulse by one along the normal of the row. \param squared its most for any direction
   const auto moves = [&](int block, const Vector& given, double squared) {
     const SymmetricTensor<double>& inverse_mass = blocks[index(block)].inverse_mass;
-    return energy(inverse_mass, given) > held_share * squared * norm_bound(inverse_mass);
+    return energy(inverse_mass, given) > held_share * squared * norm_bound(blocks[index(block)]);
   };
   bool held = true;
   for (const TranslationEntry& entry : map.translations())
@@ -100,7 +102,7 @@ void ImpulseSolver::measure_blocks(std::span<const VelocityBlock> blocks, Thread
   block_norm_.resize(blocks.size());
   team.for_ranges(blocks.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      const double bound = norm_bound(blocks[b].inverse_mass);
+      const double bound = norm_bound(blocks[b]);
       block_bound_[b] = is_isotropic(blocks[b].inverse_mass) ? bound : -bound;
     }
   });

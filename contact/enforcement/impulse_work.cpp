@@ -17,18 +17,23 @@ Vector where_zero(const Vector& chosen, const Vector& value) {
 // well.
 Vector reaction_of(const VelocityBlock& block, const BlockPlace& place, const Vector& given) {
   Vector left = Vector{0, 0, 0} - given;
-  if (place.inertia != nullptr) left = left + *place.inertia * (block.inverse_mass * given);
+  const Vector change = block.inverse_mass * given;
+  if (place.inertia != nullptr) left = left + *place.inertia * change;
+  if (place.skew) return left + place.mass * change;
   return where_zero(diagonal(block.inverse_mass), left);
 }
 
-bool is_free(const SymmetricTensor<double>& a) { return a.xx != 0 && a.yy != 0 && a.zz != 0; }
+bool is_free(const VelocityBlock& block, const BlockPlace& place) {
+  const SymmetricTensor<double>& a = block.inverse_mass;
+  return !place.skew && a.xx != 0 && a.yy != 0 && a.zz != 0;
+}
 
 void account_supports(const RowMap& map, const Vector& impulse, std::span<const Vector> before,
                       std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
                       RowWork& work) {
   map.spread(impulse, [&](int b, const Vector& given) {
     const VelocityBlock& block = after[index(b)];
-    if (is_free(block.inverse_mass)) return;
+    if (is_free(block, places[index(b)])) return;
     const Vector reaction = reaction_of(block, places[index(b)], given);
     work.support_before += dot(reaction, before[index(b)]);
     work.support_after += dot(reaction, block.velocity);
@@ -76,7 +81,7 @@ void sum_reactions(const ConstraintRows& rows, std::span<const VelocityBlock> af
     if (row.impulse == 0) continue;
     RowMap(rows, row).spread(impulse_of(row), [&](int b, const Vector& given) {
       const VelocityBlock& block = after[index(b)];
-      if (!is_free(block.inverse_mass))
+      if (!is_free(block, places[index(b)]))
         reaction[index(b)] = reaction[index(b)] + reaction_of(block, places[index(b)], given);
     });
   }

@@ -13,6 +13,8 @@ struct BlockPlace {
   bool turns = false;                 ///< a rotation: its reactions are couples
   /// Of a rigid body of which some rotations are prescribed and others free; else not needed.
   const SymmetricTensor<double>* inertia = nullptr;
+  bool skew = false;  ///< supports are not along the global axes
+  double mass = 0;    ///< where they are not: of the block, or its rotational inertia without a tensor of it
 };
 
 /// Work J.v of all impulses J on all blocks, with the velocities v before and after the step; the mean of

@@ -15,7 +15,8 @@ struct RigidMotion {
   Eigen::Vector3d angular_velocity_before = Eigen::Vector3d::Zero();
   double mass = 0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();          ///< about the centre, at the present attitude
-  Eigen::Vector3d inverse_mass = Eigen::Vector3d::Zero();     ///< per axis; 0 where prescribed
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();         ///< rows: of components that are prescribed
+  Eigen::Vector3d inverse_mass = Eigen::Vector3d::Zero();     ///< along each of them; 0 where prescribed
   Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();  ///< of the rotations that are free; else 0
   /// Impulse of contact and walls on the body in this step, and its moment about the centre.
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
@@ -32,13 +33,23 @@ struct RigidMotion {
     const Eigen::Vector3d turn = arm.cross(given);
     impulse += given;
     moment += turn;
-    velocity += inverse_mass.cwiseProduct(given);
+    velocity += free_inverse_mass() * given;
     angular_velocity += inverse_inertia * turn;
   }
+  Eigen::Matrix3d free_inverse_mass() const { return axes.transpose() * inverse_mass.asDiagonal() * axes; }
+  bool translation_is_given(int axis) const { return inverse_mass[axis] == 0; }
+  bool rotation_is_given(int axis) const {
+    const Eigen::Vector3d along = axes.row(axis);
+    return along.dot(inverse_inertia * along) <= rounding * inverse_inertia.trace();
+  }
+  bool has_own_axes() const { return !axes.isIdentity(0); }
   /// Change of the velocity along a direction by a unit impulse along it.
   double inverse_mass_along(const Eigen::Vector3d& direction, const Eigen::Vector3d& arm) const {
     const Eigen::Vector3d turn = arm.cross(direction);
-    return direction.cwiseProduct(direction).dot(inverse_mass) + turn.dot(inverse_inertia * turn);
+    const Eigen::Vector3d along = axes * direction;
+    const double sum = along.cwiseProduct(along).dot(inverse_mass) + turn.dot(inverse_inertia * turn);
+    const double most = inverse_mass.maxCoeff() + turn.squaredNorm() * inverse_inertia.trace();
+    return sum > rounding * most ? sum : 0;
   }
 
   /// Saved and restored (src/base/state_archive.hpp).
@@ -47,6 +58,8 @@ struct RigidMotion {
     archive(centre, velocity, angular_velocity, velocity_before, angular_velocity_before, mass, inertia,
             inverse_mass, inverse_inertia, impulse, moment);
   }
+
+  static constexpr double rounding = 1e-14;  ///< of what supports along any axes leave free
 };
 
 /// Reaction of the supports of prescribed components to an impulse and a moment on a body.
@@ -59,11 +72,15 @@ struct RigidSupport {
 inline RigidSupport support_against(const RigidMotion& body, const Eigen::Vector3d& impulse,
                                     const Eigen::Vector3d& moment) {
   RigidSupport support{};
-  const Eigen::Vector3d left = body.inertia * (body.inverse_inertia * moment) - moment;
+  const Eigen::Vector3d pushed = body.axes * impulse;
+  const Eigen::Vector3d left = body.axes * (body.inertia * (body.inverse_inertia * moment) - moment);
+  Eigen::Vector3d held = Eigen::Vector3d::Zero(), turned = Eigen::Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
-    support.impulse[axis] = body.inverse_mass[axis] == 0 ? -impulse[axis] : 0;
-    support.moment[axis] = body.inverse_inertia(axis, axis) == 0 ? left[axis] : 0;
+    if (body.translation_is_given(axis)) held[axis] = -pushed[axis];
+    if (body.rotation_is_given(axis)) turned[axis] = left[axis];
   }
+  support.impulse = body.axes.transpose() * held;
+  support.moment = body.axes.transpose() * turned;
   support.work_before =
       support.impulse.dot(body.velocity_before) + support.moment.dot(body.angular_velocity_before);
   support.work_after = support.impulse.dot(body.velocity) + support.moment.dot(body.angular_velocity);

@@ -28,6 +28,8 @@ constexpr double least_searched_share = 0.75;
 constexpr double resolved_share = 1e-9;
 /// Additional displacement, over the smallest edge, so that no error of the solver remains.
 constexpr double surplus_share = 1e-8;
+/// Of a unit vector.
+constexpr double rounding_of_direction = 1e-9;
 constexpr int most_rounds = 50;
 /// If only the gap is missing, rounds continue as long as this many of them halve the missing gap.
 constexpr int rounds_to_halve = 10;
@@ -252,19 +254,23 @@ class GapMaker {
     known.nodes = static_cast<int>(near_[entry].size());
   }
 
-  bool is_free(int slave, int axis) const {
+  // Projection on the directions in which a node may be moved.
+  SymmetricTensor<double> free_directions(int slave) const {
     const int node = surface_.node[static_cast<std::size_t>(slave)];
     const auto n = static_cast<std::size_t>(node);
-    if (!nodes_.prescribed.empty() && (nodes_.prescribed[n] >> axis & 1) != 0) return false;
-    if (!surface_.tied.empty() && surface_.tied.main_part[n] >= 0) return false;
-    return surface_.rigid_body(node) < 0;
+    const bool tied = !surface_.tied.empty() && surface_.tied.main_part[n] >= 0;
+    if (tied || surface_.rigid_body(node) >= 0) return isotropic(0.0);
+    return nodes_.free_translations(n);
   }
   // Whether no node of either side can move along the normal.
   bool is_fixed(const SidedPair& pair) const {
     const Contact& contact = pair.contact;
-    for (std::size_t k = 0; k < contact.node.size(); ++k)
-      for (int axis = 0; axis < 3; ++axis)
-        if (contact.weight[k] * contact.normal[axis] != 0 && is_free(contact.node[k], axis)) return false;
+    const Vector3<double> normal{contact.normal[0], contact.normal[1], contact.normal[2]};
+    for (std::size_t k = 0; k < contact.node.size(); ++k) {
+      if (contact.weight[k] == 0) continue;
+      const Vector3<double> way = free_directions(contact.node[k]) * normal;
+      if (dot(way, way) > rounding_of_direction * rounding_of_direction) return false;
+    }
     return true;
   }
 
@@ -327,8 +333,7 @@ class GapMaker {
       if (block >= 0) return block;
       block = static_cast<int>(blocks_.size());
       members.push_back(slave);
-      const auto mobility = [&](int axis) { return is_free(slave, axis) ? 1.0 : 0.0; };
-      blocks_.push_back({{0, 0, 0}, {mobility(0), mobility(1), mobility(2), 0, 0, 0}});
+      blocks_.push_back({{0, 0, 0}, free_directions(slave)});
       return block;
     };
     for (const SidedPair& pair : found_) {

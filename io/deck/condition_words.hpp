@@ -10,7 +10,11 @@
 namespace brio {
 
 /// Components that a boundary condition can name, in the order of their axes.
-inline constexpr std::array<std::string_view, 6> component_words{"x", "y", "z", "rx", "ry", "rz"};
+using ComponentWords = std::array<std::string_view, 6>;
+inline constexpr ComponentWords component_words{"x", "y", "z", "rx", "ry", "rz"};
+
+/// The same along the axes of a cylindrical coordinate system.
+inline constexpr ComponentWords cylindrical_words{"r", "t", "z", "rr", "rt", "rz"};
 
 /// Keys of a prescribed motion.
 inline constexpr std::array<std::pair<std::string_view, MotionKind>, 3> motion_keys{

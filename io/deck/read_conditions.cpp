@@ -1,5 +1,5 @@
-#include "io/deck/condition_words.hpp"
 #include "io/deck/read_fields.hpp"
+#include "io/deck/read_systems.hpp"
 #include "io/mesh/generate_mesh.hpp"
 
 namespace brio {
@@ -29,12 +29,13 @@ void check_set(const YamlNode& node, const Slot& slot, SetNames names_of_sets) {
                                     accepted_words(set, names));
 }
 
-int axis_of(const YamlNode& node, const std::string& word) {
-  const auto found = std::find(component_words.begin(), component_words.end(), word);
-  if (found == component_words.end())
-    throw DeckError(node.place, "'" + word + "' is not a component of a motion; " +
-                                    accepted_words(word, {component_words.begin(), component_words.end()}));
-  return static_cast<int>(found - component_words.begin());
+int axis_of(const YamlNode& node, const std::string& word, const ComponentWords& words) {
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end())
+    throw DeckError(node.place, "'" + word + "' is not a component of a motion" +
+                                    (&words == &cylindrical_words ? " in a cylindrical system; " : "; ") +
+                                    accepted_words(word, {words.begin(), words.end()}));
+  return static_cast<int>(found - words.begin());
 }
 
 /// Prescribed rotations need nodes, or a body, that can turn.
@@ -43,12 +44,13 @@ void check_component(const YamlNode& node, const Slot& slot, const NodeSelection
   for (const Part* part : slot.known.parts_called(node, where.set.substr(0, where.set.find('.'))))
     if (!has_rotations(part->element) && !std::holds_alternative<Rigid>(part->element))
       throw DeckError(node.place, "the nodes of '" + part->name + "' do not turn: its elements are '" +
-                                      std::string(name_of(part->element)) + "'; accepted: x, y, z");
+                                      std::string(name_of(part->element)) +
+                                      "'; accepted: x, y, z, or r, t, z in a cylindrical system");
 }
 
-void add_component(const YamlNode& node, const Slot& slot, PrescribedMotion& motion, const std::string& word,
-                   Curve curve) {
-  const int axis = axis_of(node, word);
+void add_component(const YamlNode& node, const Slot& slot, PrescribedMotion& motion,
+                   const ComponentWords& words, const std::string& word, Curve curve) {
+  const int axis = axis_of(node, word, words);
   for (const PrescribedComponent& other : motion.components)
     if (other.axis == axis)
       throw DeckError(node.place, "component '" + word + "' is given twice; once is accepted");
@@ -72,12 +74,12 @@ void read_where(const YamlNode& node, const Slot& slot, const std::string& condi
 }
 
 void read_motion(const YamlNode& node, const Slot& slot, PrescribedMotion& motion) {
-  std::vector<std::string_view> accepted{"name", "part", "set", "fix"};
+  std::vector<std::string_view> accepted{"name", "part", "set", "system", "fix"};
   for (const auto& [key, kind] : motion_keys) accepted.push_back(key);
   check_keys(node, accepted);
   const YamlEntry* given = nullptr;
   for (const YamlEntry& entry : node.entries) {
-    if (entry.key == "set" || entry.key == "part" || entry.key == "name") continue;
+    if (entry.key == "set" || entry.key == "part" || entry.key == "name" || entry.key == "system") continue;
     if (given != nullptr)
       throw DeckError(entry.place,
                       "both '" + given->key + "' and '" + entry.key + "'; one is accepted an entry");
@@ -86,13 +88,15 @@ void read_motion(const YamlNode& node, const Slot& slot, PrescribedMotion& motio
   read_where(node, slot, "a boundary condition", motion.where);
   if (given == nullptr)
     throw DeckError(node.place, "nothing is prescribed; accepted: fix, displacement, velocity, acceleration");
+  const ComponentWords& words = component_words_of(node, slot.known);
+  if (const YamlEntry* system = node.find("system")) motion.system = system->value->text;
   if (given->key == "fix") {
     const Slot fix{"fix", any_number, slot.known};
     if (!given->value->is_sequence() || given->value->items.empty())
       refuse(*given->value, fix, "a list of components such as [x, y, z, rx, ry, rz]");
     motion.kind = MotionKind::velocity;
     for (const auto& item : given->value->items)
-      add_component(*item, fix, motion, item->text, Curve{{{0, 0}}});
+      add_component(*item, fix, motion, words, item->text, Curve{{{0, 0}}});
     return;
   }
   for (const auto& [key, kind] : motion_keys)
@@ -103,7 +107,7 @@ void read_motion(const YamlNode& node, const Slot& slot, PrescribedMotion& motio
   for (const YamlEntry& entry : given->value->entries) {
     Curve curve;
     read_value(*entry.value, Slot{entry.key, any_number, slot.known}, curve);
-    add_component(*entry.value, components, motion, entry.key, std::move(curve));
+    add_component(*entry.value, components, motion, words, entry.key, std::move(curve));
   }
 }
 
@@ -204,6 +208,7 @@ void read_value(const YamlNode& node, const Slot& slot, Load& load) {
     if (node.find(name) == nullptr) continue;
     choose_alternative(load, name, [&](auto& chosen) { read_fields(node, slot, chosen); });
     if (const YamlEntry* sides = node.find("side_set")) check_set(*sides->value, slot, side_set_names);
+    if (const YamlEntry* system = node.find("system")) check_system(*system->value, slot.known, load);
     return;
   }
   throw DeckError(node.place, "nothing is said about the load; " + accepted_words("", names_of(load)));

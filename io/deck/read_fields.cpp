@@ -189,16 +189,31 @@ const MeshFile& KnownNames::mesh_file(const YamlNode& node) const {
                                   accepted_words(node.text, names));
 }
 
-const Material& KnownNames::material(const YamlNode& node) const {
+template <class T>
+const T& KnownNames::named(const YamlNode& node, const std::vector<std::pair<std::string, T>>& entries,
+                           std::string_view what) const {
   expect_read(node.text);
   std::vector<std::string_view> names;
-  for (const auto& [name, material] : deck_.materials) {
-    if (name == node.text) return material;
+  for (const auto& [name, entry] : entries) {
+    if (name == node.text) return entry;
     names.push_back(name);
   }
   expect_complete(!names.empty());
   throw DeckError(node.place,
-                  "no material is called '" + node.text + "'; " + accepted_words(node.text, names));
+                  fmt::format("no {} is called '{}'; {}", what, node.text, accepted_words(node.text, names)));
+}
+
+const Material& KnownNames::material(const YamlNode& node) const {
+  return named(node, deck_.materials, "material");
+}
+
+const CoordinateSystem& KnownNames::coordinate_system(const YamlNode& node) const {
+  if (deck_.coordinate_systems.empty() && root_.find("coordinate_systems") == nullptr)
+    throw DeckError(node.place,
+                    "'" + node.text +
+                        "' is no coordinate system: the deck has no 'coordinate_systems', a map of "
+                        "names to systems such as {ramp: {rectangular: {x: [1, 0, 1], y: [0, 1, 0]}}}");
+  return named(node, deck_.coordinate_systems, "coordinate system");
 }
 
 }  // namespace brio

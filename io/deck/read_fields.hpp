@@ -45,6 +45,8 @@ class KnownNames {
   void expect_condition(const YamlNode& node, std::string_view name) const;
   /// \throws DeckError if no material is called so.
   const Material& material(const YamlNode& node) const;
+  /// \throws DeckError if no coordinate system is called so.
+  const CoordinateSystem& coordinate_system(const YamlNode& node) const;
   /// \throws DeckError if no mesh file is called so.
   const MeshFile& mesh_file(const YamlNode& node) const;
   const Deck& deck() const { return deck_; }
@@ -60,6 +62,9 @@ class KnownNames {
   const YamlNode& root_;
   FaultList* faults_;
   std::shared_ptr<FileMeshes> file_meshes_ = std::make_shared<FileMeshes>();
+  template <class T>
+  const T& named(const YamlNode& node, const std::vector<std::pair<std::string, T>>& entries,
+                 std::string_view what) const;
   mutable std::unordered_map<std::string_view, const Part*> parts_;  ///< filled when all parts are read
 };
 
@@ -94,6 +99,7 @@ void read_value(const YamlNode& node, const Slot& slot, SpaceTimeCurve& curve);
 void read_value(const YamlNode& node, const Slot& slot, Parameters& parameters);
 void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition);
 void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition);
+void read_value(const YamlNode& node, const Slot& slot, CoordinateSystem& system);
 void read_value(const YamlNode& node, const Slot& slot, Load& load);
 void read_value(const YamlNode& node, const Slot& slot, Connection& connection);
 void read_value(const YamlNode& node, const Slot& slot, ContactPair& pair);

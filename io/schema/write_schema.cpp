@@ -93,6 +93,11 @@ struct SchemaOf<InitialCondition> : WithoutDefault {
   }
 };
 
+template <>
+struct SchemaOf<CoordinateSystem> : WithoutDefault {
+  static Schema make(const Range&) { return single_key_choice<CoordinateSystem>(); }
+};
+
 /// The components of a prescribed motion, by their words.
 struct MotionComponents {};
 
@@ -100,12 +105,18 @@ template <>
 struct SchemaOf<MotionComponents> : WithoutDefault {
   static Schema make(const Range&) {
     Schema components{{"type", "object"}, {"properties", Schema::object()}};
-    for (std::size_t axis = 0; axis < component_words.size(); ++axis) {
-      Schema component = schema_of<Curve>(any_number);
-      component["description"] = axis < 3 ? "translation along an axis"
-                                          : "rotation about an axis; shells, beams and rigid parts only";
-      components["properties"][std::string(component_words[axis])] = std::move(component);
-    }
+    const auto add = [&](const ComponentWords& words, const std::string& where) {
+      for (std::size_t axis = 0; axis < words.size(); ++axis) {
+        Schema& component = components["properties"][std::string(words[axis])];
+        if (!component.is_null()) continue;
+        component = schema_of<Curve>(any_number);
+        component["description"] = (axis < 3 ? "translation along an axis"
+                                             : "rotation about an axis; shells, beams and rigid parts only") +
+                                   where;
+      }
+    };
+    add(component_words, "");
+    add(cylindrical_words, ", of a cylindrical system");
     components["minProperties"] = 1;
     components["additionalProperties"] = false;
     return components;
@@ -140,11 +151,19 @@ struct SchemaOf<BoundaryCondition> : WithoutDefault {
                                     {"description", "all nodes of a part, or a rigid part as a whole"}};
     motion["properties"]["set"] = schema_of<NodeSelection>(any_number);
     motion["properties"]["set"]["description"] = "nodes, where not a whole part";
-    motion["properties"]["fix"] = {{"type", "array"},
-                                   {"items", {{"enum", component_words}}},
-                                   {"minItems", 1},
-                                   {"uniqueItems", true},
-                                   {"description", "components that stay; rx, ry, rz are rotations"}};
+    motion["properties"]["system"] = {
+        {"type", "string"},
+        {"description", "name of the coordinate system of the components; default: the global axes"}};
+    Schema words = component_words;
+    for (const std::string_view word : cylindrical_words)
+      if (std::ranges::find(component_words, word) == component_words.end()) words.push_back(word);
+    motion["properties"]["fix"] = {
+        {"type", "array"},
+        {"items", {{"enum", words}}},
+        {"minItems", 1},
+        {"uniqueItems", true},
+        {"description",
+         "components that stay; rx, ry, rz, and rr, rt, rz of a cylindrical system, are rotations"}};
     Schema keys = Schema::array({Schema{{"required", {"fix"}}}});
     for (const auto& [key, kind] : motion_keys) {
       Schema components = schema_of<MotionComponents>(any_number);

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "src/base/aligned.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -27,6 +29,12 @@ struct NodalRows {
   NodeVector* angular;
 };
 
+/// Axes of a node whose supports are not along the global ones: rows of orthonormal components, those of its
+/// translations and those of its rotations.
+struct SupportAxes {
+  Tensor<double> linear, angular;
+};
+
 struct Nodes {
   AlignedBuffer<NodeRecord> record;
   AlignedBuffer<NodeVector> force;  ///< external minus internal, of the current step
@@ -35,8 +43,10 @@ struct Nodes {
   AlignedBuffer<NodeVector> moment;
   AlignedBuffer<double> rotational_inertia;
   /// Bit i: velocity component i is prescribed (infinite mass along axis i); bits 3 to 5: the rotations.
-  /// Empty where no deck entry prescribes anything.
+  /// Axes are the global ones, or the own ones of the node. Empty where no deck entry prescribes anything.
   AlignedBuffer<std::uint8_t> prescribed;
+  std::vector<SupportAxes> support_axes;
+  std::vector<int> axes_of;  ///< of each node: its own in `support_axes`, or -1. Empty: none has any
   /// Velocities at the half step before, for the work of impulses; empty where nothing but forces acts on
   /// nodes.
   AlignedBuffer<NodeVector> velocity_before;
@@ -57,10 +67,35 @@ struct Nodes {
     velocity_before = AlignedBuffer<NodeVector>(size());
     if (has_rotations()) angular_velocity_before = AlignedBuffer<NodeVector>(size());
   }
-  /// Inverse mass as contact and walls see it along one axis: 0 where the motion is prescribed.
-  double free_inverse_mass(std::size_t node, int axis) const {
-    if (!prescribed.empty() && (prescribed[node] >> axis & 1) != 0) return 0;
-    return record[node].inverse_mass;
+  /// Null: the global axes.
+  const SupportAxes* own_axes(std::size_t node) const {
+    if (axes_of.empty() || axes_of[node] < 0) return nullptr;
+    return &support_axes[static_cast<std::size_t>(axes_of[node])];
+  }
+  /// Bits 0 to 2 for the components of the translation, or of the rotation, that are prescribed.
+  int prescribed_translations(std::size_t node) const {
+    return prescribed.empty() ? 0 : prescribed[node] & 7;
+  }
+  int prescribed_rotations(std::size_t node) const {
+    return prescribed.empty() ? 0 : prescribed[node] >> 3 & 7;
+  }
+  /// Projection on the directions in which the velocity of a node, or its angular velocity, is not
+  /// prescribed.
+  SymmetricTensor<double> free_translations(std::size_t node) const {
+    const SupportAxes* own = own_axes(node);
+    return free_directions(prescribed_translations(node), own == nullptr ? nullptr : &own->linear);
+  }
+  SymmetricTensor<double> free_rotations(std::size_t node) const {
+    const SupportAxes* own = own_axes(node);
+    return free_directions(prescribed_rotations(node), own == nullptr ? nullptr : &own->angular);
+  }
+  /// Inverse mass as contact and walls see it: 0 where the motion is prescribed.
+  SymmetricTensor<double> free_inverse_mass(std::size_t node) const {
+    return record[node].inverse_mass * free_translations(node);
+  }
+  /// Likewise of the rotation. \pre there are rotations
+  SymmetricTensor<double> free_inverse_inertia(std::size_t node) const {
+    return angular_velocity[node].component[3] * free_rotations(node);
   }
   bool has_rotations() const { return !angular_velocity.empty(); }
 
@@ -68,6 +103,21 @@ struct Nodes {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(record, mass, angular_velocity, rotational_inertia, velocity_before, angular_velocity_before);
+  }
+
+ private:
+  static SymmetricTensor<double> free_directions(int given, const Tensor<double>* axes) {
+    if (axes == nullptr || given == 0 || given == 7)
+      return {
+          (given & 1) != 0 ? 0.0 : 1.0, (given & 2) != 0 ? 0.0 : 1.0, (given & 4) != 0 ? 0.0 : 1.0, 0, 0, 0};
+    SymmetricTensor<double> sum = isotropic(1.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((given >> axis & 1) == 0) continue;
+      const double* a = axes->m[axis];
+      sum = sum - SymmetricTensor<double>{a[0] * a[0], a[1] * a[1], a[2] * a[2],
+                                          a[0] * a[1], a[1] * a[2], a[0] * a[2]};
+    }
+    return sum;
   }
 };
 

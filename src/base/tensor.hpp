@@ -63,6 +63,12 @@ BRIO_INLINE SymmetricTensor<T> isotropic(T value) {
   return {value, value, value, T(0.0), T(0.0), T(0.0)};
 }
 
+template <class T>
+BRIO_INLINE Vector3<T> operator*(const SymmetricTensor<T>& a, const Vector3<T>& b) {
+  return {a.xx * b.x + a.xy * b.y + a.xz * b.z, a.xy * b.x + a.yy * b.y + a.yz * b.z,
+          a.xz * b.x + a.yz * b.y + a.zz * b.z};
+}
+
 /// Row-major 3x3 tensor: m[i][j].
 template <class T>
 struct Tensor {

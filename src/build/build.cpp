@@ -10,7 +10,6 @@
 #include "src/build/build_ties.hpp"
 #include "src/build/contact_thickness.hpp"
 #include "src/build/merge.hpp"
-#include "src/build/prepare_history.hpp"
 #include "src/build/refused_motions.hpp"
 #include "src/build/wall_overlap.hpp"
 #include "src/deck/part_index.hpp"
@@ -199,38 +198,6 @@ void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, Mode
       if (condition.radial)
         add_to(velocity, radial_velocity(*condition.radial, record, condition.where.place));
       for (std::size_t i = 0; i < 3; ++i) record.velocity[i] = velocity[i];
-    }
-  }
-}
-
-Vector unit_normal(const RigidWall& wall) {
-  const Triple& direction = wall.normal;
-  const double size = std::sqrt(dot(direction, direction));
-  if (!(size > 0)) throw BuildError("a rigid wall has a normal without length", wall.place);
-  return {direction[0] / size, direction[1] / size, direction[2] / size};
-}
-
-void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
-  int number = -1;
-  for (const BoundaryCondition& condition : deck.boundary_conditions) {
-    ++number;
-    if (const auto* wall = std::get_if<RigidWall>(&condition)) {
-      model.walls.push_back({*wall, number});
-      model.walls.back().wall.normal = unit_normal(*wall);
-      continue;
-    }
-    const auto& motion = std::get<PrescribedMotion>(condition);
-    std::vector<int> nodes = select_nodes(motion.where, deck, meshes, model);
-    for (const std::size_t b : take_rigid(nodes, motion.where, model))
-      for (const PrescribedComponent& component : motion.components)
-        model.rigid.body[b].given.push_back(
-            {motion.kind, component.axis, component.curve, component.place, number});
-    if (nodes.empty()) continue;
-    for (const PrescribedComponent& component : motion.components) {
-      if (component.axis >= 3 && !model.nodes.has_rotations()) continue;  // solids have no rotations to hold
-      model.prescribed.push_back(
-          {nodes, motion.kind, component.axis, component.curve, component.place, number});
-      mark(model.prescribed.back(), model.nodes);
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "src/base/breakdown.hpp"
+#include "src/deck/coordinate_system.hpp"
 #include "src/deck/mesh.hpp"
 #include "src/model/model.hpp"
 
@@ -21,5 +22,25 @@ bool is_in_contact(const Deck& deck, const std::string& part);
 /// Nodes of the model that a selection names, ascending.
 std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std::span<const Mesh> meshes,
                               const Model& model);
+
+/// Prescribed motions and rigid walls. \throws BuildError
+void constrain(const Deck& deck, std::span<const Mesh> meshes, Model& model);
+
+/// Axes of a named coordinate system at each of some nodes; r and t are 0 for one on the axis of a
+/// cylindrical system. \throws BuildError where no system is called so
+std::vector<SystemAxes> axes_at_nodes(const Deck& deck, const std::string& name,
+                                      const std::vector<int>& nodes, const std::string& place,
+                                      const Model& model);
+/// Those of a system whose axes are the same everywhere. \param what is along them \throws BuildError where
+/// no rectangular one is called so
+SystemAxes axes_everywhere(const Deck& deck, const std::string& name, const std::string& what,
+                           const std::string& place);
+/// \throws BuildError of a node without r and t.
+[[noreturn]] void refuse_on_axis(const Model& model, std::size_t node, const std::string& system,
+                                 const std::string& place);
+
+/// What the deck wants in the history beside what is always there: probes, motion of rigid bodies, forces.
+/// \throws BuildError
+void prepare_history(const Deck& deck, Model& model);
 
 }  // namespace brio

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "src/build/build.hpp"
 #include "src/build/build_rigid.hpp"
@@ -44,6 +45,39 @@ std::vector<PressureLoad> pressures_on(const Pressure& load_entry, const Deck& d
   return loads;
 }
 
+// To global components, of each node where axes differ.
+void turn_to_global(NodalLoad& load, const Deck& deck, const std::string& system, const std::string& place,
+                    const Model& model) {
+  if (system.empty()) return;
+  const Vector components = load.force;
+  if (!load.bodies.empty())
+    load.force =
+        from_components(axes_everywhere(deck, system, "a moment on a rigid part", place), components);
+  const std::vector<SystemAxes> axes = axes_at_nodes(deck, system, load.nodes, place, model);
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const bool across = components[0] != 0 || components[1] != 0;
+    if (across && is_zero(axes[k][0]))
+      refuse_on_axis(model, static_cast<std::size_t>(load.nodes[k]), system, place);
+    load.own_force.push_back(from_components(axes[k], components));
+  }
+  if (std::ranges::adjacent_find(load.own_force, std::not_equal_to<>()) != load.own_force.end()) return;
+  if (!load.own_force.empty()) load.force = load.own_force.front();
+  load.own_force.clear();
+}
+
+NodalLoad force_on(const NodalForce& entry, const Deck& deck, std::span<const Mesh> meshes,
+                   const Model& model) {
+  NodalLoad load{select_nodes(entry.where, deck, meshes, model), entry.force, entry.factor};
+  turn_to_global(load, deck, entry.system, entry.where.place, model);
+  return load;
+}
+
+GravityLoad gravity_of(const Gravity& entry, const Deck& deck) {
+  if (entry.system.empty()) return {entry.acceleration, entry.factor};
+  return {from_components(axes_everywhere(deck, entry.system, "gravity", entry.place), entry.acceleration),
+          entry.factor};
+}
+
 NodalLoad moment_on(const NodalMoment& entry, const Deck& deck, std::span<const Mesh> meshes,
                     const Model& model) {
   NodalLoad load{.nodes = select_nodes(entry.where, deck, meshes, model),
@@ -60,6 +94,7 @@ NodalLoad moment_on(const NodalMoment& entry, const Deck& deck, std::span<const 
         "a moment on nodes that do not turn; accepted are nodes of shells and beams, and rigid parts as a "
         "whole",
         entry.where.place);
+  turn_to_global(load, deck, entry.system, entry.where.place, model);
   return load;
 }
 
@@ -140,10 +175,9 @@ class Fastening {
 void make_loads(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   for (const Load& entry : deck.loads) {
     if (const auto* gravity = std::get_if<Gravity>(&entry))
-      model.loads.push_back({GravityLoad{gravity->acceleration, gravity->factor}, {}});
+      model.loads.push_back({gravity_of(*gravity, deck), {}});
     if (const auto* force = std::get_if<NodalForce>(&entry))
-      model.loads.push_back(
-          {NodalLoad{select_nodes(force->where, deck, meshes, model), force->force, force->factor}, {}});
+      model.loads.push_back({force_on(*force, deck, meshes, model), {}});
     if (const auto* moment = std::get_if<NodalMoment>(&entry))
       model.loads.push_back({moment_on(*moment, deck, meshes, model), {}});
     if (const auto* pressure = std::get_if<Pressure>(&entry))

@@ -5,6 +5,7 @@
 
 #include "src/build/build.hpp"
 #include "src/deck/mass_properties.hpp"
+#include "src/motion/skew_supports.hpp"
 
 namespace brio {
 
@@ -72,16 +73,17 @@ Eigen::Matrix3d inertia_of_point(double mass, const Vector3d& arm) {
   return mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
 }
 
-bool has_same_motion(const RigidBody& body, const PrescribedNodes& given) {
-  const auto is_given = [&](int axis, MotionKind kind, const Curve& curve) {
-    return std::any_of(body.given.begin(), body.given.end(), [&](const PrescribedRigid& one) {
-      return one.axis == axis && one.kind == kind && one.curve == curve;
-    });
-  };
+bool has_same_motion(const RigidBody& body, const PrescribedNodes& given, std::size_t at) {
   const Curve still{{{0, 0}}};
   bool turns = false;
-  for (int axis = 3; axis < 6; ++axis) turns = turns || !is_given(axis, MotionKind::velocity, still);
-  return (given.axis >= 3 || !turns) && is_given(given.axis, given.kind, given.curve);
+  for (int axis = 3; axis < 6; ++axis)
+    turns = turns || std::ranges::none_of(body.given, [&](const PrescribedRigid& one) {
+              return one.axis == axis && one.kind == MotionKind::velocity && one.curve == still;
+            });
+  return (given.turns() || !turns) && std::ranges::any_of(body.given, [&](const PrescribedRigid& one) {
+           return one.axis / 3 == given.axis / 3 && one.kind == given.kind && one.curve == given.curve &&
+                  is_along(to_vector(body.axes.row(one.axis % 3).transpose()), given.direction_of(at));
+         });
 }
 
 double size_of(const RigidBody& body) {
@@ -186,17 +188,17 @@ void release_joined(Model& model) {
             "rigid part as well; accepted is one of both",
             model.ties.found[static_cast<std::size_t>(tied.connection)].place);
   for (PrescribedNodes& given : model.prescribed)
-    std::erase_if(given.nodes, [&](int node) {
-      const int body = body_of_node[static_cast<std::size_t>(node)];
-      if (body < 0) return false;
-      if (!has_same_motion(model.rigid.body[static_cast<std::size_t>(body)], given))
+    for (std::size_t at = given.nodes.size(); at-- > 0;) {
+      const int body = body_of_node[static_cast<std::size_t>(given.nodes[at])];
+      if (body < 0) continue;
+      if (!has_same_motion(model.rigid.body[static_cast<std::size_t>(body)], given, at))
         throw BuildError(
             "the motion of a node that is joined to a rigid part is prescribed, but not that of the "
             "part; accepted: the same for both, and no rotation of the part",
             given.place);
-      model.nodes.prescribed[static_cast<std::size_t>(node)] &= static_cast<std::uint8_t>(~(1 << given.axis));
-      return true;
-    });
+      release(given, given.nodes[at]);
+    }
+  combine_supports(model.prescribed, model.nodes);
 }
 
 namespace {

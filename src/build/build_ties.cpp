@@ -8,6 +8,7 @@
 #include "contact/surface/face_geometry.hpp"
 #include "src/build/build.hpp"
 #include "src/deck/part_index.hpp"
+#include "src/motion/skew_supports.hpp"
 
 namespace brio {
 
@@ -222,17 +223,20 @@ class Tying {
   std::vector<int> order_;
 };
 
-bool same_motion(const PrescribedNodes& a, const PrescribedNodes& b) {
-  return a.kind == b.kind && a.axis == b.axis && a.curve == b.curve;
+bool has_same_motion(const PrescribedNodes& given, int node, const PrescribedNodes& motion,
+                     const Vector& direction) {
+  const auto found = std::lower_bound(given.nodes.begin(), given.nodes.end(), node);
+  return given.kind == motion.kind && given.turns() == motion.turns() && given.curve == motion.curve &&
+         found != given.nodes.end() && *found == node &&
+         is_along(given.direction_of(static_cast<std::size_t>(found - given.nodes.begin())), direction);
 }
 
-bool all_corners_follow(const Tie& tie, const PrescribedNodes& motion,
+bool all_corners_follow(const Tie& tie, const PrescribedNodes& motion, const Vector& direction,
                         std::span<const PrescribedNodes> prescribed) {
   for (std::size_t k = 0; k < 4; ++k) {
     if (std::abs(tie.weight[k]) < held_weight) continue;
     const bool follows = std::any_of(prescribed.begin(), prescribed.end(), [&](const PrescribedNodes& other) {
-      return same_motion(motion, other) &&
-             std::binary_search(other.nodes.begin(), other.nodes.end(), tie.corner[k]);
+      return has_same_motion(other, tie.corner[k], motion, direction);
     });
     if (!follows) return false;
   }
@@ -247,19 +251,20 @@ void release_supports(const Ties& ties, Model& model) {
   for (const TiedNode& tied : ties.node) {
     const int node = tied.tie.node;
     for (std::size_t i = 0; i < given.size(); ++i) {
-      const int axis = given[i].axis;
-      if (axis >= 3 && !tied.tie.turning) continue;
-      if (!std::binary_search(given[i].nodes.begin(), given[i].nodes.end(), node)) continue;
+      if (given[i].turns() && !tied.tie.turning) continue;
+      const auto found = std::lower_bound(given[i].nodes.begin(), given[i].nodes.end(), node);
+      if (found == given[i].nodes.end() || *found != node) continue;
       const TiedParts& parts = ties.found[static_cast<std::size_t>(tied.connection)];
-      if (!all_corners_follow(tied.tie, given[i], given))
+      const Vector along = given[i].direction_of(static_cast<std::size_t>(found - given[i].nodes.begin()));
+      if (!all_corners_follow(tied.tie, given[i], along, given))
         throw BuildError("the motion of a node of '" + parts.nodes + "' " + at(model.nodes, node) +
                              " is prescribed, but not that of the face of '" + parts.surface +
                              "' that it is tied to; accepted: the same for both",
                          parts.place);
-      std::erase(model.prescribed[i].nodes, node);
-      model.nodes.prescribed[static_cast<std::size_t>(node)] &= static_cast<std::uint8_t>(~(1 << axis));
+      release(model.prescribed[i], node);
     }
   }
+  combine_supports(model.prescribed, model.nodes);
 }
 
 }  // namespace

@@ -18,8 +18,9 @@ constexpr double along_axis = 1e-9;
 /// Of a way: rounding.
 constexpr double rounding_of_way = 1e-9;
 
-/// The motion along one axis; no curve: it is not prescribed.
+/// The motion along one axis, or of one skew support; no curve: it is not prescribed.
 struct AxisMotion {
+  double share = 0;  ///< of it in that along the normal of the wall
   MotionKind kind = MotionKind::velocity;
   const Curve* curve = nullptr;
   const std::string* place = nullptr;
@@ -82,7 +83,7 @@ Lowest lowest_change(const RigidWall& wall, Motion motion, double end) {
       height.v -= wall.normal[axis] * wall.velocity[axis];
       AxisMotion& one = motion[axis];
       if (one.curve == nullptr) continue;
-      add(height, one, wall.normal[axis], begin, middle);
+      add(height, one, one.share, begin, middle);
       if (one.kind == MotionKind::acceleration)
         one.velocity += duration * ((*one.curve)(begin) + 0.5 * duration * one.curve->slope(middle));
     }
@@ -94,10 +95,8 @@ Lowest lowest_change(const RigidWall& wall, Motion motion, double end) {
 }
 
 /// Whether all axes along which the wall would push are prescribed.
-bool cannot_give_way(const RigidWall& wall, const Motion& motion) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (std::abs(wall.normal[axis]) > along_axis && motion[axis].curve == nullptr) return false;
-  return true;
+bool cannot_give_way(const Vector& free_normal) {
+  return std::ranges::all_of(free_normal, [](double part) { return std::abs(part) <= along_axis; });
 }
 
 bool passes(double height, const Lowest& lowest) {
@@ -114,7 +113,7 @@ double height_of(const RigidWall& wall, const double* position) {
                          const Lowest& lowest) {
   std::string place;
   for (std::size_t axis = 3; axis-- > 0;)
-    if (motion[axis].place != nullptr && std::abs(wall.normal[axis]) > along_axis)
+    if (motion[axis].place != nullptr && std::abs(motion[axis].share) > along_axis)
       place = *motion[axis].place;
   std::ostringstream text;
   text << "this motion takes " << who << " through the rigid wall"
@@ -124,44 +123,56 @@ double height_of(const RigidWall& wall, const double* position) {
   throw BuildError(text.str(), place.empty() ? wall.place : place);
 }
 
-/// Of each node: the entry of model.prescribed for each axis, or -1.
-std::vector<std::array<int, 3>> motions_of_nodes(const Model& model) {
-  std::vector<std::array<int, 3>> motion_of(model.nodes.size(), {-1, -1, -1});
+/// Of each node: the entry of model.prescribed for each axis, and the place of the node in its list; or -1.
+using NodeMotions = std::array<std::array<int, 2>, 3>;
+
+std::vector<NodeMotions> motions_of_nodes(const Model& model) {
+  constexpr std::array<int, 2> none{-1, -1};
+  std::vector<NodeMotions> motion_of(model.nodes.size(), {none, none, none});
   for (std::size_t i = 0; i < model.prescribed.size(); ++i) {
-    if (model.prescribed[i].axis >= 3) continue;
-    for (const int node : model.prescribed[i].nodes)
-      motion_of[static_cast<std::size_t>(node)][static_cast<std::size_t>(model.prescribed[i].axis)] =
-          static_cast<int>(i);
+    const PrescribedNodes& given = model.prescribed[i];
+    for (std::size_t k = 0; k < given.nodes.size() && !given.turns(); ++k) {
+      NodeMotions& motions = motion_of[static_cast<std::size_t>(given.nodes[k])];
+      if (!given.is_skew()) {
+        motions[static_cast<std::size_t>(given.axis)] = {static_cast<int>(i), static_cast<int>(k)};
+      } else if (given.dual[k] != Vector{}) {
+        *std::ranges::find(motions, none) = {static_cast<int>(i), static_cast<int>(k)};
+      }
+    }
   }
   return motion_of;
 }
 
-Motion motion_of_node(const Model& model, std::size_t node, const std::array<int, 3>& entries) {
+Motion motion_of_node(const Model& model, std::size_t node, const NodeMotions& motions,
+                      const RigidWall& wall) {
   Motion motion;
+  const double* v = model.nodes.record[node].velocity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (entries[axis] < 0) continue;
-    const PrescribedNodes& given = model.prescribed[static_cast<std::size_t>(entries[axis])];
-    motion[axis] = {given.kind, &given.curve, &given.place, model.nodes.record[node].velocity[axis]};
+    if (motions[axis][0] < 0) continue;
+    const PrescribedNodes& given = model.prescribed[static_cast<std::size_t>(motions[axis][0])];
+    const auto at = static_cast<std::size_t>(motions[axis][1]);
+    motion[axis] = {given.is_skew() ? dot(wall.normal, given.dual[at]) : wall.normal[axis], given.kind,
+                    &given.curve, &given.place, dot(given.direction_of(at), {v[0], v[1], v[2]})};
   }
   return motion;
 }
 
 bool same_way(const Motion& a, const Motion& b) {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (a[axis].curve != b[axis].curve ||
+    if (a[axis].curve != b[axis].curve || a[axis].share != b[axis].share ||
         (a[axis].kind == MotionKind::acceleration && a[axis].velocity != b[axis].velocity))
       return false;
   return true;
 }
 
-void check_nodes(const Model& model, const RigidWall& wall, std::span<const std::array<int, 3>> motion_of) {
+void check_nodes(const Model& model, const RigidWall& wall, std::span<const NodeMotions> motion_of) {
   Motion last;
   Lowest lowest;
   bool known = false;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    if (motion_of[i] == std::array{-1, -1, -1}) continue;
-    const Motion motion = motion_of_node(model, i, motion_of[i]);
-    if (!cannot_give_way(wall, motion)) continue;
+    if (model.nodes.prescribed_translations(i) == 0) continue;
+    if (!cannot_give_way(model.nodes.free_translations(i) * wall.normal)) continue;
+    const Motion motion = motion_of_node(model, i, motion_of[i], wall);
     if (!known || !same_way(motion, last)) lowest = lowest_change(wall, motion, model.control.settings.end);
     known = true;
     last = motion;
@@ -183,11 +194,16 @@ bool cannot_turn(const RigidBody& body) {
 void check_body(const Model& model, const WallInRun& wall, std::size_t b) {
   const RigidBody& body = model.rigid.body[b];
   Motion motion;
-  for (const PrescribedRigid& given : body.given)
-    if (given.axis < 3)
-      motion[static_cast<std::size_t>(given.axis)] = {given.kind, &given.curve, &given.place,
-                                                      model.rigid.motion[b].velocity[given.axis]};
-  if (!cannot_give_way(wall.wall, motion)) return;
+  const Eigen::Vector3d normal = body.axes * Eigen::Vector3d(wall.wall.normal.data());
+  Vector free = to_vector(normal);
+  for (const PrescribedRigid& given : body.given) {
+    if (given.axis >= 3) continue;
+    const auto axis = static_cast<std::size_t>(given.axis);
+    motion[axis] = {normal[given.axis], given.kind, &given.curve, &given.place,
+                    body.axes.row(given.axis).dot(model.rigid.motion[b].velocity)};
+    free[axis] = 0;
+  }
+  if (!cannot_give_way(free)) return;
   const double height =
       cannot_turn(body) ? height_above(wall, body, model.nodes) : height_of(wall.wall, body.centre.data());
   const Lowest lowest = lowest_change(wall.wall, motion, model.control.settings.end);
@@ -200,7 +216,7 @@ void check_body(const Model& model, const WallInRun& wall, std::size_t b) {
 void refuse_motions_through_walls(const Model& model) {
   if (model.walls.empty()) return;
   if (!model.prescribed.empty()) {
-    const std::vector<std::array<int, 3>> motion_of = motions_of_nodes(model);
+    const std::vector<NodeMotions> motion_of = motions_of_nodes(model);
     for (const WallInRun& wall : model.walls) check_nodes(model, wall.wall, motion_of);
   }
   for (const WallInRun& wall : model.walls)

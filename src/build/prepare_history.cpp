@@ -1,5 +1,3 @@
-#include "src/build/prepare_history.hpp"
-
 #include "src/build/build.hpp"
 
 namespace brio {

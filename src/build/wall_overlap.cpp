@@ -138,13 +138,8 @@ class WallOverlap {
     const double depth = -start_height(wall, node);
     if (!(depth > 0)) return false;
     const bool counts = depth > rounding(i);
-    Triple way_out{};
-    double gain = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const bool held = !model_.nodes.prescribed.empty() && (model_.nodes.prescribed[i] >> axis & 1) != 0;
-      if (!held) way_out[axis] = wall.normal[axis];
-      gain += wall.normal[axis] * way_out[axis];
-    }
+    const Vector way_out = model_.nodes.free_translations(i) * wall.normal;
+    const double gain = compliance(model_.nodes.free_translations(i), 1, wall.normal);
     if (gain < least_gain || depth > limit * edge_[i] * std::sqrt(gain)) {  // the way is depth / sqrt(gain)
       if (counts) refuse_move(wall, i, depth, gain, limit);
       return false;

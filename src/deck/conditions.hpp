@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "src/base/fields.hpp"
+#include "src/deck/coordinate_system.hpp"
 #include "src/deck/expression.hpp"
 #include "src/deck/mesh_source.hpp"
 
@@ -157,12 +158,14 @@ struct PrescribedComponent {
   std::string place{};  ///< in the deck
 };
 
-/// `fix: [x, y, z, rx, ry, rz]`, or `displacement|velocity|acceleration: {x: CURVE, ...}`.
+/// `fix: [x, y, z, rx, ry, rz]`, or `displacement|velocity|acceleration: {x: CURVE, ...}`; along the axes of
+/// a coordinate system where it names one.
 struct PrescribedMotion {
   std::string name;  ///< may be empty
   NodeSelection where;
   MotionKind kind = MotionKind::velocity;
   std::vector<PrescribedComponent> components;
+  std::string system{};  ///< name of a coordinate system; empty: the global axes
 };
 
 /// Nodes cannot pass the plane; it may move at a given velocity.
@@ -197,10 +200,14 @@ struct Gravity {
   static constexpr std::string_view meaning = "acceleration of everything";
   Triple acceleration{};
   Curve factor{{{0, 1}}};
+  std::string system{};
+  std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(required("gravity", &Gravity::acceleration, any_number,
                                 "acceleration of everything, length per time^2"),
-                       optional("factor", &Gravity::factor, any_number, "multiplies it, -"));
+                       optional("factor", &Gravity::factor, any_number, "multiplies it, -"),
+                       optional("system", &Gravity::system, any_number,
+                                "name of a rectangular coordinate system; default: the global axes"));
   }
 };
 /// `force: [x, y, z]` on every node of a set, times `factor` (a curve).
@@ -210,10 +217,13 @@ struct NodalForce {
   NodeSelection where;
   Triple force{};
   Curve factor{{{0, 1}}};
+  std::string system{};
   static constexpr auto fields() {
     return field_table(required("set", &NodalForce::where, any_number, "nodes that are pushed"),
                        required("force", &NodalForce::force, any_number, "on each of the nodes"),
-                       optional("factor", &NodalForce::factor, any_number, "multiplies it, -"));
+                       optional("factor", &NodalForce::factor, any_number, "multiplies it, -"),
+                       optional("system", &NodalForce::system, any_number,
+                                "name of the coordinate system of its components; default: the global axes"));
   }
 };
 /// `moment: [x, y, z]` on every node of a set, or once on a rigid part, times `factor`.
@@ -223,12 +233,15 @@ struct NodalMoment {
   NodeSelection where;
   Triple moment{};
   Curve factor{{{0, 1}}};
+  std::string system{};
   static constexpr auto fields() {
     return field_table(required("set", &NodalMoment::where, any_number,
                                 "nodes of shells and beams, or a rigid part as a whole"),
                        required("moment", &NodalMoment::moment, any_number,
                                 "on each of the nodes, once on a rigid part; its direction stays"),
-                       optional("factor", &NodalMoment::factor, any_number, "multiplies it, -"));
+                       optional("factor", &NodalMoment::factor, any_number, "multiplies it, -"),
+                       optional("system", &NodalMoment::system, any_number,
+                                "name of the coordinate system of its components; default: the global axes"));
   }
 };
 /// `pressure: CURVE` on a named side set, pushing against the outward normal; follows the surface.

@@ -2,7 +2,6 @@
 /// Curves together.
 
 #include <algorithm>
-#include <initializer_list>
 #include <vector>
 
 #include "src/deck/deck.hpp"
@@ -10,7 +9,7 @@
 namespace brio {
 
 /// 0, the end, and the corners in between of all curves; those that are null are left out. Ascending.
-inline std::vector<double> corner_times(std::initializer_list<const Curve*> curves, double end) {
+inline std::vector<double> corner_times(const std::vector<const Curve*>& curves, double end) {
   std::vector<double> times{0, end};
   for (const Curve* curve : curves)
     if (curve != nullptr)

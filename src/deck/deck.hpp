@@ -309,6 +309,7 @@ struct Deck {
   std::vector<Connection> connections;
   std::vector<PointMass> point_masses;
   std::vector<Spring> springs;
+  std::vector<std::pair<std::string, CoordinateSystem>> coordinate_systems;
   std::vector<InitialCondition> initial_conditions;
   std::vector<BoundaryCondition> boundary_conditions;
   std::vector<Load> loads;
@@ -331,6 +332,8 @@ struct Deck {
         optional("point_masses", &Deck::point_masses, any_number, "masses on nodes; absent: none"),
         optional("springs", &Deck::springs, any_number,
                  "a map of names to springs and dashpots between two points; absent: none"),
+        optional("coordinate_systems", &Deck::coordinate_systems, any_number,
+                 "a map of names to local coordinate systems, for motions that are prescribed and loads"),
         optional("initial_conditions", &Deck::initial_conditions, any_number, "velocities at the start"),
         optional("boundary_conditions", &Deck::boundary_conditions, any_number,
                  "motions that are prescribed"),

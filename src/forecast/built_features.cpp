@@ -146,7 +146,11 @@ void add_conditions(const Deck& deck, const Model& model, Features& features) {
     if (!nodes.empty()) detail = counted(nodes.size(), "node");
     if (const std::size_t bodies = bodies_with_given_motion(model.rigid); bodies > 0)
       detail += (detail.empty() ? "" : ", ") + std::to_string(bodies) + " rigid";
-    features.push_back({"prescribed motion", listed(motions), detail, bytes_held(model.prescribed)});
+    if (const std::size_t own = model.nodes.support_axes.size(); own > 0)
+      detail += ", " + std::to_string(own) + " along axes of their own";
+    features.push_back({"prescribed motion", listed(motions), detail,
+                        bytes_held(model.prescribed) + bytes_held(model.nodes.support_axes) +
+                            bytes_held(model.nodes.axes_of)});
   }
   if (!walls.empty()) features.push_back({"rigid wall", listed(walls), counted(walls.size(), "wall"), 0});
   for (std::size_t i = 0; i < model.loads.size(); ++i) {

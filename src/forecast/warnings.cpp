@@ -188,12 +188,32 @@ void warn_of_long_elements(const Deck& deck, const Model& model, const Shapes& s
                           "ratios below " + number(aspect_limit)});
 }
 
+bool names_system(const Deck& deck, const std::string& name) {
+  const auto in_condition = [&](const BoundaryCondition& condition) {
+    const auto* motion = std::get_if<PrescribedMotion>(&condition);
+    return motion != nullptr && motion->system == name;
+  };
+  const auto in_load = [&](const Load& load) {
+    return std::visit(
+        [&](const auto& one) {
+          if constexpr (requires { one.system; }) return one.system == name;
+          return false;
+        },
+        load);
+  };
+  return std::ranges::any_of(deck.boundary_conditions, in_condition) ||
+         std::ranges::any_of(deck.loads, in_load);
+}
+
 void warn_of_unused(const Deck& deck, const Model& model, Warnings& warnings) {
   for (const auto& [name, material] : deck.materials) {
     const auto uses = [&, &word = name](const Part& part) { return part.material == word; };
     if (std::none_of(deck.parts.begin(), deck.parts.end(), uses))
       warnings.push_back({"material '" + name + "'", "no part uses it", "leave it out"});
   }
+  for (const auto& [name, system] : deck.coordinate_systems)
+    if (!names_system(deck, name))
+      warnings.push_back({"coordinate system '" + name + "'", "nothing uses it", "leave it out"});
   const bool gravity = std::any_of(model.loads.begin(), model.loads.end(), [](const ActiveLoad& load) {
     return std::holds_alternative<GravityLoad>(load.load);
   });

@@ -125,11 +125,18 @@ void find_conditions_of_nodes(const Model& model, ForceSums& sums) {
   sums.condition_of_node.assign(model.nodes.size(), {-1, -1, -1});
   for (const PrescribedNodes& given : model.prescribed)
     for (const int node : given.nodes)
-      if (given.axis < 3)
+      if (!given.turns() && !given.is_skew())
         sums.condition_of_node[static_cast<std::size_t>(node)][static_cast<std::size_t>(given.axis)] =
             given.condition;
 }
+void find_skew_conditions(const Model& model, ForceSums& sums) {
+  for (const PrescribedNodes& given : model.prescribed)
+    for (std::size_t k = 0; k < given.direction.size() && !given.turns(); ++k)
+      sums.skew.push_back({given.nodes[k], given.condition, given.direction[k], given.dual[k]});
+  std::ranges::stable_sort(sums.skew, {}, &SkewShare::node);
+}
 void find_conditions_of_bodies(const Model& model, ForceSums& sums) {
+  for (const RigidBody& body : model.rigid.body) sums.axes_of_body.push_back(body.axes);
   sums.condition_of_body.assign(model.rigid.body.size(), {-1, -1, -1});
   for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
     for (const PrescribedRigid& given : model.rigid.body[b].given)
@@ -187,6 +194,7 @@ ForceSums make_force_sums(const ForceOutput& wanted, const Deck& deck, const Mod
   ForceSums sums;
   make_reactions(wanted.reactions, deck, sums);
   find_conditions_of_bodies(model, sums);
+  find_skew_conditions(model, sums);
   for (const ForceSection& section : wanted.sections)
     sums.sections.push_back(make_section(section, deck, model));
   if (model.contacts.empty()) {
@@ -212,16 +220,32 @@ void ForceSums::add_reaction(int condition, const Vector& impulse) {
   if (at >= 0) add_to(reactions[static_cast<std::size_t>(at)].impulse, impulse);
 }
 
+void ForceSums::add_skew_support(int node, const Vector& impulse) {
+  const auto comes_before = [](const SkewShare& share, int other) { return share.node < other; };
+  for (auto share = std::lower_bound(skew.begin(), skew.end(), node, comes_before);
+       share != skew.end() && share->node == node; ++share) {
+    Vector push = share->direction;
+    for (double& component : push) component *= dot(share->dual, impulse);
+    add_reaction(share->condition, push);
+  }
+}
+
 void ForceSums::add_support_of_body(std::size_t body, const Vector& impulse) {
-  add_components(*this, condition_of_body[body], impulse);
+  const Eigen::Vector3d along = axes_of_body[body] * Eigen::Vector3d(impulse.data());
+  for (int axis = 0; axis < 3; ++axis)
+    add_reaction(condition_of_body[body][static_cast<std::size_t>(axis)],
+                 to_vector(along[axis] * axes_of_body[body].row(axis).transpose()));
 }
 
 void ForceSums::add(const ImpulseLog& log) {
   for (const SupportImpulse& support : log.supports) {
-    const std::array<int, 3>& condition = support.node >= 0
-                                              ? condition_of_node[static_cast<std::size_t>(support.node)]
-                                              : condition_of_body[static_cast<std::size_t>(support.body)];
-    add_components(*this, condition, to_vector(support.impulse));
+    const Vector impulse = to_vector(support.impulse);
+    if (support.node < 0) {
+      add_support_of_body(static_cast<std::size_t>(support.body), impulse);
+      continue;
+    }
+    add_components(*this, condition_of_node[static_cast<std::size_t>(support.node)], impulse);
+    add_skew_support(support.node, impulse);
   }
   for (ContactSum& contact : contacts)
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -304,6 +328,13 @@ void begin_step(ForceSums& sums, double step) {
     impulse *= step;
     section.impulse += impulse;
   }
+}
+
+void add_reactions(ForceSums& sums, const PrescribedNodes& given, const Vector& linear) {
+  if (given.is_skew() && !given.turns())
+    for (std::size_t k = 0; k < given.nodes.size(); ++k)
+      sums.add_skew_support(given.nodes[k], given.impulse[k]);
+  if (!given.is_skew()) sums.add_reaction(given.condition, linear);
 }
 
 void add_reactions(ForceSums& sums, const RigidBodies& bodies) {

@@ -40,6 +40,14 @@ struct ContactSum {
   Vector impulse{};
 };
 
+/// Direction along which a boundary condition pushes a node, and by how much of an impulse on it: that times
+/// the dual (src/motion/skew_supports.hpp).
+struct SkewShare {
+  int node = 0;
+  int condition = -1;
+  Vector direction{}, dual{};
+};
+
 struct ForceSums {
   double duration = 0;  ///< over which the impulses act
   std::vector<ReactionSum> reactions;
@@ -47,10 +55,14 @@ struct ForceSums {
   std::vector<SectionSum> sections;
   std::vector<int> reaction_of_condition;             ///< by number in the deck; -1: not written
   std::vector<std::array<int, 3>> condition_of_node;  ///< by axis; empty without contact; -1: free
-  std::vector<std::array<int, 3>> condition_of_body;
+  std::vector<std::array<int, 3>> condition_of_body;  ///< by its own axes
+  std::vector<Eigen::Matrix3d> axes_of_body;
+  std::vector<SkewShare> skew;  ///< translations, by node
 
   /// \param condition its number in the deck
   void add_reaction(int condition, const Vector& impulse);
+  /// Of a node with supports along axes of its own.
+  void add_skew_support(int node, const Vector& impulse);
   /// Components that are not prescribed are 0.
   void add_support_of_body(std::size_t body, const Vector& impulse);
   /// Reactions and forces of a step of contact.
@@ -79,6 +91,8 @@ void note_loads(ForceSums& sums, const Nodes& nodes);
 void measure_sections(ForceSums& sums, const Nodes& nodes);
 /// Adds the impulses of sections. \param step over which the forces of the present time act
 void begin_step(ForceSums& sums, double step);
+/// Supports of nodes, but those in contact. \param linear their sum
+void add_reactions(ForceSums& sums, const PrescribedNodes& given, const Vector& linear);
 /// Supports of rigid bodies, but those in contact.
 void add_reactions(ForceSums& sums, const RigidBodies& bodies);
 

@@ -12,7 +12,53 @@ Vector position_of(const Nodes& nodes, std::size_t node) {
   return {x[0], x[1], x[2]};
 }
 
+// Duals change no other prescribed component, so that one may be set after the other.
+Reaction prescribe_skew(PrescribedNodes& given, const StepTimes& times, Nodes& nodes) {
+  Reaction reaction;
+  const GivenVelocity velocity_given = given_velocity(given.kind, given.curve, times);
+  for (std::size_t k = 0; k < given.nodes.size(); ++k) {
+    const auto node = static_cast<std::size_t>(given.nodes[k]);
+    double* velocity = given.turns() ? nodes.angular_velocity[node].component : nodes.record[node].velocity;
+    const double inertia = given.turns() ? nodes.rotational_inertia[node] : nodes.mass[node];
+    const double* before =
+        (given.turns() ? nodes.angular_velocity_before : nodes.velocity_before)[node].component;
+    const Vector was{before[0], before[1], before[2]}, is{velocity[0], velocity[1], velocity[2]};
+    const double change = velocity_given.after(dot(given.direction[k], was)) - dot(given.direction[k], is);
+    Vector& impulse = given.impulse[k];
+    for (std::size_t i = 0; i < 3; ++i) {
+      velocity[i] += change * given.dual[k][i];
+      impulse[i] = inertia * change * given.dual[k][i];
+    }
+    if (given.turns()) {
+      add_to(reaction.impulse.angular, impulse);
+    } else {
+      reaction.impulse.add(position_of(nodes, node), impulse);
+    }
+    reaction.before += dot(impulse, was);
+  }
+  return reaction;
+}
+
+/// Of an impulse, squared.
+constexpr double rounding_of_free_share = 1e-14;
+
 }  // namespace
+
+double work_after(const PrescribedNodes& given, const Nodes& nodes) {
+  double sum = 0;
+  for (std::size_t k = 0; k < given.impulse.size(); ++k) {
+    const auto node = static_cast<std::size_t>(given.nodes[k]);
+    const double* velocity =
+        given.turns() ? nodes.angular_velocity[node].component : nodes.record[node].velocity;
+    sum += dot(given.impulse[k], {velocity[0], velocity[1], velocity[2]});
+  }
+  return sum;
+}
+
+double compliance(const SymmetricTensor<double>& free, double inverse, const Vector& impulse) {
+  const double share = dot(impulse, free * impulse);
+  return share > rounding_of_free_share * dot(impulse, impulse) ? inverse * share : 0;
+}
 
 GivenVelocity given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times) {
   switch (kind) {
@@ -27,15 +73,10 @@ GivenVelocity given_velocity(MotionKind kind, const Curve& curve, const StepTime
   return {};
 }
 
-void mark(const PrescribedNodes& given, Nodes& nodes) {
-  if (nodes.prescribed.empty()) nodes.prescribed = AlignedBuffer<std::uint8_t>(nodes.size());
-  for (int node : given.nodes)
-    nodes.prescribed[static_cast<std::size_t>(node)] |= static_cast<std::uint8_t>(1 << given.axis);
-}
-
-Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& nodes) {
+Reaction prescribe(PrescribedNodes& given, const StepTimes& times, Nodes& nodes) {
+  if (given.is_skew()) return prescribe_skew(given, times, nodes);
   Reaction reaction;
-  const bool turns = given.axis >= 3;
+  const bool turns = given.turns();
   const auto axis = static_cast<std::size_t>(turns ? given.axis - 3 : given.axis);
   const GivenVelocity velocity_given = given_velocity(given.kind, given.curve, times);
   for (int entry : given.nodes) {
@@ -73,12 +114,10 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, Nodes& node
                           wall.normal[2] * (record.position[2] + times.next * record.velocity[2]) - offset;
     if (height >= 0 || times.next <= 0) continue;
     // Impulse along the normal that puts the node on the wall; prescribed axes do not move.
-    double compliance = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      compliance += wall.normal[static_cast<std::size_t>(axis)] *
-                    wall.normal[static_cast<std::size_t>(axis)] * nodes.free_inverse_mass(node, axis);
-    if (compliance <= 0) continue;
-    const double normal_impulse = -height / times.next / compliance;
+    const SymmetricTensor<double> free = nodes.free_translations(node);
+    const double yielding = compliance(free, record.inverse_mass, wall.normal);
+    if (yielding <= 0) continue;
+    const double normal_impulse = -height / times.next / yielding;
     Vector normal{}, tangential{}, sliding{};
     double along = 0;
     for (std::size_t i = 0; i < 3; ++i) along += wall.normal[i] * (record.velocity[i] - wall.velocity[i]);
@@ -93,11 +132,11 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, Nodes& node
       for (std::size_t i = 0; i < 3; ++i) tangential[i] = -size * sliding[i] / speed;
     }
     const Vector position = position_of(nodes, node);
+    normal = free * normal;
+    tangential = free * tangential;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double free = nodes.free_inverse_mass(node, static_cast<int>(i));
-      if (free == 0) normal[i] = tangential[i] = 0;
       const double before = nodes.velocity_before[node].component[i];
-      const double after = record.velocity[i] + (normal[i] + tangential[i]) * free;
+      const double after = record.velocity[i] + (normal[i] + tangential[i]) * record.inverse_mass;
       record.velocity[i] = after;
       reaction.normal.before += normal[i] * before;
       reaction.normal.after += normal[i] * after;

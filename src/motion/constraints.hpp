@@ -10,6 +10,10 @@
 namespace brio {
 
 inline Vector to_vector(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+inline Vector operator*(const SymmetricTensor<double>& a, const Vector& v) {
+  const Vector3<double> product = a * Vector3<double>{v[0], v[1], v[2]};
+  return {product.x, product.y, product.z};
+}
 
 /// One component of motion of a list of nodes.
 struct PrescribedNodes {
@@ -19,6 +23,21 @@ struct PrescribedNodes {
   Curve curve;
   std::string place{};  ///< in the deck
   int condition = -1;   ///< its number in the deck
+  /// Of each node, where its supports are not all along the global axes, else empty: the unit vector along
+  /// which the component is, and the change of velocity that changes it by one and no other that is
+  /// prescribed (skew_supports.hpp).
+  std::vector<Vector> direction{}, dual{};
+  std::vector<Vector> impulse{};  ///< on each node in this step; likewise
+
+  bool turns() const { return axis >= 3; }
+  bool is_skew() const { return !direction.empty(); }
+  /// Of the node at a place of the list, or of all.
+  Vector direction_of(std::size_t at) const {
+    if (is_skew()) return direction[at];
+    Vector unit{};
+    unit[static_cast<std::size_t>(axis % 3)] = 1;
+    return unit;
+  }
 };
 
 /// Times of the present time step: forces are of `time`, velocities go from -previous/2 to +next/2 about it.
@@ -49,11 +68,15 @@ struct GivenVelocity {
 };
 GivenVelocity given_velocity(MotionKind kind, const Curve& curve, const StepTimes& times);
 
-/// Marks nodes.prescribed.
-void mark(const PrescribedNodes& given, Nodes& nodes);
+/// Sets the velocity after nodes were accelerated by their force. \return the impulse of the support; of skew
+/// ones without J.v+
+Reaction prescribe(PrescribedNodes& given, const StepTimes& times, Nodes& nodes);
+/// J.v+ of a skew one, once all motions are prescribed.
+double work_after(const PrescribedNodes& given, const Nodes& nodes);
 
-/// Sets the velocity after nodes were accelerated by their force. \return the impulse of the support.
-Reaction prescribe(const PrescribedNodes& given, const StepTimes& times, Nodes& nodes);
+/// J.v of a unit of the impulse J on a node, or a moment, of which supports leave a share: 0 where that is
+/// rounding. \param free directions \param inverse mass or inertia
+double compliance(const SymmetricTensor<double>& free, double inverse, const Vector& impulse);
 
 /// A rigid wall: nodes that would be behind it at the end of the time step are stopped on it.
 struct WallInRun {

@@ -24,7 +24,8 @@ void forces_of(const NodalLoad& load, double time, const Nodes&, std::vector<Nod
   applied.resize(load.nodes.size());
   for (std::size_t i = 0; i < load.nodes.size(); ++i) {
     applied[i].node = load.nodes[i];
-    for (std::size_t axis = 0; axis < 3; ++axis) applied[i].force[axis] = factor * load.force[axis];
+    const Vector& force = load.own_force.empty() ? load.force : load.own_force[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) applied[i].force[axis] = factor * force[axis];
   }
 }
 

@@ -21,18 +21,19 @@ struct GravityLoad {
   Vector acceleration{};
   Curve factor;
 };
-/// The same force, or moment, on each node of a list.
+/// The same force, or moment, on each node of a list, or one of its own on each.
 struct NodalLoad {
   std::vector<int> nodes;
   Vector force{};
   Curve factor;
   bool is_moment = false;
   std::vector<std::size_t> bodies{};  ///< rigid bodies on which the moment acts once
+  std::vector<Vector> own_force{};    ///< of each node, where they differ; else empty
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(nodes);
+    archive(nodes, own_force);
   }
 };
 /// Pressure against the outward normal of quadrilateral sides; distributed to the corners by the bilinear

@@ -23,20 +23,21 @@ bool rotation_is_given(const RigidBody& body) {
   return body.is_given(3) || body.is_given(4) || body.is_given(5);
 }
 
-// Inverse within the rows and columns of the free rotations, 0 elsewhere.
+// Inverse within the rows and columns of the free rotations about the body's axes, 0 elsewhere.
 Matrix3d free_inverse(const RigidBody& body, const Matrix3d& inertia) {
   if (!rotation_is_given(body)) return inertia.inverse();
-  Matrix3d reduced = inertia;
+  const Matrix3d along_axes = body.axes * inertia * body.axes.transpose();
+  Matrix3d reduced = along_axes;
   for (int axis = 0; axis < 3; ++axis) {
     if (!body.is_given(axis + 3)) continue;
     reduced.row(axis).setZero();
     reduced.col(axis).setZero();
-    reduced(axis, axis) = inertia(axis, axis);
+    reduced(axis, axis) = along_axes(axis, axis);
   }
   Matrix3d inverse = reduced.inverse();
   for (int axis = 0; axis < 3; ++axis)
     if (body.is_given(axis + 3)) inverse(axis, axis) = 0;
-  return inverse;
+  return body.axes.transpose() * inverse * body.axes;
 }
 
 Matrix3d turned(const Matrix3d& inertia, const Quaterniond& attitude) {
@@ -47,8 +48,10 @@ Matrix3d turned(const Matrix3d& inertia, const Quaterniond& attitude) {
 // The angular velocity whose given components are those of `given` and whose momentum has the free components
 // of `momentum`.
 Vector3d angular_velocity_of(const RigidMotion& motion, const Vector3d& momentum, Vector3d given) {
+  given = motion.axes * given;
   for (int axis = 0; axis < 3; ++axis)
-    if (motion.inverse_inertia(axis, axis) != 0) given[axis] = 0;
+    if (!motion.rotation_is_given(axis)) given[axis] = 0;
+  given = motion.axes.transpose() * given;
   return given + motion.inverse_inertia * (momentum - motion.inertia * given);
 }
 
@@ -176,6 +179,7 @@ bool RigidBody::is_given(int axis) const {
 
 void start(RigidBody& body, RigidMotion& motion, const Vector3d& velocity, const Vector3d& angular_velocity) {
   motion.mass = body.mass;
+  motion.axes = body.axes;
   for (int axis = 0; axis < 3; ++axis) motion.inverse_mass[axis] = body.is_given(axis) ? 0 : 1 / body.mass;
   motion.velocity = velocity;
   motion.angular_velocity = angular_velocity;
@@ -264,14 +268,16 @@ Reaction accelerate(RigidBodies& bodies, const StepTimes& times) {
       motion.angular_velocity = motion.inverse_inertia * turning;
       continue;
     }
-    Vector3d angular = motion.angular_velocity_before;
+    const Vector3d linear_before = body.axes * motion.velocity_before;
+    const Vector3d angular_before = body.axes * motion.angular_velocity_before;
+    Vector3d linear = body.axes * pushed, angular = angular_before;
     for (const PrescribedRigid& one : body.given) {
-      double& rate = one.axis < 3 ? motion.velocity[one.axis] : angular[one.axis - 3];
-      const double before =
-          one.axis < 3 ? motion.velocity_before[one.axis] : motion.angular_velocity_before[one.axis - 3];
+      double& rate = one.axis < 3 ? linear[one.axis] : angular[one.axis - 3];
+      const double before = one.axis < 3 ? linear_before[one.axis] : angular_before[one.axis - 3];
       rate = given_velocity(one.kind, one.curve, times).after(before);
     }
-    motion.angular_velocity = angular_velocity_of(motion, turning, angular);
+    motion.velocity = body.axes.transpose() * linear;
+    motion.angular_velocity = angular_velocity_of(motion, turning, body.axes.transpose() * angular);
     if (rotation_is_given(body)) body.angular_momentum = motion.inertia * motion.angular_velocity;
     const Vector3d impulse = body.mass * (motion.velocity - pushed);
     const Vector3d moment = body.angular_momentum - turning;
@@ -329,7 +335,8 @@ Reaction move(RigidBodies& bodies, double step, Nodes& nodes, ThreadTeam& team) 
       const Vector3d added = given_turn(body, motion, step);
       add_to(reaction.impulse.angular, to_vector(added));
       for (int axis = 0; axis < 3; ++axis)
-        if (body.is_given(axis + 3)) reaction.after += added[axis] * rate[axis];
+        if (body.is_given(axis + 3))
+          reaction.after += body.axes.row(axis).dot(added) * body.axes.row(axis).dot(rate);
     } else {
       body.attitude = free_turn(body, step);
     }

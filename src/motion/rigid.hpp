@@ -27,8 +27,8 @@
 
 namespace brio {
 
-/// One prescribed component of a body's motion: translations of its centre, rotations about it; rotations by
-/// the components of the angular velocity along the fixed axes.
+/// One prescribed component of a body's motion along the axes of its supports, which stay as they are:
+/// translations of its centre, rotations about it by the components of the angular velocity.
 struct PrescribedRigid {
   MotionKind kind = MotionKind::velocity;
   int axis = 0;  ///< 0..2 translations, 3..5 rotations
@@ -61,6 +61,7 @@ struct RigidBody {
   double mass = 0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, in the initial attitude
   std::vector<PrescribedRigid> given;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: of the components in `given`
 
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();

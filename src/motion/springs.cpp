@@ -45,12 +45,6 @@ Vector3d arm_of(const SpringAnchor& anchor, const RigidBodies& bodies, const Nod
   return place_of(anchor, nodes) - bodies.body[static_cast<std::size_t>(anchor.body)].centre;
 }
 
-Vector3d free_inverse_mass(const Nodes& nodes, int entry) {
-  const auto node = static_cast<std::size_t>(entry);
-  return {nodes.free_inverse_mass(node, 0), nodes.free_inverse_mass(node, 1),
-          nodes.free_inverse_mass(node, 2)};
-}
-
 /// Acceleration along a direction by the forces known so far, and by a unit force along it.
 struct Response {
   double acceleration = 0;
@@ -65,12 +59,13 @@ Response response_of(const SpringAnchor& anchor, const Vector3d& direction, cons
     const RigidMotion& motion = bodies.motion[static_cast<std::size_t>(anchor.body)];
     const Vector3d arm = arm_of(anchor, bodies, nodes);
     const Vector3d turning = motion.inverse_inertia * body.moment;
-    return {direction.dot(motion.inverse_mass.cwiseProduct(body.force) + turning.cross(arm)),
+    return {direction.dot(motion.free_inverse_mass() * body.force + turning.cross(arm)),
             motion.inverse_mass_along(direction, arm)};
   }
-  const Vector3d inverse = free_inverse_mass(nodes, anchor.node);
-  const Vector3d force(nodes.force[static_cast<std::size_t>(anchor.node)].component);
-  return {direction.dot(inverse.cwiseProduct(force)), direction.cwiseProduct(direction).dot(inverse)};
+  const auto node = static_cast<std::size_t>(anchor.node);
+  const Vector along = nodes.free_inverse_mass(node) * to_vector(direction);
+  const double* force = nodes.force[node].component;
+  return {dot(along, {force[0], force[1], force[2]}), dot(along, to_vector(direction))};
 }
 
 void pull(const SpringAnchor& anchor, const Vector3d& force, RigidBodies& bodies, Nodes& nodes) {
@@ -95,7 +90,8 @@ double dashpot_force(const SpringInRun& spring, double mean_step, const RigidBod
 }
 
 double largest_inverse_mass(const AnchoredMass& mass, const RigidBodies& bodies, const Nodes& nodes) {
-  if (mass.body < 0) return free_inverse_mass(nodes, mass.node).maxCoeff();
+  if (const auto node = static_cast<std::size_t>(mass.node); mass.body < 0)
+    return nodes.prescribed_translations(node) == 7 ? 0 : nodes.record[node].inverse_mass;
   const RigidMotion& motion = bodies.motion[static_cast<std::size_t>(mass.body)];
   return motion.inverse_mass.maxCoeff() + mass.arm * mass.arm * motion.inverse_inertia.trace();
 }

@@ -31,49 +31,48 @@ void transfer(const Ties& ties, const Nodes& nodes, int node, const Vector3d& im
       transfer(ties, nodes, tie.corner[k], share[k], tie.weight[k] * turn, visit);
 }
 
-double free_inverse_inertia(const Nodes& nodes, std::size_t node, int axis) {
-  if (!nodes.has_rotations()) return 0;
-  if (!nodes.prescribed.empty() && (nodes.prescribed[node] >> (axis + 3) & 1) != 0) return 0;
-  return nodes.angular_velocity[node].component[3];
-}
-
 /// Upper bound of the velocity of a node along a unit impulse: paths to one corner are counted separately.
 double inverse_mass_along(const Ties& ties, const Nodes& nodes, int node, const Vector3d& direction) {
   double sum = 0;
   transfer(ties, nodes, node, direction, Vector3d::Zero(),
            [&](std::size_t corner, const Vector3d& impulse, const Vector3d& moment) {
-             for (int axis = 0; axis < 3; ++axis)
-               sum += impulse[axis] * impulse[axis] * nodes.free_inverse_mass(corner, axis) +
-                      moment[axis] * moment[axis] * free_inverse_inertia(nodes, corner, axis);
+             sum += compliance(nodes.free_translations(corner), nodes.record[corner].inverse_mass,
+                               to_vector(impulse));
+             if (nodes.has_rotations())
+               sum += compliance(nodes.free_rotations(corner), nodes.angular_velocity[corner].component[3],
+                                 to_vector(moment));
            });
   return sum;
 }
 
+/// Adds an impulse to a velocity, in the directions that are free. \return that of the support
+Vector push(const SymmetricTensor<double>& free, double inverse, const Vector& impulse, const double* before,
+            double* velocity, Reaction& support) {
+  const Vector taken = free * impulse;
+  Vector reaction{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    velocity[i] += inverse * taken[i];
+    reaction[i] = taken[i] - impulse[i];
+  }
+  support.before += dot(reaction, {before[0], before[1], before[2]});
+  support.after += dot(reaction, {velocity[0], velocity[1], velocity[2]});
+  return reaction;
+}
+
 void apply(const Ties& ties, Nodes& nodes, int node, const Vector3d& given, Reaction& support) {
-  transfer(ties, nodes, node, given, Vector3d::Zero(),
-           [&](std::size_t corner, const Vector3d& impulse, const Vector3d& moment) {
-             Vector3d reaction = Vector3d::Zero();
-             double* v = nodes.record[corner].velocity;
-             for (int axis = 0; axis < 3; ++axis) {
-               const double free = nodes.free_inverse_mass(corner, axis);
-               v[axis] += free * impulse[axis];
-               if (free == 0) {
-                 reaction[axis] = -impulse[axis];
-                 support.before += reaction[axis] * nodes.velocity_before[corner].component[axis];
-                 support.after += reaction[axis] * v[axis];
-               }
-               if (!nodes.has_rotations()) continue;
-               const double free_turn = free_inverse_inertia(nodes, corner, axis);
-               double* rate = nodes.angular_velocity[corner].component;
-               rate[axis] += free_turn * moment[axis];
-               if (free_turn > 0) continue;
-               support.before -= moment[axis] * nodes.angular_velocity_before[corner].component[axis];
-               support.after -= moment[axis] * rate[axis];
-               support.impulse.angular[static_cast<std::size_t>(axis)] -= moment[axis];
-             }
-             const double* x = nodes.record[corner].position;
-             support.impulse.add({x[0], x[1], x[2]}, to_vector(reaction));
-           });
+  transfer(
+      ties, nodes, node, given, Vector3d::Zero(),
+      [&](std::size_t corner, const Vector3d& impulse, const Vector3d& moment) {
+        NodeRecord& record = nodes.record[corner];
+        const Vector reaction = push(nodes.free_translations(corner), record.inverse_mass, to_vector(impulse),
+                                     nodes.velocity_before[corner].component, record.velocity, support);
+        const double* x = record.position;
+        support.impulse.add({x[0], x[1], x[2]}, reaction);
+        if (!nodes.has_rotations()) return;
+        double* rate = nodes.angular_velocity[corner].component;
+        add_to(support.impulse.angular, push(nodes.free_rotations(corner), rate[3], to_vector(moment),
+                                             nodes.angular_velocity_before[corner].component, rate, support));
+      });
 }
 
 }  // namespace

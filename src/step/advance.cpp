@@ -105,11 +105,13 @@ Contribution constrain(Model& model) {
   Contribution sum;
   if (model.prescribed.empty()) return sum;
   const StageTimer timer(model.stages, Stage::constraints);
-  for (const PrescribedNodes& given : model.prescribed) {
+  for (PrescribedNodes& given : model.prescribed) {
     const Reaction support = prescribe(given, model.times, model.nodes);
-    if (model.forces) model.forces->add_reaction(given.condition, support.impulse.linear);
+    if (model.forces) add_reactions(*model.forces, given, support.impulse.linear);
     sum += of_support(support);
   }
+  for (const PrescribedNodes& given : model.prescribed)
+    if (given.is_skew()) sum += {.external = {.after = work_after(given, model.nodes)}};
   return sum;
 }
 

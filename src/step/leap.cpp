@@ -24,12 +24,13 @@ struct Leap {
 
 Leap largest_change(const Nodes& nodes, double mean_step) {
   Leap largest;
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      const double change =
-          std::abs(nodes.force[i].component[axis]) * (nodes.free_inverse_mass(i, axis) * mean_step);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double* force = nodes.force[i].component;
+    for (const double component : nodes.free_translations(i) * Vector{force[0], force[1], force[2]}) {
+      const double change = std::abs(component) * (nodes.record[i].inverse_mass * mean_step);
       if (change > largest.speed) largest = {i, change};
     }
+  }
   return largest;
 }
 

@@ -166,8 +166,14 @@ void remove_sides(ActiveLoad& load, std::span<const DeletedElement> deleted) {
 void remove_nodes(ActiveLoad& load, std::span<const int> dropping) {
   auto* nodal = std::get_if<NodalLoad>(&load.load);
   if (nodal == nullptr || dropping.empty()) return;
-  std::erase_if(nodal->nodes,
-                [&](int node) { return std::binary_search(dropping.begin(), dropping.end(), node); });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < nodal->nodes.size(); ++i) {
+    if (std::binary_search(dropping.begin(), dropping.end(), nodal->nodes[i])) continue;
+    if (!nodal->own_force.empty()) nodal->own_force[kept] = nodal->own_force[i];
+    nodal->nodes[kept++] = nodal->nodes[i];
+  }
+  nodal->nodes.resize(kept);
+  if (!nodal->own_force.empty()) nodal->own_force.resize(kept);
 }
 
 Contribution remove_nodes(Erosion& erosion, Nodes& nodes) {

@@ -186,7 +186,7 @@ class SpringModel {
       for (int axis = 0; axis < 3; ++axis) {
         NodeRecord& record = nodes.record[n];
         nodes.velocity_before[n].component[axis] = record.velocity[axis];
-        if (nodes.free_inverse_mass(n, axis) == 0) continue;
+        if ((nodes.prescribed[n] >> axis & 1) != 0) continue;
         record.velocity[axis] += dt * (force[n][axis] * record.inverse_mass + gravity[axis]);
         record.velocity[axis] *= 1 - dt * damping;
       }

@@ -121,6 +121,30 @@ TEST_P(Zone, ThatLiesOnSupportsSlidesOnThem) {
   EXPECT_NEAR(after[1], before[1], 1e-12);
 }
 
+// The same zone seen along other axes, in which its members are held.
+TEST_P(Zone, HeldAlongAxesOfItsOwnIsTurned) {
+  fill(5, GetParam() % 2);
+  for (int axis = 0; axis < 3; ++axis) prescribe(0, axis);
+  prescribe(1, GetParam() % 3);
+  if (GetParam() % 2 == 1)
+    prescribe(5, 3 + GetParam() % 3);
+  else
+    prescribe(2, (GetParam() + 1) % 3);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, -2, 3).normalized()).toRotationMatrix();
+  std::vector<ZoneMember> turned = members_;
+  for (ZoneMember& one : turned) {
+    one.axes = turn;
+    for (Vector3d* vector : {&one.position, &one.velocity, &one.angular_velocity}) *vector = turn * *vector;
+    one.inertia = turn * one.inertia * turn.transpose();
+  }
+  find_zone_impulses(members_);
+  find_zone_impulses(turned);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    EXPECT_LT((turn * members_[i].impulse - turned[i].impulse).norm(), 1e-11);
+    EXPECT_LT((turn * members_[i].moment - turned[i].moment).norm(), 1e-11);
+  }
+}
+
 // Supports that tear it apart: what they are given is in the sums all the same.
 TEST_P(Zone, KeepsMomentumWhereSupportsContradict) {
   fill(5, 1);

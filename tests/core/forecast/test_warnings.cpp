@@ -48,6 +48,18 @@ void expect_none(const Deck& deck) {
 
 TEST(Warnings, NoneOfASceneThatIsWellMade) { expect_none(blocks()); }
 
+TEST(Warnings, OfACoordinateSystemThatNothingUses) {
+  Deck deck = blocks();
+  deck.coordinate_systems = {{"ramp", RectangularSystem{{1, 0, 1}, {0, 1, 0}}}};
+  expect_one(deck, "coordinate system 'ramp'", "nothing uses it");
+  Deck held = deck;
+  held.boundary_conditions = {fix("lower.zmin", {2})};
+  std::get<PrescribedMotion>(held.boundary_conditions[0]).system = "ramp";
+  expect_none(held);
+  deck.loads = {Gravity{{0, 0, -10}, Curve{{{0, 1}}}, "ramp"}};
+  expect_none(deck);
+}
+
 TEST(Warnings, NoneOfElementsThatAreDeletedAtOnce) {
   Deck deck = blocks();
   deck.parts[0].deletion.emplace().minimum_step = 1;

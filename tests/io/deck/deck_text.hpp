@@ -1,6 +1,8 @@
 #pragma once
 /// A small deck that is right, to change piece by piece.
 
+#include <string>
+
 namespace brio {
 
 inline constexpr const char* plain_deck = R"(title: Two boxes
@@ -31,5 +33,21 @@ contact: {surfaces: all, exclude: [left], friction: 0.1}
 time: {end: 3e-3, step_scale: 0.9}
 output: {fields: {every: 5e-5}, history: {every: 1e-6}}
 )";
+
+/// The same with local coordinate systems, of which motions and loads take their axes.
+inline std::string deck_with_systems() {
+  std::string text = plain_deck;
+  text.insert(text.find("boundary_conditions:\n"),
+              "coordinate_systems:\n"
+              "  ramp: {rectangular: {x: [1, 0, 1], y: [1, 1, 0]}}\n"
+              "  axle: {cylindrical: {point: [0, 0, 19], axis: [1, 0, 0]}}\n");
+  text.insert(text.find("loads:\n"),
+              "  - {name: cut, set: right.top, system: axle, fix: [t, z]}\n"
+              "  - {set: right.bottom, system: ramp, velocity: {y: 3}}\n");
+  text.insert(text.find("contact:"),
+              "  - {set: right.top, system: axle, force: [1, 2, 3]}\n"
+              "  - {gravity: [0, 0, 1], system: ramp}\n");
+  return text;
+}
 
 }  // namespace brio

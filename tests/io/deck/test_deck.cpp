@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <filesystem>
 #include <fstream>
 
@@ -91,6 +93,33 @@ TEST(Deck, ConditionsAndLoadsKeepTheirKind) {
   EXPECT_TRUE(deck.contact->surfaces.empty());
   EXPECT_EQ(deck.contact->exclude, std::vector<std::string>{"left"});
   EXPECT_EQ(deck.contact->options.friction, 0.1);
+}
+
+TEST(Deck, MotionsAndLoadsAreAlongTheAxesOfCoordinateSystems) {
+  const Deck deck = parse_deck(deck_with_systems(), "systems.yaml");
+  ASSERT_EQ(deck.coordinate_systems.size(), 2U);
+  EXPECT_EQ(deck.coordinate_systems[1].first, "axle");
+  EXPECT_EQ(std::get<CylindricalSystem>(deck.coordinate_systems[1].second).point, (Triple{0, 0, 19}));
+  const auto& cut = std::get<PrescribedMotion>(deck.boundary_conditions[3]);
+  EXPECT_EQ(cut.name, "cut");
+  EXPECT_EQ(cut.system, "axle");
+  ASSERT_EQ(cut.components.size(), 2U);
+  EXPECT_EQ(cut.components[0].axis, 1);
+  EXPECT_EQ(cut.components[1].axis, 2);
+  const auto& driven = std::get<PrescribedMotion>(deck.boundary_conditions[4]);
+  EXPECT_EQ(driven.system, "ramp");
+  EXPECT_EQ(driven.components[0].axis, 1);
+  EXPECT_EQ(std::get<PrescribedMotion>(deck.boundary_conditions[0]).system, "");
+  EXPECT_EQ(std::get<NodalForce>(deck.loads[3]).system, "axle");
+  EXPECT_EQ(std::get<Gravity>(deck.loads[4]).system, "ramp");
+  // y counts at right angles to x; z is their cross product.
+  const SystemAxes axes = axes_of(std::get<RectangularSystem>(deck.coordinate_systems[0].second));
+  const double half = std::sqrt(0.5), third = std::sqrt(1.0 / 6);
+  const SystemAxes wanted{{{half, 0, half},
+                           {third, 2 * third, -third},
+                           {-std::sqrt(1.0 / 3), std::sqrt(1.0 / 3), std::sqrt(1.0 / 3)}}};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(axes[axis][i], wanted[axis][i], 1e-15);
 }
 
 std::string with(const std::string& from, const std::string& to) {

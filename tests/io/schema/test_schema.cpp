@@ -77,10 +77,13 @@ TEST(Schema, AcceptsTheDecksThatComeWithBrio) {
   for (const auto& entry : fs::directory_iterator(BRIO_SOURCE_DIR "/inputs"))
     if (entry.path().extension() == ".yaml") decks.push_back(entry.path().string());
   const fs::path plain = fs::temp_directory_path() / "brio_plain_deck.yaml";
+  const fs::path systems = fs::temp_directory_path() / "brio_deck_with_systems.yaml";
   std::ofstream(plain) << plain_deck;
-  decks.push_back(plain.string());
+  std::ofstream(systems) << deck_with_systems();
+  decks.insert(decks.end(), {plain.string(), systems.string()});
   const auto said = verdicts(decks);
   fs::remove(plain);
+  fs::remove(systems);
   ASSERT_FALSE(said.empty()) << BRIO_PYTHON " lacks jsonschema or yaml (python3-jsonschema, python3-yaml)";
   for (const std::string& deck : decks) EXPECT_EQ(said.at(deck), "good") << deck;
 }

@@ -23,30 +23,35 @@ picture() {  # NAME DECK TIME OPTIONS...
   local name=$1 deck=$2 time=$3
   shift 3
   run "$deck"
-  draw "$deck" --output "$pictures/$name" --times "$time" --largest 250000 "$@"
+  draw "$deck" --output "$pictures/$name" --times "$time" --largest 400000 "$@"
   mv "$pictures/${name}_0.png" "$pictures/$name.png"
+}
+
+plot() {  # NAME DECK COLUMNS AND OPTIONS...
+  local name=$1 deck=$2
+  shift 2
+  "$brio" plot "$folder/$deck" "$@" --output "$pictures/$name.svg"
+  rm -f "$pictures/$name.gp"
 }
 
 strain="--color equivalent_plastic_strain"
 can() {
   picture can can_buckling 2.4e-3 $strain --range 0 1 --fade plate --camera 0.5 -2 0.6
   draw can_buckling --animation docs/pictures/can.gif $strain --range 0 1 --fade plate --camera 0.5 -2 0.6 --size 560 440
-  "$brio" plot "$folder/can_buckling" --output "$pictures/can_energies.svg"
-  "$brio" plot "$folder/can_buckling" contact.plate.can_z --filter 1000 --output "$pictures/can_force.svg"
+  plot can_force can_buckling contact.plate.can_z --filter 1000
 }
 pipe() {
-  picture pipe pipe_cutting 1.25e-3 $strain --range 0 1.2 --fade blade left right --clip 0 1 0 --camera 0.6 -2 0.5
-  "$brio" plot "$folder/pipe_cutting" contact.blade.pipe_z --filter 1000 --output "$pictures/pipe_force.svg"
+  picture pipe pipe_cutting 1.25e-3 $strain --range 0 0.6 --fade blade left right --clip 0 1 0 --camera 0.6 -2 0.5
+  plot pipe_force pipe_cutting contact.blade.pipe_z --filter 1000
 }
 bricks() {
-  picture bricks brick_stack 6e-3 --color part --hide-edges
-  "$brio" plot "$folder/brick_stack" --output "$pictures/bricks_energies.svg"
+  picture bricks brick_stack 6e-3 --color part --fade wall --camera -1 -2 0.8
 }
 bird() { picture bird bird_strike 2.4e-3 --color velocity --thicken --hide-edges; }
 net() { picture net net 12e-3 --color part --thicken --hide-edges; }
 crash_box() { picture crash_box crash_box 100% $strain --range 0 0.8; }
-perforation() { picture perforation plate_perforation 60% $strain --range 0 0.8 --camera 0.6 -2 0.9; }
-rings() { picture rings rubber_rings 40% --color stress --camera 0.2 -2 0.9; }
+perforation() { picture perforation plate_perforation 30% $strain --range 0 0.8 --clip 0 1 0 --camera 0.6 -2 0.6 --zoom 1.3; }
+rings() { picture rings rubber_rings 40% --color stress --thicken --hide-edges --camera 0.2 -2 0.9; }
 taylor() { picture taylor taylor_bar 100% $strain --range 0 2 --camera 1 -2 0.4; }
 
 [ $# -gt 0 ] || set -- can pipe bricks bird net crash_box perforation rings taylor

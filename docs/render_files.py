@@ -16,11 +16,13 @@ def drawn(path, view, size):
 
 
 def save_picture(path, view, size, largest):
-    """A PNG of 256 colours: a third of the size of one with all, no difference to see. Where it may have but so
-    many bytes, of fewer colours, then of fewer pixels."""
-    for scale, number in ((1.0, 256), (1.0, 64), (1.0, 32), (0.85, 64), (0.7, 64), (0.5, 64)):
+    """A PNG; where it may have but so many bytes, of fewer colours, then of fewer pixels."""
+    for scale, number in ((1.0, None), (1.0, 256), (1.0, 64), (1.0, 32), (0.85, 64), (0.7, 64), (0.5, 64)):
         pixels = [int(scale * n) for n in size]
-        drawn(path, view, pixels).quantize(number, dither=Image.Dither.NONE).save(path, optimize=True)
+        picture = drawn(path, view, pixels)
+        if number is not None:
+            picture = picture.quantize(number, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+        picture.save(path, optimize=True)
         if largest is None or os.path.getsize(path) <= largest:
             break
     return pixels
@@ -31,7 +33,7 @@ def save_animation(path, frames, seconds):
     still."""
     step = max(1, len(frames) // 8)
     some = np.concatenate([np.asarray(frame) for frame in frames[::step]])
-    palette = Image.fromarray(some).quantize(256, dither=Image.Dither.NONE)
+    palette = Image.fromarray(some).quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
     indexed = [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
     each = int(1000 * seconds / len(frames))
     indexed[0].save(path, save_all=True, append_images=indexed[1:], loop=0, optimize=True,

@@ -382,7 +382,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   model.assembled_step = make_assembled_step(deck.time, bounds_assembled_step(model), model.blocks,
                                              model.nodes, model.extent.width);
   start_balances(model);
-  make_springs(deck, model);
+  make_springs(deck, meshes, model);
   prepare_history(deck, model);
   return model;
 }

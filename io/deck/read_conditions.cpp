@@ -252,12 +252,15 @@ void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) 
                     "'tie' takes a part or a set, and the part whose faces its nodes are tied to");
   const YamlNode& slave = *names.items[0];
   check_set(slave, slot, node_set_names);
-  const Part& tied = slot.known.part(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));
-  if (is_rigid(tied))
-    throw DeckError(slave.place,
-                    "part '" + tied.name +
-                        "' is rigid; nodes of parts that deform can be tied to it, as the second of "
-                        "'tie'");
+  // Of a mesh file that is several parts.
+  const std::vector<const Part*> tied =
+      slot.known.parts_called(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));
+  for (const Part* part : tied)
+    if (is_rigid(*part))
+      throw DeckError(slave.place,
+                      "part '" + part->name +
+                          "' is rigid; nodes of parts that deform can be tied to it, as the second of "
+                          "'tie'");
   const Part& main_surface = slot.known.part(*names.items[1], tie.names[1]);
   if (is_rigid(main_surface) && tie.failure)
     throw DeckError(node.find("failure")->place,
@@ -267,7 +270,8 @@ void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) 
                     "part '" + main_surface.name + "' is of elements '" +
                         std::string(name_of(main_surface.element)) +
                         "', which have no faces; accepted are parts of solids and shells");
-  if (&tied == &main_surface) throw DeckError(names.place, "'tie' takes two different parts");
+  if (tied.size() == 1 && tied.front() == &main_surface)
+    throw DeckError(names.place, "'tie' takes two different parts");
 }
 
 }  // namespace

@@ -180,8 +180,21 @@ void read_value(const YamlNode& node, const Slot& slot, SpaceTimeCurve& curve) {
 void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition) {
   read_fields(node, slot, condition, {"part", "set"});
   read_where(node, slot, "an initial condition", condition.where);
-  if (node.find("velocity") == nullptr && node.find("spin") == nullptr && node.find("radial") == nullptr)
-    throw DeckError(node.place, "nothing is given at the start; accepted: velocity, spin, radial");
+  const auto is_given = [&](const char* key) { return node.find(key) != nullptr; };
+  const bool moves = is_given("velocity") || is_given("spin") || is_given("radial");
+  const YamlEntry* from = node.find("from");
+  if (!moves && from == nullptr)
+    throw DeckError(node.place, "nothing is given at the start; accepted: velocity, spin, radial, from");
+  if (from == nullptr) return;
+  if (moves || !is_given("part"))
+    throw DeckError(from->place,
+                    moves ? "'from' stands beside another velocity; accepted is an entry of its own"
+                          : "'from' of a set of nodes; accepted is a part");
+  const Part& part = slot.known.part(*node.find("part")->value, condition.where.set);
+  if (std::holds_alternative<Rigid>(part.element) || traits_of(part.element).cell == vertex_cell)
+    throw DeckError(from->place, "'from' of part '" + part.name + "', which is of elements '" +
+                                     std::string(name_of(part.element)) +
+                                     "'; accepted are parts of solids, shells and beams");
 }
 
 void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition) {

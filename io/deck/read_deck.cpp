@@ -26,7 +26,7 @@ void read_variables(Deck& deck, const YamlNode& root) {
   for (const auto& [name, material] : deck.materials)
     for (const std::string_view word : history_names_of(material))
       if (std::ranges::find(histories, word) == histories.end()) histories.push_back(word);
-  std::vector<std::string_view> known{default_group, all_group};
+  std::vector<std::string_view> known{default_group, all_group, state_variable};
   const auto is_had = [&](const CellVariable& variable) {
     return variable.of == nullptr || std::ranges::any_of(deck.parts, [&](const Part& part) {
              return traits_of(part.element).*variable.of;

@@ -11,6 +11,7 @@
 #include "src/build/build.hpp"
 #include "src/build/build_rigid.hpp"
 #include "src/deck/part_index.hpp"
+#include "src/initial/initial_state.hpp"
 
 namespace brio {
 
@@ -66,6 +67,18 @@ NodalLoad moment_on(const NodalMoment& entry, const Deck& deck, std::span<const 
         "whole",
         entry.where.place);
   return load;
+}
+
+Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record, const std::string& place) {
+  Vector arm{};
+  for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - radial.point[i];
+  const double along = dot(arm, radial.axis) / dot(radial.axis, radial.axis);
+  for (std::size_t i = 0; i < 3; ++i) arm[i] -= along * radial.axis[i];
+  const double distance = std::sqrt(dot(arm, arm));
+  if (!(distance > 0))
+    throw BuildError("a node on the axis of 'radial' in initial_conditions has no radial direction", place);
+  for (double& component : arm) component *= radial.speed / distance;
+  return arm;
 }
 
 /// Nodes of a selection in the order of the parts and of their numbers in the mesh.
@@ -291,6 +304,35 @@ void make_springs(const Deck& deck, std::span<const Mesh> meshes, Model& model) 
   const double stored = start(model.springs, model.nodes);
   model.energy.internal += stored;
   model.energy.kinetic_start += stored;
+}
+
+void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, std::span<const PartState> states,
+                            Model& model) {
+  std::size_t number = 0;
+  for (const InitialCondition& condition : deck.initial_conditions) {
+    for (const PartState& state : states)
+      if (state.condition == number) set_velocities(state, model);
+    ++number;
+    if (condition.from) continue;
+    std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
+    take_rigid(nodes, condition.where, model);
+    for (int entry : nodes) {
+      const auto node = static_cast<std::size_t>(entry);
+      NodeRecord& record = model.nodes.record[node];
+      Vector velocity = condition.velocity;
+      if (condition.spin) {
+        Vector arm{};
+        for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - condition.spin->point[i];
+        add_to(velocity, cross(condition.spin->angular_velocity, arm));
+        if (model.nodes.has_rotations() && model.nodes.rotational_inertia[node] > 0)
+          for (std::size_t i = 0; i < 3; ++i)
+            model.nodes.angular_velocity[node].component[i] = condition.spin->angular_velocity[i];
+      }
+      if (condition.radial)
+        add_to(velocity, radial_velocity(*condition.radial, record, condition.where.place));
+      for (std::size_t i = 0; i < 3; ++i) record.velocity[i] = velocity[i];
+    }
+  }
 }
 
 }  // namespace brio

@@ -28,6 +28,8 @@ const CellVariable& cell_variable(std::string_view name);
 
 /// Groups of variables.
 inline constexpr std::string_view default_group = "default", all_group = "all";
+/// All that elements remember, row by row as of elements/element_state.hpp; not in any group.
+inline constexpr std::string_view state_variable = "state";
 
 /// Names of a list, with `all` in place of what it stands for: `default`, variables of kinds of elements that
 /// the scene has, the histories.

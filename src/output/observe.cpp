@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "elements/element_state.hpp"
 #include "src/output/result_order.hpp"
 
 namespace brio {
@@ -51,6 +52,7 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> va
   snapshot_.point_fields = {field("displacement", 3, points, Storage::double_precision),
                             field("velocity", 3, points)};
   if (!model.contacts.empty()) snapshot_.point_fields.push_back(field("contact_force", 3, points));
+  if (std::ranges::find(variables, state_variable) != variables.end()) add_state(model);
   if (has_ids(model)) snapshot_.point_fields.push_back(field("node_id", 1, points, Storage::integer, true));
   add_cell_fields(model, variables);
   take_topology(model);
@@ -88,12 +90,29 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
     if (can_be_damaged(model)) add_cell_field("damage", {Kind::history});
   }
   for (const std::string& name : variables) {
-    if (name == default_group) continue;
+    if (name == default_group || name == state_variable) continue;
     if (std::ranges::find(chosen_variables(), name, &CellVariable::name) != chosen_variables().end())
       add_variable(name);
     else
       add_cell_field(name, {Kind::history});
   }
+}
+
+// What runs can start from: of every digit.
+void FieldObserver::add_state(const Model& model) {
+  const std::size_t points = node_of_point_.size();
+  snapshot_.point_fields[1].storage = Storage::double_precision;
+  if (model.nodes.has_rotations()) {
+    angular_velocity_field_ = snapshot_.point_fields.size();
+    snapshot_.point_fields.push_back(field("angular_velocity", 3, points, Storage::double_precision));
+  }
+  std::size_t components = 1;
+  for (const Block& block : model.blocks) components = std::max(components, state_components(block));
+  state_field_ = snapshot_.cell_fields.size();
+  snapshot_.cell_fields.push_back(
+      field(std::string(state_variable), static_cast<int>(components), 0, Storage::double_precision));
+  snapshot_.cell_fields.back().is_partial = true;
+  cell_source_.push_back({CellSource::Kind::state});
 }
 
 // Cells of the elements that live, by part and element.
@@ -181,7 +200,30 @@ void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sam
       return;
     case CellSource::Kind::history:
       *values = sample.named(field.name);
+      return;
+    case CellSource::Kind::state:
+      return;  // no sample tells it
   }
+}
+
+// Of particles a row is not all: they remember their neighbours.
+void FieldObserver::fill_state(const Model& model, const PartInModel& part, std::size_t element,
+                               std::size_t cell) {
+  FieldArray& field = snapshot_.cell_fields[state_field_];
+  const auto components = static_cast<std::size_t>(field.components);
+  double* row = field.values.data() + cell * components;
+  std::fill_n(row, components, ElementSample::undefined);
+  const Block& block = model.blocks[part.block];
+  if (part.rigid < 0 && !block.cloud)
+    read_state(block, static_cast<std::size_t>(part.element_slot[element]), row);
+}
+
+void FieldObserver::fill_angular_velocity(const Model& model) {
+  std::vector<double>& values = snapshot_.point_fields[angular_velocity_field_].values;
+  for (std::size_t p = 0; p < node_of_point_.size(); ++p)
+    for (std::size_t i = 0; i < 3; ++i)
+      values[3 * p + i] =
+          model.nodes.angular_velocity[static_cast<std::size_t>(node_of_point_[p])].component[i];
 }
 
 void FieldObserver::fill_cells(const Model& model) {
@@ -193,6 +235,7 @@ void FieldObserver::fill_cells(const Model& model) {
       const ElementSample sample = sample_of(model, part, e);
       for (std::size_t k = 0; k < cell_source_.size(); ++k)
         fill_cell(cell_source_[k], sample, {p, part.number_of_element(e), cell}, snapshot_.cell_fields[k]);
+      if (state_field_ != none) fill_state(model, part, e, cell);
       ++cell;
     }
   }
@@ -213,6 +256,7 @@ const Snapshot& FieldObserver::observe(const Model& model) {
       snapshot_.point_fields[1].values[3 * p + i] =
           model.nodes.record[static_cast<std::size_t>(node_of_point_[p])].velocity[i];
   if (!model.contacts.empty()) fill_contact_force(model);
+  if (angular_velocity_field_ != none) fill_angular_velocity(model);
   fill_cells(model);
   return snapshot_;
 }

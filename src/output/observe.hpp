@@ -35,9 +35,11 @@ class FieldObserver {
   void follow(const Model& model);
 
  private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
   /// What fills a field of cells.
   struct CellSource {
-    enum class Kind { part, element, variable, history };
+    enum class Kind { part, element, variable, history, state };
     Kind kind;
     const CellVariable* variable = nullptr;
   };
@@ -53,11 +55,14 @@ class FieldObserver {
                         FieldArray& field);
   void add_cell_fields(const Model& model, std::span<const std::string> variables);
   void add_cell_field(std::string_view name, CellSource source);
+  void add_state(const Model& model);
   void take_topology(const Model& model);
   void fill_points(const Model& model);
   void fill_node_ids(const Model& model);
   void fill_contact_force(const Model& model);
+  void fill_angular_velocity(const Model& model);
   void fill_cells(const Model& model);
+  void fill_state(const Model& model, const PartInModel& part, std::size_t element, std::size_t cell);
 
   Snapshot snapshot_;
   std::vector<int> node_of_point_;
@@ -65,6 +70,7 @@ class FieldObserver {
   std::int64_t deleted_ = 0;             ///< elements, when the topology was taken
   std::vector<CellSource> cell_source_;  ///< of each cell field
   std::vector<double> reference_;
+  std::size_t state_field_ = none, angular_velocity_field_ = none;  ///< of cells, of points
 };
 
 /// Names of the history's columns: time, step, energies, momenta, and the mean velocity of every part (of the

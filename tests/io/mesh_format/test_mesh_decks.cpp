@@ -322,7 +322,7 @@ TEST_F(MeshDecks, RestartWithTheirMeshAndNoOther) {
     ADD_FAILURE() << "not refused";
   } catch (const DeckError& fault) {
     const std::string said = fault.what();
-    EXPECT_NE(said.find("the mesh file 'box.msh' has changed since "), std::string::npos) << said;
+    EXPECT_NE(said.find("the file 'box.msh' has changed since "), std::string::npos) << said;
   }
 }
 

@@ -52,6 +52,12 @@ void print_joints(const CheckReport& report) {
         report.step_share_of_ties);
 }
 
+void print_springs(const CheckReport& report) {
+  for (const SpringSet& set : report.springs)
+    write_out("springs: '{}' are {} pairs of nodes, {:.3g} to {:.3g} apart\n", set.name, set.count,
+              set.shortest, set.longest);
+}
+
 void print_step(const CheckReport& report) {
   if (std::isfinite(report.stable_step)) {
     const std::string critical =
@@ -187,6 +193,7 @@ void check(const ForecastOptions& options, bool json) {
     print_parts(scene);
     print_quality(scene);
     print_joints(scene);
+    print_springs(scene);
     print_step(scene);
     write_out_text(overlaps_text(scene.initial_overlaps));
     for (const SceneWarning& warning : scene.warnings)

@@ -1,14 +1,17 @@
 // Time and memory to read a mesh file: bench_mesh FILE, or bench_mesh --write N FILE for a cube of N^3
-// hexahedra.
+// hexahedra, by its suffix .msh, .bin.msh (binary), .inp or .k; apps/bench/write_exodus.py writes it as
+// Exodus.
 
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/mesh_file/part_mesh.hpp"
 #include "io/mesh_format/read_mesh_file.hpp"
@@ -29,6 +32,47 @@ double peak_mb() {
 
 /// A node of a cube of n elements along each edge, from 1.
 int node(int n, int i, int j, int k) { return 1 + i + (n + 1) * (j + (n + 1) * k); }
+
+struct Cube {
+  std::vector<std::array<double, 3>> position;
+  std::vector<std::array<int, 8>> corners;  ///< from 1
+};
+
+Cube make_cube(int n) {
+  Cube cube;
+  for (int k = 0; k <= n; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) cube.position.push_back({i / 3.0, j / 3.0, k / 3.0});
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+        cube.corners.push_back({node(n, i, j, k), node(n, i + 1, j, k), node(n, i + 1, j + 1, k),
+                                node(n, i, j + 1, k), node(n, i, j, k + 1), node(n, i + 1, j, k + 1),
+                                node(n, i + 1, j + 1, k + 1), node(n, i, j + 1, k + 1)});
+  return cube;
+}
+
+void write_binary_gmsh(int n, const std::string& path) {
+  const Cube cube = make_cube(n);
+  std::ofstream out(path, std::ios::binary);
+  const auto put = [&out](auto... values) {
+    (out.write(reinterpret_cast<const char*>(&values), sizeof values), ...);
+  };
+  const std::size_t nodes = cube.position.size(), elements = cube.corners.size(), one = 1;
+  out << "$MeshFormat\n4.1 1 8\n";
+  put(1);
+  out << "\n$EndMeshFormat\n$Nodes\n";
+  put(one, nodes, one, nodes, 3, 1, 0, nodes);
+  for (std::size_t id = 1; id <= nodes; ++id) put(id);
+  for (const auto& x : cube.position) put(x[0], x[1], x[2]);
+  out << "\n$EndNodes\n$Elements\n";
+  put(one, elements, one, elements, 3, 1, 5, elements);
+  for (std::size_t e = 0; e < elements; ++e) {
+    put(e + 1);
+    for (const int corner : cube.corners[e]) put(static_cast<std::size_t>(corner));
+  }
+  out << "\n$EndElements\n";
+}
 
 void write_cube(int n, const std::string& path) {
   std::ofstream out(path);
@@ -106,7 +150,13 @@ int read(const std::string& path) {
 
 int main(int count, char** words) {
   if (count == 4 && std::string_view(words[1]) == "--write") {
-    write_cube(std::atoi(words[2]), words[3]);
+    const std::string path = words[3];
+    const int n = std::atoi(words[2]);
+    if (path.ends_with(".bin.msh")) {
+      write_binary_gmsh(n, path);
+    } else {
+      write_cube(n, path);
+    }
     return 0;
   }
   if (count == 2) return read(words[1]);

@@ -184,8 +184,21 @@ void read_value(const YamlNode& node, const Slot& slot, SpaceTimeCurve& curve) {
 void read_value(const YamlNode& node, const Slot& slot, InitialCondition& condition) {
   read_fields(node, slot, condition, {"part", "set"});
   read_where(node, slot, "an initial condition", condition.where);
-  if (node.find("velocity") == nullptr && node.find("spin") == nullptr && node.find("radial") == nullptr)
-    throw DeckError(node.place, "nothing is given at the start; accepted: velocity, spin, radial");
+  const auto is_given = [&](const char* key) { return node.find(key) != nullptr; };
+  const bool moves = is_given("velocity") || is_given("spin") || is_given("radial");
+  const YamlEntry* from = node.find("from");
+  if (!moves && from == nullptr)
+    throw DeckError(node.place, "nothing is given at the start; accepted: velocity, spin, radial, from");
+  if (from == nullptr) return;
+  if (moves || !is_given("part"))
+    throw DeckError(from->place,
+                    moves ? "'from' stands beside another velocity; accepted is an entry of its own"
+                          : "'from' of a set of nodes; accepted is a part");
+  const Part& part = slot.known.part(*node.find("part")->value, condition.where.set);
+  if (std::holds_alternative<Rigid>(part.element) || traits_of(part.element).cell == vertex_cell)
+    throw DeckError(from->place, "'from' of part '" + part.name + "', which is of elements '" +
+                                     std::string(name_of(part.element)) +
+                                     "'; accepted are parts of solids, shells and beams");
 }
 
 void read_value(const YamlNode& node, const Slot& slot, BoundaryCondition& condition) {
@@ -257,12 +270,15 @@ void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) 
                     "'tie' takes a part or a set, and the part whose faces its nodes are tied to");
   const YamlNode& slave = *names.items[0];
   check_set(slave, slot, node_set_names);
-  const Part& tied = slot.known.part(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));
-  if (is_rigid(tied))
-    throw DeckError(slave.place,
-                    "part '" + tied.name +
-                        "' is rigid; nodes of parts that deform can be tied to it, as the second of "
-                        "'tie'");
+  // Of a mesh file that is several parts.
+  const std::vector<const Part*> tied =
+      slot.known.parts_called(slave, std::string_view(slave.text).substr(0, slave.text.find('.')));
+  for (const Part* part : tied)
+    if (is_rigid(*part))
+      throw DeckError(slave.place,
+                      "part '" + part->name +
+                          "' is rigid; nodes of parts that deform can be tied to it, as the second of "
+                          "'tie'");
   const Part& main_surface = slot.known.part(*names.items[1], tie.names[1]);
   if (is_rigid(main_surface) && tie.failure)
     throw DeckError(node.find("failure")->place,
@@ -272,7 +288,8 @@ void read_connection(const YamlNode& node, const Slot& slot, TieToSurface& tie) 
                     "part '" + main_surface.name + "' is of elements '" +
                         std::string(name_of(main_surface.element)) +
                         "', which have no faces; accepted are parts of solids and shells");
-  if (&tied == &main_surface) throw DeckError(names.place, "'tie' takes two different parts");
+  if (tied.size() == 1 && tied.front() == &main_surface)
+    throw DeckError(names.place, "'tie' takes two different parts");
 }
 
 }  // namespace

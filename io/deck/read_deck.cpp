@@ -30,7 +30,7 @@ void read_variables(Deck& deck, const YamlNode& root) {
   std::vector<std::string_view> others = std::move(histories);
   if (deck.contact)
     for (const PointVariable& variable : contact_variables()) others.push_back(variable.name);
-  std::vector<std::string_view> known{default_group, all_group};
+  std::vector<std::string_view> known{default_group, all_group, state_variable};
   const auto is_had = [&](const CellVariable& variable) {
     return variable.of == nullptr || std::ranges::any_of(deck.parts, [&](const Part& part) {
              return traits_of(part.element).*variable.of;

@@ -1,6 +1,7 @@
 #pragma once
 /// What was run, in files that a run writes.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,15 @@ struct RunRecord {
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE, in order
   std::string version;
   int threads = 1;
-  std::vector<std::string> mesh_checksums{};  ///< of each mesh file: its name and checksum
+  /// Of each file besides the deck that the scene is made of: its name and checksum.
+  std::vector<std::string> mesh_checksums{};
+  std::string program{};  ///< checksum of the program, where states of elements are written; else empty
 };
+
+/// Of the program that runs: a state is laid out as its structs are.
+std::int64_t program_checksum();
+/// The same as text.
+std::string program_checksum_text();
 
 /// Its texts, each followed by a NUL: what checksums of a record are of.
 std::string texts_of(const RunRecord& record);

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <fstream>
-#include <iterator>
 #include <streambuf>
 #include <vector>
 
@@ -99,16 +97,6 @@ class BlockReader : public std::streambuf {
   std::size_t next_ = 0;
   std::int64_t first_ = 0, bytes_ = 0;
 };
-
-/// Of the program that runs: a state is laid out as its structs are.
-std::int64_t program_checksum() {
-  static const std::int64_t sum = [] {
-    std::ifstream program("/proc/self/exe", std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(program), {}};
-    return std::bit_cast<std::int64_t>(checksum(bytes.data(), bytes.size()));
-  }();
-  return sum;
-}
 
 std::int64_t header_checksum(const RestartHeader& header, const std::vector<std::int64_t>& blocks) {
   std::string text = texts_of(header.record);

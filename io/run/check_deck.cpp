@@ -26,6 +26,8 @@ CheckReport check_deck(const ForecastOptions& options, const std::function<void(
   report.tied = model.ties.found;
   report.step_share_of_ties = model.ties.step_share;
   report.initial_overlaps = model.initial_overlaps;
+  for (const SpringSet& set : model.springs.set)
+    if (set.joins_sets) report.springs.push_back(set);
   report.end = deck.time.end;
   report.stable_step = model.control.stable;
   report.first_step = model.times.next;

@@ -28,6 +28,7 @@ struct CheckReport {
   std::vector<TiedParts> tied;
   double step_share_of_ties = 1;
   std::vector<InitialOverlap> initial_overlaps;
+  std::vector<SpringSet> springs;  ///< those between sets
   double end = 0;
   double stable_step = 0;  ///< not finite: all parts are rigid, and no spring bounds it
   double first_step = 0;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/files/file_error.hpp"
+#include "io/run/initial_state.hpp"
 #include "io/run/run_deck.hpp"
 #include "io/yaml/deck_error.hpp"
 #include "src/forecast/coarser.hpp"
@@ -164,6 +165,10 @@ Forecast forecast(const ForecastOptions& options, ScenePrepared& scene) {
       options.coarse_run_s > 0 && options.coarse_run_fraction > 0 && !forecast.timed_run.reached_end;
   if (is_asked_for && (scene.deck.time.step || scene.deck.time.mass_scaling)) {
     forecast.coarse_run_fault = "none is made where the deck prescribes the time step";
+  } else if (is_asked_for && has_initial_state(scene.deck)) {
+    forecast.coarse_run_fault =
+        "none is made of states from earlier results; time steps are timed for longer";
+    exploration.time_scene(1);
   } else if (is_asked_for && has_mesh_file(scene.deck)) {
     forecast.coarse_run_fault = "none is made of meshes from files; time steps are timed for longer";
     exploration.time_scene(1);

@@ -11,6 +11,7 @@
 #include "io/restart/restart_file.hpp"
 #include "io/results/read_result.hpp"
 #include "io/results/write_results.hpp"
+#include "io/run/initial_state.hpp"
 #include "io/run/run_output.hpp"
 #include "io/run/scene_size.hpp"
 #include "io/yaml/deck_error.hpp"
@@ -173,9 +174,8 @@ void expect_same_meshes(const RestartFile& restart, const Deck& deck) {
   const std::vector<std::string>& saved = restart.header.record.mesh_checksums;
   for (const std::string& mesh : deck.mesh_checksums)
     if (std::find(saved.begin(), saved.end(), mesh) == saved.end())
-      throw DeckError(deck.file + ": the mesh file '" + mesh.substr(0, mesh.rfind(' ')) +
-                      "' has changed since " + restart.path.string() +
-                      " was saved; accepted is the file as it was");
+      throw DeckError(deck.file + ": the file '" + mesh.substr(0, mesh.rfind(' ')) + "' has changed since " +
+                      restart.path.string() + " was saved; accepted is the file as it was");
 }
 
 /// The restart file, if one is given. \throws DeckError where the deck is not that of the saved run,
@@ -210,6 +210,12 @@ void expect_same_columns(const std::filesystem::path& results, const RestartFile
       "output.history and the same output.fields.variables, or results in another folder (--output)");
 }
 
+// Which the program that writes them reads.
+bool writes_states(const Deck& deck) {
+  const std::vector<std::string>& wanted = deck.output.fields_.variables;
+  return std::find(wanted.begin(), wanted.end(), state_variable) != wanted.end();
+}
+
 bool is_same_folder(const std::filesystem::path& a, const std::filesystem::path& b) {
   std::error_code error;
   return std::filesystem::equivalent(a.empty() ? "." : a, b.empty() ? "." : b, error);
@@ -223,7 +229,8 @@ Model build_scene(const Deck& deck, int threads) {
     std::vector<Mesh> meshes;
     meshes.reserve(deck.parts.size());
     for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
-    return build(deck, meshes, threads);
+    const std::vector<PartState> states = read_initial_states(deck, meshes);
+    return build(deck, meshes, threads, states);
   } catch (const BuildError& fault) {
     throw DeckError((fault.place.empty() ? deck.file : fault.place) + ": " + fault.what());
   } catch (const std::bad_alloc&) {
@@ -235,6 +242,7 @@ Deck load_deck(const std::filesystem::path& path, const std::vector<std::string>
                Model& model) {
   Deck deck = read_deck(path, overrides);
   model = build_scene(deck, threads);
+  for (std::string& sum : checksums_of_results(deck)) deck.mesh_checksums.push_back(std::move(sum));
   return deck;
 }
 
@@ -270,7 +278,8 @@ RunOutcome run_deck(const RunOptions& options) {
                          .overrides = options.overrides,
                          .version = BRIO_VERSION,
                          .threads = options.threads,
-                         .mesh_checksums = deck.mesh_checksums};
+                         .mesh_checksums = deck.mesh_checksums,
+                         .program = writes_states(deck) ? program_checksum_text() : ""};
   const auto published = [&options, log = outcome.folder / (name + ".log")](bool goes_on) {
     if (options.published) options.published(log, goes_on);
   };

@@ -40,6 +40,14 @@ Json joints(const CheckReport& report) {
   return {{"merged", merged}, {"tied", tied}};
 }
 
+Json springs(const CheckReport& report) {
+  Json list = Json::array();
+  for (const SpringSet& set : report.springs)
+    list.push_back(
+        {{"name", set.name}, {"pairs", set.count}, {"shortest", set.shortest}, {"longest", set.longest}});
+  return list;
+}
+
 Json built(const CheckReport& report) {
   Json list = Json::array();
   for (const BuiltFeature& feature : report.built)
@@ -111,6 +119,7 @@ std::string check_json(const CheckReport& report) {
             {"nodes", report.nodes},
             {"mesh_notices", report.mesh_notices},
             {"connections", joints(report)},
+            {"springs", springs(report)},
             {"initial_overlaps", overlaps(report)},
             {"step",
              {{"stable", report.stable_step},

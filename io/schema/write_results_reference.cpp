@@ -29,7 +29,8 @@ deck without any is refused such a name.
 
 std::string field_row(std::string_view name, int components, std::string_view of, std::string_view unit,
                       std::string_view meaning) {
-  return fmt::format("| `{}` | {} | {} | {} | {} |\n", name, components, of, unit, meaning);
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", name,
+                     components > 0 ? std::to_string(components) : "by scene", of, unit, meaning);
 }
 
 std::string kinds_of(const CellVariable& variable) {
@@ -52,6 +53,8 @@ std::string field_rows() {
   for (const PointVariable& variable : contact_variables())
     rows += field_row(variable.name, variable.components, "points, with contact", variable.unit,
                       variable.meaning);
+  for (const DefaultField& field : state_fields())
+    rows += field_row(field.name, field.components, field.of, field.unit, field.meaning);
   return rows +
          "| a name of a material's history, such as `temperature` | 1 | elements | of the law | largest or "
          "mean of "

@@ -86,9 +86,12 @@ struct SchemaOf<InitialCondition> : WithoutDefault {
     where["set"]["description"] = "nodes, where not a whole part";
     where.update(object["properties"]);
     object["properties"] = std::move(where);
-    object["allOf"] = {
-        {{"oneOf", {{{"required", {"part"}}}, {{"required", {"set"}}}}}},
-        {{"anyOf", {{{"required", {"velocity"}}}, {{"required", {"spin"}}}, {{"required", {"radial"}}}}}}};
+    object["allOf"] = {{{"oneOf", {{{"required", {"part"}}}, {{"required", {"set"}}}}}},
+                       {{"anyOf",
+                         {{{"required", {"velocity"}}},
+                          {{"required", {"spin"}}},
+                          {{"required", {"radial"}}},
+                          {{"required", {"from"}}}}}}};
     return object;
   }
 };

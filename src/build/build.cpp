@@ -13,6 +13,7 @@
 #include "src/build/refused_motions.hpp"
 #include "src/build/wall_overlap.hpp"
 #include "src/deck/part_index.hpp"
+#include "src/initial/initial_state.hpp"
 #include "src/model/part_damping.hpp"
 #include "src/model/start_balances.hpp"
 #include "src/sweep/particles.hpp"
@@ -134,8 +135,9 @@ void add_point_masses(const Deck& deck, std::span<const Mesh> meshes, Model& mod
     }
 }
 
-void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+void start_elements(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   Nodes& nodes = model.nodes;
+  const AtReference at_reference(meshes, model);
   for (std::size_t p = 0; p < model.blocks.size(); ++p) {
     if (model.parts[p].rigid >= 0) continue;
     try {
@@ -152,6 +154,11 @@ void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
       throw BuildError(fault.what(), deck.parts[p].place);
     }
   }
+}
+
+void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+  Nodes& nodes = model.nodes;
+  start_elements(deck, meshes, model);
   for (PartInModel& part : model.parts) {
     const Block& block = model.blocks[part.block];
     for (std::size_t e = 0; e < block.element_count; ++e) part.mass += block.kernel.mass(block, e);
@@ -164,41 +171,6 @@ void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
     if (nodes.has_rotations())
       nodes.angular_velocity[i].component[3] =
           nodes.rotational_inertia[i] > 0 ? 1 / nodes.rotational_inertia[i] : 0;
-  }
-}
-
-Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record, const std::string& place) {
-  Vector arm{};
-  for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - radial.point[i];
-  const double along = dot(arm, radial.axis) / dot(radial.axis, radial.axis);
-  for (std::size_t i = 0; i < 3; ++i) arm[i] -= along * radial.axis[i];
-  const double distance = std::sqrt(dot(arm, arm));
-  if (!(distance > 0))
-    throw BuildError("a node on the axis of 'radial' in initial_conditions has no radial direction", place);
-  for (double& component : arm) component *= radial.speed / distance;
-  return arm;
-}
-
-void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
-  for (const InitialCondition& condition : deck.initial_conditions) {
-    std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
-    take_rigid(nodes, condition.where, model);
-    for (int entry : nodes) {
-      const auto node = static_cast<std::size_t>(entry);
-      NodeRecord& record = model.nodes.record[node];
-      Vector velocity = condition.velocity;
-      if (condition.spin) {
-        Vector arm{};
-        for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - condition.spin->point[i];
-        add_to(velocity, cross(condition.spin->angular_velocity, arm));
-        if (model.nodes.has_rotations() && model.nodes.rotational_inertia[node] > 0)
-          for (std::size_t i = 0; i < 3; ++i)
-            model.nodes.angular_velocity[node].component[i] = condition.spin->angular_velocity[i];
-      }
-      if (condition.radial)
-        add_to(velocity, radial_velocity(*condition.radial, record, condition.where.place));
-      for (std::size_t i = 0; i < 3; ++i) record.velocity[i] = velocity[i];
-    }
   }
 }
 
@@ -304,7 +276,7 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
 
 }  // namespace
 
-Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
+Model build(const Deck& deck, std::span<const Mesh> meshes, int threads, std::span<const PartState> states) {
   Model model;
   std::vector<std::vector<int>> connectivity;
   SharedNodes shared = share_nodes(deck, meshes);
@@ -326,6 +298,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   if (model.initial_overlaps.size() > of_walls) follow_moved_nodes(deck, meshes, model);
   model.damping = damping_of_parts(deck, model);
   if (!model.ties.empty()) condense(model.ties, model.nodes);
+  set_states(states, model);
   expect_nothing_behind_walls(meshes, model);
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (model.blocks[b].cloud && model.blocks[b].cloud->is_eulerian())
@@ -339,7 +312,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   model.control.settings = deck.time;
   if (deck.time.mass_scaling)
     model.added_mass = make_mass_scaling(deck.time, deck, model.blocks, model.parts);
-  set_initial_velocities(deck, meshes, model);
+  set_initial_velocities(deck, meshes, states, model);
   start_ties(model);
   start_rigid_bodies(deck, meshes, model);
   refuse_contradictory_motions(model);
@@ -349,7 +322,8 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads) {
   model.assembled_step = make_assembled_step(deck.time, bounds_assembled_step(model), model.blocks,
                                              model.nodes, model.extent.width);
   start_balances(model);
-  make_springs(deck, model);
+  add_energies(states, model);
+  make_springs(deck, meshes, model);
   prepare_history(deck, model);
   return model;
 }

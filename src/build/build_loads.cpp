@@ -1,12 +1,18 @@
 #include "src/build/build_loads.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <map>
+#include <utility>
 
 #include "src/build/build.hpp"
 #include "src/build/build_rigid.hpp"
 #include "src/deck/part_index.hpp"
+#include "src/initial/initial_state.hpp"
 
 namespace brio {
 
@@ -98,46 +104,185 @@ NodalLoad moment_on(const NodalMoment& entry, const Deck& deck, std::span<const 
   return load;
 }
 
-/// Gathers the masses that springs are fastened to.
-class Fastening {
- public:
-  Fastening(const Deck& deck, Model& model) : deck_(deck), model_(model) {}
+Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record, const std::string& place) {
+  Vector arm{};
+  for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - radial.point[i];
+  const double along = dot(arm, radial.axis) / dot(radial.axis, radial.axis);
+  for (std::size_t i = 0; i < 3; ++i) arm[i] -= along * radial.axis[i];
+  const double distance = std::sqrt(dot(arm, arm));
+  if (!(distance > 0))
+    throw BuildError("a node on the axis of 'radial' in initial_conditions has no radial direction", place);
+  for (double& component : arm) component *= radial.speed / distance;
+  return arm;
+}
 
-  void add(const Spring& wanted) {
-    SpringInRun spring{.name = wanted.name,
-                       .end = {anchor_at(wanted.from, wanted), anchor_at(wanted.to, wanted)},
-                       .stiffness = wanted.stiffness,
-                       .table = wanted.force,
-                       .damping = wanted.damping};
-    const auto& [from, to] = spring.end;
-    const bool on_one_mass = from.node >= 0 && to.node >= 0 && from.mass == to.mass;
-    if (on_one_mass || (from.node < 0 && to.node < 0))
-      throw BuildError("both ends of spring '" + wanted.name + "' are " +
-                           (on_one_mass ? "at one node or rigid part" : "fixed") +
-                           "; accepted are two that move against each other",
-                       wanted.place);
-    for (std::size_t i = 1; i < spring.table.size(); ++i) {
-      const auto& [point, next] = std::pair(spring.table[i - 1], spring.table[i]);
-      spring.stiffness = std::max(spring.stiffness, (next[1] - point[1]) / (next[0] - point[0]));
+/// Nodes of a selection in the order of the parts and of their numbers in the mesh.
+std::vector<int> in_order_of_numbers(std::vector<int> nodes, const Model& model) {
+  std::vector<std::array<std::int64_t, 2>> key(model.nodes.size());
+  std::vector<std::uint8_t> is_known(model.nodes.size(), 0);
+  for (std::size_t p = 0; p < model.parts.size(); ++p)
+    for (std::size_t i = 0; i < model.parts[p].node.size(); ++i) {
+      const auto node = static_cast<std::size_t>(model.parts[p].node[i]);
+      if (is_known[node] == 0) key[node] = {static_cast<std::int64_t>(p), model.parts[p].number_of_node(i)};
+      is_known[node] = 1;
     }
-    spring.length = wanted.length.value_or((place_of(to) - place_of(from)).norm());
-    if (wanted.strength) spring.strength = *wanted.strength;
-    model_.springs.spring.push_back(std::move(spring));
+  std::ranges::sort(nodes, {}, [&](int node) { return key[static_cast<std::size_t>(node)]; });
+  return nodes;
+}
+
+/// Sorted along the longest extent: a search goes outwards from a point while something nearer can come.
+class NearestPlace {
+ public:
+  explicit NearestPlace(std::span<const Vector3d> places) : places_(places) {
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& place : places) box.extend(place);
+    box.sizes().maxCoeff(&axis_);
+    for (std::size_t i = 0; i < places.size(); ++i) order_.emplace_back(places[i][axis_], i);
+    std::ranges::sort(order_);
+  }
+  /// The first of those as near.
+  std::size_t to(const Vector3d& point) const {
+    const auto middle = std::ranges::lower_bound(order_, std::pair(point[axis_], std::size_t{0}));
+    std::pair best(std::numeric_limits<double>::infinity(), std::size_t{0});
+    const auto look = [&](const std::pair<double, std::size_t>& entry) {
+      const double along = entry.first - point[axis_];
+      if (along * along > best.first) return false;
+      best = std::min(best, std::pair((places_[entry.second] - point).squaredNorm(), entry.second));
+      return true;
+    };
+    for (auto at = middle; at != order_.end() && look(*at);) ++at;
+    for (auto at = middle; at != order_.begin() && look(*std::prev(at));) --at;
+    return best.second;
   }
 
  private:
+  std::span<const Vector3d> places_;
+  Eigen::Index axis_ = 0;
+  std::vector<std::pair<double, std::size_t>> order_;
+};
+
+/// Gathers the masses that springs are fastened to.
+class Fastening {
+ public:
+  Fastening(const Deck& deck, std::span<const Mesh> meshes, Model& model)
+      : deck_(deck), meshes_(meshes), model_(model) {}
+
+  void add(const Spring& wanted) {
+    SpringSet set{.name = wanted.name,
+                  .first = model_.springs.spring.size(),
+                  .is_torsional = wanted.is_torsional(),
+                  .joins_sets = wanted.joins_sets()};
+    const std::vector<Ends> ends = ends_of(wanted);
+    set.count = ends.size();
+    const double share = wanted.values == SpringValues::total ? 1 / static_cast<double>(ends.size()) : 1;
+    set.shortest = std::numeric_limits<double>::infinity();
+    for (const Ends& one : ends) {
+      std::string name = wanted.name;
+      if (set.joins_sets) name.append(".").append(std::to_string(1 + (&one - ends.data())));
+      const double distance = add(std::move(name), one, share, wanted);
+      set.shortest = std::min(set.shortest, distance);
+      set.longest = std::max(set.longest, distance);
+    }
+    model_.springs.set.push_back(std::move(set));
+  }
+
+ private:
+  using Ends = std::array<SpringAnchor, 2>;
+
   Vector3d place_of(const SpringAnchor& anchor) const {
     if (anchor.node < 0) return anchor.point;
     return Vector3d(model_.nodes.record[static_cast<std::size_t>(anchor.node)].position);
   }
 
-  SpringAnchor anchor_at(const SpringEnd& end, const Spring& spring) {
-    SpringAnchor anchor;
-    if (end.fixed) {
-      anchor.point = Vector3d(end.point.data());
-      return anchor;
+  /// \return the distance of its ends
+  double add(std::string name, const Ends& ends, double share, const Spring& wanted) {
+    SpringInRun spring{.name = std::move(name),
+                       .end = ends,
+                       .is_torsional = wanted.is_torsional(),
+                       .stiffness = share * wanted.stiffness,
+                       .table = wanted.table(),
+                       .damping = share * wanted.damping};
+    expect_motion(spring, wanted);
+    for (auto& point : spring.table) point[1] *= share;
+    for (std::size_t i = 1; i < spring.table.size(); ++i) {
+      const auto& [point, next] = std::pair(spring.table[i - 1], spring.table[i]);
+      spring.stiffness = std::max(spring.stiffness, (next[1] - point[1]) / (next[0] - point[0]));
     }
-    anchor.node = static_cast<int>(nearest_node(end.point, end.part, deck_, model_.parts, model_.nodes));
+    const double distance = (place_of(ends[1]) - place_of(ends[0])).norm();
+    spring.length = wanted.length.value_or(distance);
+    if (wanted.strength) spring.strength = share * *wanted.strength;
+    if (spring.is_torsional) {
+      spring.elongation = wanted.angle.value_or(0);
+      spring.direction = Vector3d(wanted.axis->data()).normalized();
+    }
+    model_.springs.spring.push_back(std::move(spring));
+    return distance;
+  }
+
+  void expect_motion(const SpringInRun& spring, const Spring& wanted) const {
+    const auto& [from, to] = spring.end;
+    const bool on_one_mass = from.node >= 0 && to.node >= 0 && from.mass == to.mass;
+    if (on_one_mass || (from.node < 0 && to.node < 0))
+      throw BuildError("both ends of spring '" + spring.name + "' are " +
+                           (on_one_mass ? "at one node or rigid part" : "fixed") +
+                           "; accepted are two that move against each other",
+                       wanted.place);
+    if (!spring.is_torsional) return;
+    for (const SpringAnchor& anchor : spring.end)
+      if (anchor.node >= 0 && anchor.body < 0 && !turns(anchor.node))
+        throw BuildError("an end of the torsional spring '" + spring.name +
+                             "' is a node that does not turn; accepted are nodes of shells and beams, rigid "
+                             "parts and fixed points",
+                         wanted.place);
+  }
+
+  bool turns(int node) const {
+    return model_.nodes.has_rotations() &&
+           model_.nodes.rotational_inertia[static_cast<std::size_t>(node)] > 0;
+  }
+
+  std::vector<Ends> ends_of(const Spring& wanted) {
+    const std::vector<SpringAnchor> from = anchors_at(wanted.from, wanted);
+    const std::vector<SpringAnchor> to = anchors_at(wanted.to, wanted);
+    std::vector<Ends> ends;
+    if (wanted.pairing == SpringPairing::order) {
+      if (from.size() != to.size())
+        throw BuildError("the sets of springs '" + wanted.name + "' have " + std::to_string(from.size()) +
+                             " and " + std::to_string(to.size()) +
+                             " nodes; pairing: order is accepted with sets of equal size",
+                         wanted.place);
+      for (std::size_t i = 0; i < from.size(); ++i) ends.push_back({from[i], to[i]});
+      return ends;
+    }
+    if (!wanted.from.set) {
+      for (const SpringAnchor& other : to) ends.push_back({from.front(), other});
+      return ends;
+    }
+    std::vector<Vector3d> places;
+    for (const SpringAnchor& other : to) places.push_back(place_of(other));
+    const NearestPlace nearest(places);
+    for (const SpringAnchor& one : from) ends.push_back({one, to[nearest.to(place_of(one))]});
+    return ends;
+  }
+
+  std::vector<SpringAnchor> anchors_at(const SpringEnd& end, const Spring& spring) {
+    if (end.fixed) {
+      SpringAnchor anchor;
+      anchor.point = Vector3d(end.point->data());
+      return {anchor};
+    }
+    if (end.point)
+      return {anchor_at(
+          static_cast<int>(nearest_node(*end.point, end.part, deck_, model_.parts, model_.nodes)), spring)};
+    std::vector<SpringAnchor> anchors;
+    for (const int node : in_order_of_numbers(select_nodes(*end.set, deck_, meshes_, model_), model_))
+      anchors.push_back(anchor_at(node, spring));
+    return anchors;
+  }
+
+  SpringAnchor anchor_at(int node, const Spring& spring) {
+    SpringAnchor anchor;
+    anchor.node = node;
     if (model_.ties.is_tied(anchor.node))
       throw BuildError(
           "spring '" + spring.name +
@@ -153,21 +298,21 @@ class Fastening {
 
   std::size_t mass_of(const SpringAnchor& anchor) {
     std::vector<AnchoredMass>& masses = model_.springs.mass;
-    const auto is_it = [&](const AnchoredMass& mass) {
-      return anchor.body >= 0 ? mass.body == anchor.body : mass.node == anchor.node;
-    };
-    auto found = std::ranges::find_if(masses, is_it);
-    if (found == masses.end())
-      found = masses.insert(masses.end(), {.node = anchor.node, .body = anchor.body});
+    const auto key = anchor.body >= 0 ? std::pair(true, anchor.body) : std::pair(false, anchor.node);
+    const auto [found, is_new] = index_of_mass_.try_emplace(key, masses.size());
+    if (is_new) masses.push_back({.node = anchor.node, .body = anchor.body});
+    AnchoredMass& mass = masses[found->second];
     if (anchor.body >= 0) {
       const Vector3d centre = model_.rigid.body[static_cast<std::size_t>(anchor.body)].centre;
-      found->arm = std::max(found->arm, (place_of(anchor) - centre).norm());
+      mass.arm = std::max(mass.arm, (place_of(anchor) - centre).norm());
     }
-    return static_cast<std::size_t>(found - masses.begin());
+    return found->second;
   }
 
   const Deck& deck_;
+  std::span<const Mesh> meshes_;
   Model& model_;
+  std::map<std::pair<bool, int>, std::size_t> index_of_mass_;  ///< of a body or a node
 };
 
 }  // namespace
@@ -186,13 +331,42 @@ void make_loads(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   }
 }
 
-void make_springs(const Deck& deck, Model& model) {
+void make_springs(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   if (deck.springs.empty()) return;
-  Fastening fastening(deck, model);
+  Fastening fastening(deck, meshes, model);
   for (const Spring& spring : deck.springs) fastening.add(spring);
   const double stored = start(model.springs, model.nodes);
   model.energy.internal += stored;
   model.energy.kinetic_start += stored;
+}
+
+void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, std::span<const PartState> states,
+                            Model& model) {
+  std::size_t number = 0;
+  for (const InitialCondition& condition : deck.initial_conditions) {
+    for (const PartState& state : states)
+      if (state.condition == number) set_velocities(state, model);
+    ++number;
+    if (condition.from) continue;
+    std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
+    take_rigid(nodes, condition.where, model);
+    for (int entry : nodes) {
+      const auto node = static_cast<std::size_t>(entry);
+      NodeRecord& record = model.nodes.record[node];
+      Vector velocity = condition.velocity;
+      if (condition.spin) {
+        Vector arm{};
+        for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - condition.spin->point[i];
+        add_to(velocity, cross(condition.spin->angular_velocity, arm));
+        if (model.nodes.has_rotations() && model.nodes.rotational_inertia[node] > 0)
+          for (std::size_t i = 0; i < 3; ++i)
+            model.nodes.angular_velocity[node].component[i] = condition.spin->angular_velocity[i];
+      }
+      if (condition.radial)
+        add_to(velocity, radial_velocity(*condition.radial, record, condition.where.place));
+      for (std::size_t i = 0; i < 3; ++i) record.velocity[i] = velocity[i];
+    }
+  }
 }
 
 }  // namespace brio

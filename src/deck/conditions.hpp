@@ -15,6 +15,7 @@
 #include "src/base/fields.hpp"
 #include "src/deck/coordinate_system.hpp"
 #include "src/deck/expression.hpp"
+#include "src/deck/initial_state.hpp"
 #include "src/deck/mesh_source.hpp"
 
 namespace brio {
@@ -139,13 +140,17 @@ struct InitialCondition {
   Triple velocity{};
   std::optional<Spin> spin;
   std::optional<RadialVelocity> radial{};
+  std::optional<StateSource> from{};
   static constexpr auto fields() {
     return field_table(optional("velocity", &InitialCondition::velocity, any_number,
                                 "velocity at the start, length per time"),
                        optional("spin", &InitialCondition::spin, any_number,
                                 "initial rotation about an axis, added to the velocity"),
                        optional("radial", &InitialCondition::radial, any_number,
-                                "away from an axis at the start, added to the velocity; not of rigid parts"));
+                                "away from an axis at the start, added to the velocity; not of rigid parts"),
+                       optional("from", &InitialCondition::from, any_number,
+                                "of a part that deforms: its state in an earlier result, element by element "
+                                "(docs/initial_state.md)"));
   }
 };
 

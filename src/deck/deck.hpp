@@ -190,8 +190,9 @@ struct FieldOutput {
             "equivalent_plastic_strain_top, "
             "equivalent_plastic_strain_bottom, membrane_force, bending_moment; of beams beam_force, "
             "beam_moment (not a number in other elements); or a name of the history of a material, such as "
-            "temperature (0 in materials that do not know it); part and element_id are written in any "
-            "case; default: [default] (docs/results.md)"));
+            "temperature (0 in materials that do not know it); or state, all that elements remember, from "
+            "which other decks can start; part and element_id are written in any case; default: [default] "
+            "(docs/results.md)"));
   }
   std::string_view fault() const {
     return every && !times.empty() ? "both 'every' and 'times' are given; one of them is accepted" : "";
@@ -331,10 +332,11 @@ struct Deck {
                  "connections between parts: shared nodes and ties"),
         optional("point_masses", &Deck::point_masses, any_number, "masses on nodes; absent: none"),
         optional("springs", &Deck::springs, any_number,
-                 "a map of names to springs and dashpots between two points; absent: none"),
+                 "a map of names to springs and dashpots between two points or sets; absent: none"),
         optional("coordinate_systems", &Deck::coordinate_systems, any_number,
                  "a map of names to local coordinate systems, for motions that are prescribed and loads"),
-        optional("initial_conditions", &Deck::initial_conditions, any_number, "velocities at the start"),
+        optional("initial_conditions", &Deck::initial_conditions, any_number,
+                 "velocities at the start, and states from earlier results"),
         optional("boundary_conditions", &Deck::boundary_conditions, any_number,
                  "motions that are prescribed"),
         optional("loads", &Deck::loads, any_number, "forces from outside"),

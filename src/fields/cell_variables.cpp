@@ -84,11 +84,18 @@ constexpr DefaultField told_by_default[] = {
     {"density", 1, "elements, with particles", "density", "0 in other elements"},
     {"part", 1, "elements, always", "-", "index of the part in the deck from 0"},
     {"element_id", 1, "elements, always", "-", "number of the element in its mesh"}};
+constexpr DefaultField of_state[] = {
+    {"state", 0, "elements but particles, by its name alone", "",
+     "all that elements remember, in double precision, as many numbers as the largest has, from which other "
+     "decks can begin ([initial_state.md](initial_state.md)); `velocity` is then in double precision"},
+    {"angular_velocity", 3, "points of shells and beams, with `state`", "radian/time",
+     "of the last half step"}};
 
 }  // namespace
 
 std::span<const CellVariable> chosen_variables() { return chosen; }
 std::span<const DefaultField> default_fields() { return told_by_default; }
+std::span<const DefaultField> state_fields() { return of_state; }
 
 const CellVariable& cell_variable(std::string_view name) {
   const auto* found = std::ranges::find(chosen, name, &CellVariable::name);

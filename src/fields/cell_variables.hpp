@@ -35,9 +35,13 @@ struct DefaultField {
   std::string_view of, unit, meaning;  ///< for the manual
 };
 std::span<const DefaultField> default_fields();
+/// Fields from which other runs can start; in no group. Components 0: they depend on the scene.
+std::span<const DefaultField> state_fields();
 
 /// Groups of variables.
 inline constexpr std::string_view default_group = "default", all_group = "all";
+/// All that elements remember, row by row as of elements/element_state.hpp; not in any group.
+inline constexpr std::string_view state_variable = "state";
 
 /// Names of a list, with `all` in place of what it stands for: `default`, variables of kinds of elements that
 /// the scene has, and others: the histories, and fields of points.

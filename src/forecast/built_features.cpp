@@ -167,6 +167,14 @@ void add_conditions(const Deck& deck, const Model& model, Features& features) {
   }
 }
 
+void add_initial_states(const Deck& deck, Features& features) {
+  const auto count = std::ranges::count_if(deck.initial_conditions,
+                                           [](const InitialCondition& one) { return one.from.has_value(); });
+  if (count > 0)
+    features.push_back(
+        {"initial states", "initial_conditions", counted(static_cast<std::size_t>(count), "part"), 0});
+}
+
 void add_damping(const Deck& deck, const Model& model, Features& features) {
   if (!deck.point_masses.empty())
     features.push_back({"point masses", "point_masses", counted(deck.point_masses.size(), "set"), 0});
@@ -214,6 +222,7 @@ std::vector<BuiltFeature> built_features(const Deck& deck, Model&& model) {
   add_failure(deck, model, features);
   add_joints(deck, model, features);
   add_conditions(deck, model, features);
+  add_initial_states(deck, features);
   add_damping(deck, model, features);
   add_contact(deck, std::move(model.contacts), features);
   return features;

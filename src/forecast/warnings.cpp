@@ -232,7 +232,8 @@ void warn_of_unused(const Deck& deck, const Model& model, Warnings& warnings) {
   for (const MergedParts& merged : model.merged) joined_parts.insert({merged.first, merged.second});
   for (const TiedParts& tied : model.ties.found)
     for (const std::string& name : {tied.nodes, tied.surface})
-      joined_parts.insert(name.substr(0, name.find('.')));
+      for (const std::size_t p : parts_called(name.substr(0, name.find('.')), deck))
+        joined_parts.insert(deck.parts[p].name);
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const PartInModel& part = model.parts[p];
     const bool joined = joined_parts.contains(part.name);

@@ -19,8 +19,17 @@ Vector3d velocity_of(const SpringAnchor& anchor, const Nodes& nodes) {
                          : Vector3d(nodes.record[static_cast<std::size_t>(anchor.node)].velocity);
 }
 
-double rate_of(const SpringInRun& spring, const Nodes& nodes) {
-  return spring.direction.dot(velocity_of(spring.end[1], nodes) - velocity_of(spring.end[0], nodes));
+Vector3d spin_of(const SpringAnchor& anchor, const RigidBodies& bodies, const Nodes& nodes) {
+  if (anchor.node < 0) return Vector3d::Zero();
+  if (anchor.body >= 0) return bodies.motion[static_cast<std::size_t>(anchor.body)].angular_velocity;
+  return Vector3d(nodes.angular_velocity[static_cast<std::size_t>(anchor.node)].component);
+}
+
+double rate_of(const SpringInRun& spring, const RigidBodies& bodies, const Nodes& nodes) {
+  const auto& [from, to] = spring.end;
+  if (spring.is_torsional)
+    return spring.direction.dot(spin_of(to, bodies, nodes) - spin_of(from, bodies, nodes));
+  return spring.direction.dot(velocity_of(to, nodes) - velocity_of(from, nodes));
 }
 
 void measure(SpringInRun& spring, const Nodes& nodes) {
@@ -28,6 +37,30 @@ void measure(SpringInRun& spring, const Nodes& nodes) {
   const double distance = between.norm();
   spring.direction = distance > 0 ? Vector3d(between / distance) : Vector3d(Vector3d::Zero());
   spring.elongation = distance - spring.length;
+}
+
+/// Rotation vector of an end over the last step.
+Vector3d turn_of(SpringAnchor& anchor, double last_step, const RigidBodies& bodies, const Nodes& nodes) {
+  if (anchor.body < 0) return last_step * spin_of(anchor, bodies, nodes);
+  const Eigen::Quaterniond& now = bodies.body[static_cast<std::size_t>(anchor.body)].attitude;
+  const Eigen::Quaterniond turn = now * anchor.attitude.conjugate();
+  anchor.attitude = now;
+  const double sine = turn.vec().norm();
+  return sine > 0 ? Vector3d(2 * std::atan2(sine, turn.w()) / sine * turn.vec()) : Vector3d(Vector3d::Zero());
+}
+
+// The angle grows by the rotations about the axis as it lies in the middle of the step.
+void measure_angle(SpringInRun& spring, double last_step, const RigidBodies& bodies, const Nodes& nodes) {
+  const Vector3d of_from = turn_of(spring.end[0], last_step, bodies, nodes);
+  const Vector3d of_to = turn_of(spring.end[1], last_step, bodies, nodes);
+  const double size = of_from.norm();
+  Vector3d middle = spring.direction;
+  if (size > 0) {
+    const Vector3d about = of_from / size;
+    middle = Eigen::AngleAxisd(0.5 * size, about) * spring.direction;
+    spring.direction = Vector3d(Eigen::AngleAxisd(size, about) * spring.direction).normalized();
+  }
+  spring.elongation += middle.dot(of_to - of_from);
 }
 
 bool is_removed(const SpringAnchor& anchor, const Nodes& nodes) {
@@ -41,11 +74,18 @@ void add_force(const SpringAnchor& anchor, const Vector3d& force, Nodes& nodes) 
   for (int axis = 0; axis < 3; ++axis) sum[axis] += force[axis];
 }
 
+void add_moment(const SpringAnchor& anchor, const Vector3d& moment, Nodes& nodes) {
+  if (anchor.node < 0 || anchor.body >= 0) return;
+  double* sum = nodes.moment[static_cast<std::size_t>(anchor.node)].component;
+  for (int axis = 0; axis < 3; ++axis) sum[axis] += moment[axis];
+}
+
 Vector3d arm_of(const SpringAnchor& anchor, const RigidBodies& bodies, const Nodes& nodes) {
   return place_of(anchor, nodes) - bodies.body[static_cast<std::size_t>(anchor.body)].centre;
 }
 
-/// Acceleration along a direction by the forces known so far, and by a unit force along it.
+/// Acceleration along a direction by the forces known so far, and by a unit force along it; or angular
+/// acceleration by moments.
 struct Response {
   double acceleration = 0;
   double inverse_mass = 0;
@@ -68,6 +108,25 @@ Response response_of(const SpringAnchor& anchor, const Vector3d& direction, cons
   return {dot(along, {force[0], force[1], force[2]}), dot(along, to_vector(direction))};
 }
 
+Response turning_response_of(const SpringAnchor& anchor, const Vector3d& axis, const RigidBodies& bodies,
+                             const Nodes& nodes) {
+  if (anchor.node < 0) return {};
+  if (anchor.body >= 0) {
+    const RigidMotion& motion = bodies.motion[static_cast<std::size_t>(anchor.body)];
+    const Vector3d along = motion.inverse_inertia * axis;
+    return {along.dot(bodies.body[static_cast<std::size_t>(anchor.body)].moment), along.dot(axis)};
+  }
+  const auto node = static_cast<std::size_t>(anchor.node);
+  const Vector along = nodes.free_inverse_inertia(node) * to_vector(axis);
+  const double* moment = nodes.moment[node].component;
+  return {dot(along, {moment[0], moment[1], moment[2]}), dot(along, to_vector(axis))};
+}
+
+void twist(const SpringAnchor& anchor, const Vector3d& moment, RigidBodies& bodies, Nodes& nodes) {
+  if (anchor.body < 0) return add_moment(anchor, moment, nodes);
+  bodies.body[static_cast<std::size_t>(anchor.body)].moment += moment;
+}
+
 void pull(const SpringAnchor& anchor, const Vector3d& force, RigidBodies& bodies, Nodes& nodes) {
   if (anchor.body < 0) {
     add_force(anchor, force, nodes);
@@ -82,9 +141,11 @@ void pull(const SpringAnchor& anchor, const Vector3d& force, RigidBodies& bodies
 // the other forces, d = c rate the force of the dashpot, w the inverse mass along the line.
 double dashpot_force(const SpringInRun& spring, double mean_step, const RigidBodies& bodies,
                      const Nodes& nodes) {
-  const Response from = response_of(spring.end[0], spring.direction, bodies, nodes);
-  const Response to = response_of(spring.end[1], spring.direction, bodies, nodes);
-  const double rate = rate_of(spring, nodes) + 0.5 * mean_step * (to.acceleration - from.acceleration);
+  const auto respond = spring.is_torsional ? turning_response_of : response_of;
+  const Response from = respond(spring.end[0], spring.direction, bodies, nodes);
+  const Response to = respond(spring.end[1], spring.direction, bodies, nodes);
+  const double rate =
+      rate_of(spring, bodies, nodes) + 0.5 * mean_step * (to.acceleration - from.acceleration);
   const double inverse_mass = from.inverse_mass + to.inverse_mass;
   return spring.damping * rate / (1 + 0.5 * mean_step * spring.damping * inverse_mass);
 }
@@ -96,8 +157,19 @@ double largest_inverse_mass(const AnchoredMass& mass, const RigidBodies& bodies,
   return motion.inverse_mass.maxCoeff() + mass.arm * mass.arm * motion.inverse_inertia.trace();
 }
 
+// Zero where nothing turns.
+double largest_inverse_inertia(const AnchoredMass& mass, const RigidBodies& bodies, const Nodes& nodes) {
+  if (mass.torsional_stiffness == 0 && mass.torsional_damping == 0) return 0;
+  if (mass.body < 0) {
+    const auto node = static_cast<std::size_t>(mass.node);
+    return nodes.prescribed_rotations(node) == 7 ? 0 : nodes.angular_velocity[node].component[3];
+  }
+  return bodies.motion[static_cast<std::size_t>(mass.body)].inverse_inertia.trace();
+}
+
 /// Of what resists the elongation and, in tension, a motion across it.
 double largest_stiffness(const SpringInRun& spring) {
+  if (spring.is_torsional) return spring.stiffness;
   const double distance = spring.elongation + spring.length;
   return distance > 0 && spring.force > 0 ? std::max(spring.stiffness, spring.force / distance)
                                           : spring.stiffness;
@@ -107,6 +179,10 @@ double largest_stiffness(const SpringInRun& spring) {
 double stable_step(double squared_frequency, double damping) {
   const double sum = damping + std::sqrt(damping * damping + 4 * squared_frequency);
   return sum > 0 ? 4 / sum : std::numeric_limits<double>::infinity();
+}
+
+bool is_beyond_strength(const SpringInRun& spring, double force) {
+  return (spring.is_torsional ? std::abs(force) : force) > spring.strength;
 }
 
 // What it stores with the work of the force of the last step, and none in the present one. \param growth of
@@ -150,7 +226,7 @@ double energy_at(const SpringInRun& spring, double elongation) {
 double start(Springs& springs, const Nodes& nodes) {
   double sum = 0;
   for (SpringInRun& spring : springs.spring) {
-    measure(spring, nodes);
+    if (!spring.is_torsional) measure(spring, nodes);
     spring.force = force_at(spring, spring.elongation);
     spring.energy = energy_at(spring, spring.elongation);
     sum += spring.energy;
@@ -158,14 +234,19 @@ double start(Springs& springs, const Nodes& nodes) {
   return sum;
 }
 
-Contribution stretch(Springs& springs, Nodes& nodes) {
+Contribution stretch(Springs& springs, double last_step, const RigidBodies& bodies, Nodes& nodes) {
   Contribution sum;
   for (SpringInRun& spring : springs.spring) {
     if (spring.is_broken) continue;
     const double before = spring.elongation;
-    measure(spring, nodes);
+    if (spring.is_torsional) {
+      measure_angle(spring, last_step, bodies, nodes);
+    } else {
+      measure(spring, nodes);
+    }
     const double force = force_at(spring, spring.elongation);
-    if (force > spring.strength || is_removed(spring.end[0], nodes) || is_removed(spring.end[1], nodes)) {
+    if (is_beyond_strength(spring, force) || is_removed(spring.end[0], nodes) ||
+        is_removed(spring.end[1], nodes)) {
       sum += break_off(spring, spring.elongation - before);
       continue;
     }
@@ -173,23 +254,35 @@ Contribution stretch(Springs& springs, Nodes& nodes) {
     const double energy = energy_at(spring, spring.elongation);
     sum.internal += energy - spring.energy;
     spring.energy = energy;
-    add_force(spring.end[0], force * spring.direction, nodes);
-    add_force(spring.end[1], -force * spring.direction, nodes);
+    const auto add = spring.is_torsional ? add_moment : add_force;
+    add(spring.end[0], force * spring.direction, nodes);
+    add(spring.end[1], -force * spring.direction, nodes);
   }
   return sum;
 }
 
-// With S the sum of the stiffnesses at a mass m, the largest eigenvalue of the springs is at most the largest
-// S_1 / m_1 + S_2 / m_2 of a spring: Gershgorin's theorem for the elongations, whose matrix has k_j / m
-// where two springs share a mass.
+void turn_bodies(const Springs& springs, RigidBodies& bodies) {
+  for (const SpringInRun& spring : springs.spring) {
+    if (!spring.is_torsional || spring.is_broken) continue;
+    for (const double sign : {1.0, -1.0})
+      if (const int body = spring.end[sign > 0 ? 0 : 1].body; body >= 0)
+        bodies.body[static_cast<std::size_t>(body)].moment += sign * spring.force * spring.direction;
+  }
+}
+
+// With Q the sum of stiffness over mass, or over inertia of torsional springs, of all springs at a node or
+// body, the largest eigenvalue of the springs is at most the largest Q_1 + Q_2 of a spring. Proof: the energy
+// k (x_1 - x_2)^2 of a spring is at most k (1 + Q_2 / Q_1) x_1^2 + k (1 + Q_1 / Q_2) x_2^2, by which every
+// mass stands alone, with an eigenvalue of at most the mean of Q_1 + Q_2 of its springs.
 double bound_step(Springs& springs, double of_elements, const RigidBodies& bodies, const Nodes& nodes) {
-  for (AnchoredMass& mass : springs.mass) mass.stiffness = mass.damping = 0;
+  for (AnchoredMass& mass : springs.mass)
+    mass.stiffness = mass.damping = mass.torsional_stiffness = mass.torsional_damping = 0;
   for (const SpringInRun& spring : springs.spring)
     for (const SpringAnchor& anchor : spring.end) {
       if (spring.is_broken || anchor.node < 0) continue;
       AnchoredMass& mass = springs.mass[anchor.mass];
-      mass.stiffness += largest_stiffness(spring);
-      mass.damping += spring.damping;
+      (spring.is_torsional ? mass.torsional_stiffness : mass.stiffness) += largest_stiffness(spring);
+      (spring.is_torsional ? mass.torsional_damping : mass.damping) += spring.damping;
     }
   double squared_frequency = 0, damping = 0, least = of_elements;
   springs.critical = -1;
@@ -201,8 +294,9 @@ double bound_step(Springs& springs, double of_elements, const RigidBodies& bodie
       if (anchor.node < 0) continue;
       const AnchoredMass& mass = springs.mass[anchor.mass];
       const double inverse = largest_inverse_mass(mass, bodies, nodes);
-      own_frequency += mass.stiffness * inverse;
-      own_damping += mass.damping * inverse;
+      const double inverse_inertia = largest_inverse_inertia(mass, bodies, nodes);
+      own_frequency += mass.stiffness * inverse + mass.torsional_stiffness * inverse_inertia;
+      own_damping += mass.damping * inverse + mass.torsional_damping * inverse_inertia;
     }
     squared_frequency = std::max(squared_frequency, own_frequency);
     damping = std::max(damping, own_damping);
@@ -220,37 +314,57 @@ Contribution pull_dashpots(Springs& springs, double mean_step, RigidBodies& bodi
     if (spring.is_broken) continue;
     if (spring.damping > 0) {
       spring.dashpot = dashpot_force(spring, mean_step, bodies, nodes);
-      sum.damping.before -= mean_step * spring.dashpot * rate_of(spring, nodes);
-      pull(spring.end[0], spring.dashpot * spring.direction, bodies, nodes);
-      pull(spring.end[1], -spring.dashpot * spring.direction, bodies, nodes);
+      sum.damping.before -= mean_step * spring.dashpot * rate_of(spring, bodies, nodes);
+      const auto act = spring.is_torsional ? twist : pull;
+      act(spring.end[0], spring.dashpot * spring.direction, bodies, nodes);
+      act(spring.end[1], -spring.dashpot * spring.direction, bodies, nodes);
     }
     // A point that stays in place is a support.
     const Vector3d impulse = mean_step * (spring.force + spring.dashpot) * spring.direction;
     for (const double sign : {-1.0, 1.0}) {
       const SpringAnchor& anchor = spring.end[sign < 0 ? 0 : 1];
-      if (anchor.node < 0) sum.supports.add(to_vector(anchor.point), to_vector(sign * impulse));
+      if (anchor.node >= 0) continue;
+      if (spring.is_torsional) {
+        add_to(sum.supports.angular, to_vector(sign * impulse));
+      } else {
+        sum.supports.add(to_vector(anchor.point), to_vector(sign * impulse));
+      }
     }
   }
   return sum;
 }
 
-Contribution dashpots_done(const Springs& springs, double mean_step, const Nodes& nodes) {
+Contribution dashpots_done(const Springs& springs, double mean_step, const RigidBodies& bodies,
+                           const Nodes& nodes) {
   Contribution sum;
   for (const SpringInRun& spring : springs.spring)
-    if (spring.dashpot != 0) sum.damping.after -= mean_step * spring.dashpot * rate_of(spring, nodes);
+    if (spring.dashpot != 0) sum.damping.after -= mean_step * spring.dashpot * rate_of(spring, bodies, nodes);
   return sum;
 }
 
 void add_columns(const Springs& springs, std::vector<std::string>& columns) {
-  for (const SpringInRun& spring : springs.spring)
-    for (const char* quantity : {".elongation", ".force"})
-      columns.push_back("spring." + spring.name + quantity);
+  for (const SpringSet& set : springs.set) {
+    const std::string name = "spring." + set.name;
+    columns.push_back(name + (set.is_torsional ? ".angle" : ".elongation"));
+    columns.push_back(name + (set.is_torsional ? ".moment" : ".force"));
+    if (set.joins_sets) columns.push_back(name + ".broken");
+  }
 }
 
 void add_values(const Springs& springs, std::vector<double>& row) {
-  for (const SpringInRun& spring : springs.spring) {
-    row.push_back(spring.elongation);
-    row.push_back(spring.force + spring.dashpot);
+  for (const SpringSet& set : springs.set) {
+    double elongation = 0, force = 0;
+    std::size_t broken = 0;
+    for (std::size_t i = set.first; i < set.first + set.count; ++i) {
+      const SpringInRun& spring = springs.spring[i];
+      if (spring.is_broken) ++broken;
+      if (!spring.is_broken || !set.joins_sets) elongation += spring.elongation;
+      force += spring.force + spring.dashpot;
+    }
+    const std::size_t whole = set.joins_sets ? set.count - broken : 1;
+    row.push_back(whole > 0 ? elongation / static_cast<double>(whole) : 0);
+    row.push_back(force);
+    if (set.joins_sets) row.push_back(static_cast<double>(broken));
   }
 }
 

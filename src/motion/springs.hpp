@@ -9,8 +9,13 @@
 /// mass: with the elements' highest frequency w_e, the frequency of a vibration of nodes and springs is at
 /// most sqrt(w_e^2 + w_s^2), w_s^2 the bound of `bound_step`, and the central difference method is stable for
 /// dt^2 (w_e^2 + w_s^2) + 2 dt d <= 4, d the same bound for the dashpots.
+///
+/// A torsional spring is the same in rotations: its elongation is the angle by which `to` has turned about
+/// the axis against `from`, summed over the steps, its force is a moment, opposite on both ends, and its
+/// direction is the axis, which turns with `from`.
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <array>
 #include <limits>
 #include <span>
@@ -28,14 +33,17 @@ struct SpringAnchor {
   int body = -1;                                    ///< rigid body of the node; -1: a part that deforms
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< if it stays in place
   std::size_t mass = 0;                             ///< index in Springs::mass; of a node or a body
+  /// Of a body at the last step, where the spring is torsional.
+  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
 };
 
-/// Elongation and force, of springs that are not linear.
+/// Elongation and force, of springs that are not linear; or angle and moment.
 using ForceTable = std::vector<std::array<double, 2>>;
 
 struct SpringInRun {
   std::string name;
   std::array<SpringAnchor, 2> end;
+  bool is_torsional = false;  ///< then angle and moment stand in place of elongation and force
   double length = 0;
   double stiffness = 0;  ///< of a table: its steepest slope upwards
   ForceTable table{};    ///< empty: linear
@@ -47,12 +55,14 @@ struct SpringInRun {
   double dashpot = 0;  ///< force of the dashpot
   double energy = 0;   ///< stored
   bool is_broken = false;
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< unit vector between the ends; 0 where they meet
+  /// Unit vector between the ends, 0 where they meet; or the axis.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(elongation, force, dashpot, energy, is_broken, direction);
+    archive(elongation, force, dashpot, energy, is_broken, direction, end[0].attitude.coeffs(),
+            end[1].attitude.coeffs());
   }
 };
 
@@ -61,12 +71,23 @@ struct AnchoredMass {
   int node = -1, body = -1;
   double arm = 0;  ///< largest distance of an anchor from the centre of the body
   double stiffness = 0, damping = 0;
+  double torsional_stiffness = 0, torsional_damping = 0;
+};
+
+/// What one name of the deck stands for: one spring, or those between two sets.
+struct SpringSet {
+  std::string name;
+  std::size_t first = 0, count = 1;  ///< of Springs::spring
+  bool is_torsional = false;
+  bool joins_sets = false;
+  double shortest = 0, longest = 0;  ///< distance of two ends at the start
 };
 
 struct Springs {
   std::vector<SpringInRun> spring;
   std::vector<AnchoredMass> mass;
-  int critical = -1;  ///< spring that alone allows a smaller time step than all elements; -1: none
+  std::vector<SpringSet> set;  ///< one an entry of the deck
+  int critical = -1;           ///< spring that alone allows a smaller time step than all elements; -1: none
 
   bool empty() const { return spring.empty(); }
 
@@ -84,23 +105,29 @@ double energy_at(const SpringInRun& spring, double elongation);
 /// Takes over the positions of nodes, without forces. \return energy stored at the start
 double start(Springs& springs, const Nodes& nodes);
 
-/// Adds the forces of the springs to nodes.force; springs beyond their strength, and those of a node that was
-/// removed, break.
-Contribution stretch(Springs& springs, Nodes& nodes);
+/// Adds the forces of the springs to nodes.force, and moments to nodes.moment; springs beyond their strength,
+/// and those of a node that was removed, break. \param last_step by which nodes and bodies have moved
+Contribution stretch(Springs& springs, double last_step, const RigidBodies& bodies, Nodes& nodes);
+
+/// Adds the moments of torsional springs to bodies, on which the forces of nodes stand.
+void turn_bodies(const Springs& springs, RigidBodies& bodies);
 
 /// The stable time step with springs and dashpots. \param of_elements without them; may be infinite
 double bound_step(Springs& springs, double of_elements, const RigidBodies& bodies, const Nodes& nodes);
 
-/// Adds the forces of the dashpots to nodes.force and to bodies, on which all other forces stand.
+/// Adds the forces of the dashpots to nodes and bodies, on which all other forces stand.
 /// \param mean_step time between the velocities before and after
 Contribution pull_dashpots(Springs& springs, double mean_step, RigidBodies& bodies, Nodes& nodes);
 
 /// Work of the dashpots with the velocities at the end of the step.
-Contribution dashpots_done(const Springs& springs, double mean_step, const Nodes& nodes);
+Contribution dashpots_done(const Springs& springs, double mean_step, const RigidBodies& bodies,
+                           const Nodes& nodes);
 
-/// spring.NAME.elongation, spring.NAME.force
+/// spring.NAME.elongation, spring.NAME.force; of torsional springs spring.NAME.angle, spring.NAME.moment; of
+/// those between sets spring.NAME.broken besides.
 void add_columns(const Springs& springs, std::vector<std::string>& columns);
-/// Force with that of the dashpot; 0 where broken.
+/// Force with that of the dashpot; 0 where broken. Of those between sets the mean elongation of those that
+/// are not broken, and the sum of the forces.
 void add_values(const Springs& springs, std::vector<double>& row);
 
 }  // namespace brio

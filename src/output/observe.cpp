@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "elements/element_state.hpp"
 #include "src/fields/strain.hpp"
 #include "src/output/result_order.hpp"
 
@@ -49,6 +50,7 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> va
       node_of_point_[static_cast<std::size_t>(point_of_node_[node])] = static_cast<int>(node);
   snapshot_.points.resize(3 * node_of_point_.size());
   add_point_fields(model, variables);
+  if (std::ranges::find(variables, state_variable) != variables.end()) add_state(model);
   add_cell_fields(model, variables);
   take_topology(model);
   take_positions(model);
@@ -75,9 +77,19 @@ void FieldObserver::add_point_fields(const Model& model, std::span<const std::st
                     for (std::size_t i = 3 * point; i < 3 * point + 3; ++i)
                       *out++ = snapshot_.points[i] - reference_[i];
                   });
-  add_point_field(field("velocity", 3, points), [this](const Model& now, std::size_t point, double* out) {
-    std::copy_n(now.nodes.record[static_cast<std::size_t>(node_of_point_[point])].velocity, 3, out);
-  });
+  // With the state of elements, from which runs can start, of every digit.
+  const bool with_state = std::ranges::find(variables, state_variable) != variables.end();
+  add_point_field(
+      field("velocity", 3, points, with_state ? Storage::double_precision : Storage::single_precision),
+      [this](const Model& now, std::size_t point, double* out) {
+        std::copy_n(now.nodes.record[static_cast<std::size_t>(node_of_point_[point])].velocity, 3, out);
+      });
+  if (with_state && model.nodes.has_rotations())
+    add_point_field(field("angular_velocity", 3, points, Storage::double_precision),
+                    [this](const Model& now, std::size_t point, double* out) {
+                      const auto node = static_cast<std::size_t>(node_of_point_[point]);
+                      std::copy_n(now.nodes.angular_velocity[node].component, 3, out);
+                    });
   if (!model.contacts.empty()) {
     add_contact_field(contact_force_variable());
     for (const PointVariable& variable : contact_variables())
@@ -120,7 +132,7 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
     if (can_be_damaged(model)) add_cell_field("damage", {Kind::history});
   }
   for (const std::string& name : variables) {
-    if (name == default_group ||
+    if (name == default_group || name == state_variable ||
         std::ranges::find(contact_variables(), name, &PointVariable::name) != contact_variables().end())
       continue;
     if (std::ranges::find(chosen_variables(), name, &CellVariable::name) != chosen_variables().end())
@@ -128,6 +140,16 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
     else
       add_cell_field(name, {Kind::history});
   }
+}
+
+void FieldObserver::add_state(const Model& model) {
+  std::size_t components = 1;
+  for (const Block& block : model.blocks) components = std::max(components, state_components(block));
+  state_field_ = snapshot_.cell_fields.size();
+  snapshot_.cell_fields.push_back(
+      field(std::string(state_variable), static_cast<int>(components), 0, Storage::double_precision));
+  snapshot_.cell_fields.back().is_partial = true;
+  cell_source_.push_back({CellSource::Kind::state});
 }
 
 // Cells of the elements that live, by part and element.
@@ -241,7 +263,22 @@ void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sam
       return;
     case CellSource::Kind::history:
       *values = sample.named(field.name);
+      return;
+    case CellSource::Kind::state:
+      return;  // no sample tells it
   }
+}
+
+// Of particles a row is not all: they remember their neighbours.
+void FieldObserver::fill_state(const Model& model, const PartInModel& part, std::size_t element,
+                               std::size_t cell) {
+  FieldArray& field = snapshot_.cell_fields[state_field_];
+  const auto components = static_cast<std::size_t>(field.components);
+  double* row = field.values.data() + cell * components;
+  std::fill_n(row, components, ElementSample::undefined);
+  const Block& block = model.blocks[part.block];
+  if (part.rigid < 0 && !block.cloud)
+    read_state(block, static_cast<std::size_t>(part.element_slot[element]), row);
 }
 
 void FieldObserver::fill_cells(const Model& model) {
@@ -253,6 +290,7 @@ void FieldObserver::fill_cells(const Model& model) {
       const ElementSample sample = sample_of(model, part, e);
       for (std::size_t k = 0; k < cell_source_.size(); ++k)
         fill_cell(cell_source_[k], sample, {p, e, part.number_of_element(e), cell}, snapshot_.cell_fields[k]);
+      if (state_field_ != none) fill_state(model, part, e, cell);
       ++cell;
     }
   }

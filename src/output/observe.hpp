@@ -37,9 +37,11 @@ class FieldObserver {
   void follow(const Model& model);
 
  private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
   /// What fills a field of cells.
   struct CellSource {
-    enum class Kind { part, element, variable, strain, history };
+    enum class Kind { part, element, variable, strain, history, state };
     Kind kind;
     const CellVariable* variable = nullptr;
   };
@@ -62,11 +64,13 @@ class FieldObserver {
   void strain_of(const ElementSample& sample, const Cell& at, double* out) const;
   void add_cell_fields(const Model& model, std::span<const std::string> variables);
   void add_cell_field(std::string_view name, CellSource source);
+  void add_state(const Model& model);
   void take_topology(const Model& model);
   void take_positions(const Model& model);
   void number_points(const Model& model);
   void fill_points(const Model& model);
   void fill_cells(const Model& model);
+  void fill_state(const Model& model, const PartInModel& part, std::size_t element, std::size_t cell);
 
   Snapshot snapshot_;
   std::vector<int> node_of_point_;
@@ -77,6 +81,7 @@ class FieldObserver {
   std::vector<double> reference_;
   std::vector<double> point_number_;            ///< of each point, with mesh files
   std::vector<std::vector<double>> thickness_;  ///< at the start, by part and element, for strains of shells
+  std::size_t state_field_ = none;              ///< among those of cells
 };
 
 /// Names of the history's columns: time, step, energies, momenta, and the mean velocity of every part (of the

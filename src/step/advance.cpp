@@ -24,7 +24,7 @@ void apply_loads(Model& model) {
 Contribution stretch_springs(Model& model) {
   if (model.springs.empty()) return {};
   const StageTimer timer(model.stages, Stage::loads);
-  const Contribution sum = stretch(model.springs, model.nodes);
+  const Contribution sum = stretch(model.springs, model.times.previous, model.rigid, model.nodes);
   model.control.stable = bound_step(model.springs, model.control.stable, model.rigid, model.nodes);
   return sum;
 }
@@ -68,7 +68,8 @@ Contribution damping_done(Model& model) {
   Contribution sum;
   if (model.damping.empty() && model.springs.empty()) return sum;
   const StageTimer timer(model.stages, Stage::loads);
-  if (!model.springs.empty()) sum += dashpots_done(model.springs, model.times.mean(), model.nodes);
+  if (!model.springs.empty())
+    sum += dashpots_done(model.springs, model.times.mean(), model.rigid, model.nodes);
   if (model.damping.empty()) return sum;
   Impulse impulse = resultant(model.damping, model.nodes);
   impulse *= model.times.mean();
@@ -93,6 +94,7 @@ void gather_rigid_forces(Model& model) {
   };
   const bool by_nodes = by_parts || !std::ranges::all_of(model.loads, is_gravity);
   gather_forces(model.rigid, model.loads, model.times.time, by_nodes, model.nodes);
+  turn_bodies(model.springs, model.rigid);
 }
 
 KineticEnergy accelerate_nodes(Model& model, ThreadTeam& team) {

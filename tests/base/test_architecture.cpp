@@ -94,7 +94,7 @@ const std::vector<Rooms> rooms_of_folders{
      "elements/[^/]+/.*\\.cpp",
      "",
      "particle"},
-    {"src", {"deck", "motion", "sweep", "model", "fields", "build", "step", "output", "forecast"}},
+    {"src", {"deck", "motion", "sweep", "model", "fields", "initial", "build", "step", "output", "forecast"}},
     {"io",
      {"files", "yaml", "mesh_file", "mesh_format", "mesh", "deck", "schema", "results", "restart", "run",
       "study", "plot", "report"}},

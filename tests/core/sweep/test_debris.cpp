@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-ElasticPlastic soft() {
+ElasticPlastic soft_column() {
   return {.density = 1000,
           .youngs_modulus = 1e9,
           .poissons_ratio = 0.3,
@@ -21,16 +21,16 @@ ElasticPlastic soft() {
           .hardening_modulus = 1e7};
 }
 
-constexpr std::size_t column = 0, block = 1;
+constexpr std::size_t column_part = 0, block_part = 1;
 
 // A soft column comes down on a free block; its lowest element is crushed and deleted.
 Deck crushed_column(FreeNodes free_nodes) {
   Deck deck;
-  deck.materials = {{"material", soft()}, {"hard", elastic(0.3)}};
+  deck.materials = {{"material", soft_column()}, {"hard", elastic(0.3)}};
   deck.parts = {box("column", {0.1, 0.1, 0.3}, {1, 1, 3}, {0.013, 0.017, 0.2505}, hex8()),
                 box("block", {0.4, 0.4, 0.2}, {4, 4, 2}, {0, 0, 0}, hex8(), "hard")};
-  deck.parts[column].deletion.emplace().plastic_strain = 0.04;
-  deck.parts[column].deletion->free_nodes = free_nodes;
+  deck.parts[column_part].deletion.emplace().plastic_strain = 0.04;
+  deck.parts[column_part].deletion->free_nodes = free_nodes;
   deck.initial_conditions = {moving("column", {0, 0, -10})};
   NodalForce force;
   force.where.set = "column.zmin";
@@ -59,8 +59,8 @@ TEST(Debris, DroppedNodesAreOutOfContactInTheStepInWhichTheyAreFreed) {
   const Deck deck = crushed_column(FreeNodes::drop);
   Model model = build_model(deck);
   ThreadTeam team(1);
-  Vector before = momentum_of_part(model, block);
-  const double scale = 10 * model.parts[column].mass;
+  Vector before = momentum_of_part(model, block_part);
+  const double scale = 10 * model.parts[column_part].mass;
   int active_before = 0, freed_in_contact = 0, active_later = 0;
   std::vector<int> gone;
   run(model, deck, team, [&](Model& m) {
@@ -76,7 +76,7 @@ TEST(Debris, DroppedNodesAreOutOfContactInTheStepInWhichTheyAreFreed) {
         ASSERT_FALSE(std::binary_search(gone.begin(), gone.end(), node));
         ASSERT_GT(m.nodes.mass[static_cast<std::size_t>(node)], 0);
       }
-    const Vector now = momentum_of_part(m, block);
+    const Vector now = momentum_of_part(m, block_part);
     if (scene.step.active == 0) {
       ASSERT_LT(distance(now, before), 1e-12 * scale) << "step " << m.step;
     }
@@ -88,7 +88,7 @@ TEST(Debris, DroppedNodesAreOutOfContactInTheStepInWhichTheyAreFreed) {
   EXPECT_GE(gone.size(), 4u);
   EXPECT_LT(gone.size(), 16u);
   for (const int node : gone) EXPECT_EQ(model.nodes.mass[static_cast<std::size_t>(node)], 0);
-  EXPECT_GT(momentum_of_part(model, block)[2], -scale);
+  EXPECT_GT(momentum_of_part(model, block_part)[2], -scale);
   std::vector<double> row;
   observe_history(model, row);
   EXPECT_LT(model.momentum.linear_imbalance(), 1e-12);
@@ -102,7 +102,7 @@ TEST(Debris, WithARadiusIsCaughtBetweenWhatMeets) {
   constexpr double radius = 0.02;
   for (const bool with_radius : {false, true}) {
     Deck deck = crushed_column(FreeNodes::keep);
-    if (with_radius) deck.parts[column].deletion->debris_radius = radius;
+    if (with_radius) deck.parts[column_part].deletion->debris_radius = radius;
     Model model = build_model(deck);
     ThreadTeam team(1);
     std::vector<int> freed;
@@ -130,7 +130,7 @@ TEST(Debris, WithARadiusIsCaughtBetweenWhatMeets) {
 
 TEST(Debris, RadiusIsOfPartsInContactOnly) {
   Deck deck = crushed_column(FreeNodes::keep);
-  deck.parts[column].deletion->debris_radius = 0.02;
+  deck.parts[column_part].deletion->debris_radius = 0.02;
   deck.contact->exclude = {"column"};
   EXPECT_THROW(build_model(deck), BuildError);
   deck.contact.reset();

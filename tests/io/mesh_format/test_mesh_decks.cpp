@@ -130,6 +130,71 @@ TEST_F(MeshDecks, RefuseWhatTheFileDoesNotHaveAtItsPlace) {
   }
 }
 
+// Two stacked pairs of cubes: nodes of a set of the file, in both of its parts that deform, on a plate below.
+constexpr const char* two_cubes = R"(*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+11, 2, 0, 0
+12, 3, 0, 0
+13, 3, 1, 0
+14, 2, 1, 0
+15, 2, 0, 1
+16, 3, 0, 1
+17, 3, 1, 1
+18, 2, 1, 1
+*ELEMENT, TYPE=C3D8R, ELSET=left
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8R, ELSET=right
+2, 11, 12, 13, 14, 15, 16, 17, 18
+*NSET, NSET=feet
+1, 2, 3, 4, 11, 12, 13, 14
+*NSET, NSET=heads
+5, 6, 15, 16
+)";
+constexpr const char* tied_cubes = R"(
+meshes: {cubes: {file: cubes.inp}}
+parts:
+  left: {mesh: {from: cubes, block: left}, element: hex8, material: steel}
+  right: {mesh: {from: cubes, block: right}, element: hex8, material: steel}
+  base: {mesh: {box: {size: [4, 2, 1], elements: [4, 2, 1]}}, placement: {translate: [1.5, 0.5, -0.5]}, element: hex8,
+         material: steel}
+connections: [{tie: [cubes.feet, base], tolerance: 1e-6}]
+time: {end: 1e-6}
+)";
+
+TEST_F(MeshDecks, TieSetsOfFilesInAllTheirParts) {
+  write("cubes.inp", two_cubes);
+  const Model model = build_scene(read(tied_cubes));
+  ASSERT_EQ(model.ties.found.size(), 1u);
+  EXPECT_EQ(model.ties.found[0].nodes, "cubes.feet");
+  EXPECT_EQ(model.ties.found[0].count, 8);
+  // As two ties of the parts by themselves.
+  std::string apart = tied_cubes;
+  const std::string tie = "{tie: [cubes.feet, base], tolerance: 1e-6}";
+  apart.replace(apart.find(tie), tie.size(),
+                "{tie: [left.feet, base], tolerance: 1e-6}, {tie: [right.feet, base], tolerance: 1e-6}");
+  const Model two = build_scene(read(apart));
+  ASSERT_EQ(two.ties.node.size(), model.ties.node.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) EXPECT_EQ(two.nodes.mass[i], model.nodes.mass[i]);
+  // Of a set that reaches into the part of the faces its own nodes are not tied to it.
+  std::string own = tied_cubes;
+  own.replace(own.find(tie), tie.size(), "{tie: [cubes.feet, left], tolerance: 1e-6}");
+  EXPECT_NE(fault_of(own).find("no node of 'cubes.feet' lies within 1e-06 of the surface of 'left'"),
+            std::string::npos)
+      << fault_of(own);
+  std::string unknown = tied_cubes;
+  unknown.replace(unknown.find("cubes.feet"), 10, "cubes.feat");
+  EXPECT_NE(fault_of(unknown).find("a.yaml:12:22: part 'left' has no set 'feat'; did you mean 'feet'?"),
+            std::string::npos)
+      << fault_of(unknown);
+}
+
 TEST_F(MeshDecks, NameElementsByTheNumbersOfTheFile) {
   std::string text = text_of(folder_of_meshes + "box.msh");
   write("box.msh", text);
@@ -257,7 +322,7 @@ TEST_F(MeshDecks, RestartWithTheirMeshAndNoOther) {
     ADD_FAILURE() << "not refused";
   } catch (const DeckError& fault) {
     const std::string said = fault.what();
-    EXPECT_NE(said.find("the mesh file 'box.msh' has changed since "), std::string::npos) << said;
+    EXPECT_NE(said.find("the file 'box.msh' has changed since "), std::string::npos) << said;
   }
 }
 

@@ -72,12 +72,15 @@ parts:
         element: {type: beam2, section: {circle: {radius: 0.05}}}, material: rubber}
   ball: {mesh: {box: {size: [1, 1, 1], elements: [1, 1, 1]}}, placement: {translate: [9, 0, 0]},
          element: {type: rigid}, material: steel}
-springs: {coil: {from: {part: ball, point: [9, 0, 0]}, to: {point: [9, 0, 3], fixed: true}, stiffness: 10}}
+springs:
+  coil: {from: {part: ball, point: [9, 0, 0]}, to: {point: [9, 0, 3], fixed: true}, stiffness: 10}
+  rod: {from: {part: ball, point: [9, 0, 0]}, to: {point: [9, 0, 3], fixed: true}, axis: [0, 0, 1], stiffness: 10}
+  bed: {from: {set: on_top.zmax}, to: {set: plate}, stiffness: 10}
 boundary_conditions: [{name: foot, set: block.zmin, fix: [x, y, z]}]
 contact: {surfaces: all, audit: true}
 time: {end: 1e-3, mass_scaling: {step: 1e-5, largest_share: 10}}
 output:
-  fields: {variables: [all]}
+  fields: {variables: [all, state]}
   history:
     probes: {top: {part: plate, point: [0, 0, 3]}}
     rigid_bodies: true

@@ -1,0 +1,378 @@
+#include "io/run/initial_state.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <unordered_map>
+
+#include "elements/element_state.hpp"
+#include "io/files/checksum.hpp"
+#include "io/files/hdf5_file.hpp"
+#include "io/files/read_apart.hpp"
+#include "io/files/run_record.hpp"
+#include "io/restart/deck_difference.hpp"
+#include "io/results/read_info.hpp"
+#include "io/results/read_result.hpp"
+#include "io/yaml/yaml_source.hpp"
+#include "src/fields/cell_variables.hpp"
+
+namespace brio {
+
+namespace {
+
+namespace fs = std::filesystem;
+using NodePointer = std::shared_ptr<const YamlNode>;
+
+/// A dump stands at the first step after the time for which it was asked: within this share of the interval
+/// to the dumps beside it.
+constexpr double same_time = 0.05;
+
+fs::path path_of(const StateSource& source, const Deck& deck) {
+  return (fs::path(deck.file).parent_path() / source.result).lexically_normal();
+}
+
+NodePointer value_in(const NodePointer& map, const std::string& key) {
+  const YamlEntry* entry = map && map->is_map() ? map->find(key) : nullptr;
+  return entry == nullptr ? nullptr : entry->value;
+}
+
+/// The word of an element or material, which stands alone or under a key.
+std::string word_of(const NodePointer& node, const std::string& key) {
+  if (node && node->is_scalar()) return node->text;
+  const NodePointer value = value_in(node, key);
+  return value && value->is_scalar() ? value->text : "";
+}
+
+/// An earlier run, whose result is whole.
+class EarlierResult {
+ public:
+  explicit EarlierResult(const fs::path& path)
+      : path_(path), reader_(verified(path)), record_(read_record(Hdf5File::open_to_read(path))) {
+    deck_ = parse_yaml(record_.deck_text, path.string());
+  }
+
+  const ResultReader& reader() const { return reader_; }
+  const RunRecord& record() const { return record_; }
+
+  std::size_t dump_at(const std::optional<double>& time) const {
+    if (!time) return reader_.times().size() - 1;
+    const std::size_t dump = reader_.dump_at(*time);
+    if (std::abs(reader_.times()[dump] - *time) > same_time * interval_at(dump))
+      throw FileError(path_, fmt::format("has no dump at time {:g}; the nearest is at {:.9g}", *time,
+                                         reader_.times()[dump]));
+    return dump;
+  }
+
+  /// Number of a part.
+  std::int64_t part(const std::string& name) const {
+    const NodePointer parts = value_in(deck_, "parts");
+    std::string names;
+    for (std::size_t p = 0; parts && p < parts->entries.size(); ++p) {
+      if (parts->entries[p].key == name) return static_cast<std::int64_t>(p);
+      names += (names.empty() ? "" : ", ") + parts->entries[p].key;
+    }
+    throw FileError(path_, "has no part '" + name + "'; accepted: " + names);
+  }
+  NodePointer element(const std::string& part) const {
+    return value_in(value_in(value_in(deck_, "parts"), part), "element");
+  }
+  std::string model(const std::string& part) const {
+    const std::string material = word_of(value_in(value_in(value_in(deck_, "parts"), part), "material"), "");
+    return word_of(value_in(value_in(deck_, "materials"), material), "model");
+  }
+
+  /// \return whether there is a field of that name
+  bool holds(const std::string& field) const {
+    const Hdf5File file = Hdf5File::open_to_read(path_);
+    return file.contains("/VTKHDF/PointData/" + field) || file.contains("/VTKHDF/CellData/" + field);
+  }
+
+ private:
+  double interval_at(std::size_t dump) const {
+    const std::vector<double>& times = reader_.times();
+    double interval = times.size() > 1 ? HUGE_VAL : times.front();
+    if (dump > 0) interval = times[dump] - times[dump - 1];
+    if (dump + 1 < times.size()) interval = std::min(interval, times[dump + 1] - times[dump]);
+    return interval;
+  }
+
+  static const fs::path& verified(const fs::path& path) {
+    if (!fs::is_regular_file(path)) throw FileError(path, "there is no such file");
+    read_apart(path, [&] { return verify_result(path); });
+    return path;
+  }
+
+  fs::path path_;
+  ResultReader reader_;
+  RunRecord record_;
+  NodePointer deck_;
+};
+
+/// Takes the state of one part out of a result.
+class PartStateReader {
+ public:
+  PartStateReader(const Deck& deck, std::size_t part, const StateSource& source, const EarlierResult& result)
+      : part_(deck.parts[part]),
+        deck_(deck),
+        source_(source),
+        result_(result),
+        name_(source.part.value_or(part_.name)),
+        dump_(result.dump_at(source.time)) {
+    state_.part = part;
+    state_.place = source.place;
+  }
+
+  PartState read(Mesh& mesh) {
+    const std::int64_t number = result_.part(name_);
+    expect_elements_that_suffice();
+    find_cells(mesh, number);
+    find_points(mesh, number);
+    if (takes(StateField::velocity)) read_velocities();
+    if (takes(StateField::state)) read_states();
+    if (takes(StateField::stress)) state_.stress = rows<6>(cell_field("stress"), cell_);
+    if (takes(StateField::plastic_strain)) read_plastic_strain();
+    if (takes(StateField::positions)) {
+      mesh.reference = std::move(mesh.position);
+      mesh.position = rows<3>(result_.reader().field("position", dump_), point_);
+    }
+    return std::move(state_);
+  }
+
+ private:
+  bool takes(StateField field) const { return source_.takes(field); }
+
+  [[noreturn]] void refuse(const std::string& fault) const { throw DeckError(source_.place + ": " + fault); }
+
+  // What a result does not hold is not made up.
+  void expect_elements_that_suffice() const {
+    const std::string kind(brio::name_of(part_.element));
+    if (word_of(result_.element(name_), "type") != kind)
+      refuse(fmt::format(
+          "part '{}' is of elements '{}', and '{}' is of '{}' in the result; accepted are the same",
+          part_.name, kind, name_, word_of(result_.element(name_), "type")));
+    const Material& law = *material();
+    const bool strained = takes(StateField::plastic_strain);
+    if (takes(StateField::stress) || strained)
+      if (const std::string_view why = why_not_by_stress(part_.element, law, strained); !why.empty())
+        refuse(
+            fmt::format("part '{}' {}, which stress and plastic strain of a result do not tell; accepted "
+                        "is 'state', of a result written with output.fields.variables: [default, state]",
+                        part_.name, why));
+    if (takes(StateField::positions) && !takes(StateField::state) &&
+        traits_of(part_.element).cell == line_cell)
+      refuse("positions of beams without the rotations of their ends; 'state' is wanted beside them");
+    if (takes(StateField::state)) expect_same_state(law);
+  }
+
+  const Material* material() const {
+    for (const auto& [name, law] : deck_.materials)
+      if (name == part_.material) return &law;
+    return nullptr;
+  }
+
+  void expect_same_state(const Material& law) const {
+    expect_field("state", "output.fields.variables: [default, state]");
+    if (result_.record().program != program_checksum_text())
+      refuse(
+          fmt::format("'state' was written by another build of brio (version {}); it is read by the program "
+                      "that wrote it, stress and plastic_strain by all",
+                      result_.record().version));
+    const std::string model(brio::name_of(law));
+    if (result_.model(name_) != model)
+      refuse(
+          fmt::format("part '{}' is of material model '{}', and of '{}' in the result; accepted are the same",
+                      part_.name, model, result_.model(name_)));
+    const NodePointer now = parse_yaml(deck_.text, deck_.file);
+    const NodePointer parts = value_in(value_in(now, "parts"), part_.name);
+    const std::string difference =
+        deck_difference(element_alone(result_.element(name_)), element_alone(value_in(parts, "element")));
+    if (!difference.empty())
+      refuse(
+          fmt::format("the state of part '{}' is of other elements: {} in the result; accepted are the same "
+                      "settings",
+                      part_.name, difference));
+  }
+
+  static std::string element_alone(const NodePointer& element) {
+    YamlNode map;
+    map.kind = YamlNode::Kind::map;
+    map.entries.push_back({"element", {}, element});
+    return write_yaml(map);
+  }
+
+  void expect_field(const std::string& field, const std::string& wanted) const {
+    if (!result_.holds(field))
+      refuse(fmt::format("{} holds no '{}'; accepted is a result written with {}", source_.result, field,
+                         wanted));
+  }
+
+  ReadField cell_field(const std::string& name) const {
+    expect_field(name, "it among output.fields.variables");
+    return result_.reader().field(name, dump_);
+  }
+
+  void find_cells(const Mesh& mesh, std::int64_t number) {
+    cells_ = result_.reader().cells(dump_);
+    const std::vector<double> id = result_.reader().field("element_id", dump_).values;
+    std::unordered_map<std::int64_t, std::size_t> cell_of;
+    for (std::size_t c = 0; c < cells_.part.size(); ++c)
+      if (cells_.part[c] == number) cell_of.emplace(static_cast<std::int64_t>(id[c]), c);
+    for (std::size_t e = 0; e < mesh.element_count(); ++e) {
+      const auto found = cell_of.find(mesh.number_of_element(e));
+      if (found == cell_of.end())
+        refuse(
+            fmt::format("element {} of part '{}' is not among the {} of '{}' in {} at time {:g}: it was "
+                        "deleted, or is of another mesh; accepted are parts whose elements are all there",
+                        mesh.number_of_element(e), part_.name, cell_of.size(), name_, source_.result,
+                        result_.reader().times()[dump_]));
+      cell_.push_back(found->second);
+    }
+  }
+
+  // Points of nodes, by the corners of elements.
+  void find_points(const Mesh& mesh, std::int64_t number) {
+    constexpr std::size_t unknown = static_cast<std::size_t>(-1);
+    point_.assign(mesh.position.size(), unknown);
+    const std::vector<std::int64_t> id = ids_of_points(mesh, number);
+    const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+    std::unordered_map<std::size_t, std::size_t> node_of;
+    for (std::size_t e = 0; e < cell_.size(); ++e) {
+      const auto first = static_cast<std::size_t>(cells_.offset[cell_[e]]);
+      for (std::size_t corner = 0; corner < corners; ++corner) {
+        const auto node = static_cast<std::size_t>(mesh.connectivity[e * corners + corner]);
+        const auto point = static_cast<std::size_t>(cells_.connectivity[first + corner]);
+        const bool has_same_id = id.empty() || id[point] < 0 || id[point] == mesh.node_id[node];
+        if (point_[node] == unknown) point_[node] = point;
+        if (!has_same_id || point_[node] != point || node_of.emplace(point, node).first->second != node)
+          refuse_other_nodes(mesh, e);
+      }
+    }
+  }
+
+  // Negative where a point belongs to other parts as well, of which it may have the number; empty without
+  // ids.
+  std::vector<std::int64_t> ids_of_points(const Mesh& mesh, std::int64_t number) const {
+    std::vector<std::int64_t> ids;
+    if (mesh.node_id.empty() || !result_.holds("node_id")) return ids;
+    for (const double id : result_.reader().field("node_id", dump_).values)
+      ids.push_back(static_cast<std::int64_t>(id));
+    for (std::size_t c = 0; c < cells_.part.size(); ++c)
+      if (cells_.part[c] != number)
+        for (auto k = static_cast<std::size_t>(cells_.offset[c]);
+             k < static_cast<std::size_t>(cells_.offset[c + 1]); ++k)
+          ids[static_cast<std::size_t>(cells_.connectivity[k])] = -1;
+    return ids;
+  }
+
+  [[noreturn]] void refuse_other_nodes(const Mesh& mesh, std::size_t element) const {
+    refuse(fmt::format(
+        "element {} of part '{}' has other nodes in {}, or in another order; accepted is the mesh "
+        "of that run, or a part of it",
+        mesh.number_of_element(element), part_.name, source_.result));
+  }
+
+  template <std::size_t components>
+  static std::vector<std::array<double, components>> rows(const ReadField& field,
+                                                          const std::vector<std::size_t>& wanted) {
+    std::vector<std::array<double, components>> result(wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      std::copy_n(field.values.begin() + static_cast<std::ptrdiff_t>(wanted[i] * components), components,
+                  result[i].begin());
+    return result;
+  }
+
+  void read_velocities() {
+    state_.velocity = rows<3>(result_.reader().field("velocity", dump_), point_);
+    if (!has_rotations(part_.element)) return;
+    expect_field("angular_velocity", "output.fields.variables: [default, state]");
+    state_.angular_velocity = rows<3>(result_.reader().field("angular_velocity", dump_), point_);
+  }
+
+  // How many numbers a row has is known by the block; here they are as the file has them.
+  void read_states() {
+    const ReadField field = cell_field(std::string(state_variable));
+    std::size_t own = field.components;
+    const auto is_number = [&](std::size_t cell, std::size_t c) {
+      return !std::isnan(field.values[cell * field.components + c]);
+    };
+    while (own > 0 && !is_number(cell_.front(), own - 1)) --own;
+    for (const std::size_t cell : cell_)
+      for (std::size_t c = 0; c < own; ++c) {
+        if (!is_number(cell, c)) refuse("the result holds no whole state of part '" + name_ + "'");
+        state_.element.push_back(field.values[cell * field.components + c]);
+      }
+  }
+
+  void read_plastic_strain() {
+    const ReadField field = cell_field("equivalent_plastic_strain");
+    for (const std::size_t cell : cell_) state_.plastic_strain.push_back(field.values[cell]);
+  }
+
+  const Part& part_;
+  const Deck& deck_;
+  const StateSource& source_;
+  const EarlierResult& result_;
+  std::string name_;  ///< of the part in the result
+  std::size_t dump_;
+  PartState state_;
+  ReadCells cells_;
+  std::vector<std::size_t> cell_, point_;  ///< by element and node of the mesh
+};
+
+std::uint64_t checksum_of_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> block(std::size_t{1} << 22);
+  std::vector<std::uint64_t> sums;
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    sums.push_back(checksum(block.data(), static_cast<std::size_t>(file.gcount())));
+  }
+  return checksum(sums.data(), sums.size() * sizeof(std::uint64_t));
+}
+
+template <class Visit>
+void for_each_source(const Deck& deck, const Visit& visit) {
+  for (std::size_t i = 0; i < deck.initial_conditions.size(); ++i)
+    if (const auto& source = deck.initial_conditions[i].from) visit(i, *source);
+}
+
+}  // namespace
+
+bool has_initial_state(const Deck& deck) {
+  return std::ranges::any_of(deck.initial_conditions,
+                             [](const InitialCondition& one) { return one.from.has_value(); });
+}
+
+std::vector<PartState> read_initial_states(const Deck& deck, std::span<Mesh> meshes) {
+  std::vector<PartState> states;
+  for_each_source(deck, [&](std::size_t condition, const StateSource& source) {
+    const std::string& name = deck.initial_conditions[condition].where.set;
+    const auto part =
+        static_cast<std::size_t>(std::ranges::find(deck.parts, name, &Part::name) - deck.parts.begin());
+    for (const PartState& before : states)
+      if (before.part == part)
+        throw DeckError(source.place + ": part '" + name + "' begins with two states; one is accepted");
+    try {
+      const EarlierResult result(path_of(source, deck));
+      states.push_back(PartStateReader(deck, part, source, result).read(meshes[part]));
+      states.back().condition = condition;
+    } catch (const FileError& fault) {
+      throw DeckError(source.place + ": " + fault.what());
+    }
+  });
+  return states;
+}
+
+std::vector<std::string> checksums_of_results(const Deck& deck) {
+  std::vector<std::string> sums;
+  for_each_source(deck, [&](std::size_t, const StateSource& source) {
+    sums.push_back(fmt::format("{} {:016x}", source.result, checksum_of_file(path_of(source, deck))));
+  });
+  return sums;
+}
+
+}  // namespace brio

@@ -6,18 +6,17 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <unordered_map>
 
 #include "elements/element_state.hpp"
 #include "io/files/checksum.hpp"
-#include "io/files/hdf5_file.hpp"
-#include "io/files/read_apart.hpp"
+#include "io/files/file_error.hpp"
 #include "io/files/run_record.hpp"
 #include "io/restart/deck_difference.hpp"
-#include "io/results/read_info.hpp"
-#include "io/results/read_result.hpp"
-#include "io/yaml/yaml_source.hpp"
+#include "io/run/earlier_result.hpp"
+#include "io/yaml/deck_error.hpp"
 #include "src/fields/cell_variables.hpp"
 
 namespace brio {
@@ -27,90 +26,9 @@ namespace {
 namespace fs = std::filesystem;
 using NodePointer = std::shared_ptr<const YamlNode>;
 
-/// A dump stands at the first step after the time for which it was asked: within this share of the interval
-/// to the dumps beside it.
-constexpr double same_time = 0.05;
-
 fs::path path_of(const StateSource& source, const Deck& deck) {
   return (fs::path(deck.file).parent_path() / source.result).lexically_normal();
 }
-
-NodePointer value_in(const NodePointer& map, const std::string& key) {
-  const YamlEntry* entry = map && map->is_map() ? map->find(key) : nullptr;
-  return entry == nullptr ? nullptr : entry->value;
-}
-
-/// The word of an element or material, which stands alone or under a key.
-std::string word_of(const NodePointer& node, const std::string& key) {
-  if (node && node->is_scalar()) return node->text;
-  const NodePointer value = value_in(node, key);
-  return value && value->is_scalar() ? value->text : "";
-}
-
-/// An earlier run, whose result is whole.
-class EarlierResult {
- public:
-  explicit EarlierResult(const fs::path& path)
-      : path_(path), reader_(verified(path)), record_(read_record(Hdf5File::open_to_read(path))) {
-    deck_ = parse_yaml(record_.deck_text, path.string());
-  }
-
-  const ResultReader& reader() const { return reader_; }
-  const RunRecord& record() const { return record_; }
-
-  std::size_t dump_at(const std::optional<double>& time) const {
-    if (!time) return reader_.times().size() - 1;
-    const std::size_t dump = reader_.dump_at(*time);
-    if (std::abs(reader_.times()[dump] - *time) > same_time * interval_at(dump))
-      throw FileError(path_, fmt::format("has no dump at time {:g}; the nearest is at {:.9g}", *time,
-                                         reader_.times()[dump]));
-    return dump;
-  }
-
-  /// Number of a part.
-  std::int64_t part(const std::string& name) const {
-    const NodePointer parts = value_in(deck_, "parts");
-    std::string names;
-    for (std::size_t p = 0; parts && p < parts->entries.size(); ++p) {
-      if (parts->entries[p].key == name) return static_cast<std::int64_t>(p);
-      names += (names.empty() ? "" : ", ") + parts->entries[p].key;
-    }
-    throw FileError(path_, "has no part '" + name + "'; accepted: " + names);
-  }
-  NodePointer element(const std::string& part) const {
-    return value_in(value_in(value_in(deck_, "parts"), part), "element");
-  }
-  std::string model(const std::string& part) const {
-    const std::string material = word_of(value_in(value_in(value_in(deck_, "parts"), part), "material"), "");
-    return word_of(value_in(value_in(deck_, "materials"), material), "model");
-  }
-
-  /// \return whether there is a field of that name
-  bool holds(const std::string& field) const {
-    const Hdf5File file = Hdf5File::open_to_read(path_);
-    return file.contains("/VTKHDF/PointData/" + field) || file.contains("/VTKHDF/CellData/" + field);
-  }
-
- private:
-  double interval_at(std::size_t dump) const {
-    const std::vector<double>& times = reader_.times();
-    double interval = times.size() > 1 ? HUGE_VAL : times.front();
-    if (dump > 0) interval = times[dump] - times[dump - 1];
-    if (dump + 1 < times.size()) interval = std::min(interval, times[dump + 1] - times[dump]);
-    return interval;
-  }
-
-  static const fs::path& verified(const fs::path& path) {
-    if (!fs::is_regular_file(path)) throw FileError(path, "there is no such file");
-    read_apart(path, [&] { return verify_result(path); });
-    return path;
-  }
-
-  fs::path path_;
-  ResultReader reader_;
-  RunRecord record_;
-  NodePointer deck_;
-};
 
 /// Takes the state of one part out of a result.
 class PartStateReader {
@@ -136,6 +54,7 @@ class PartStateReader {
     if (takes(StateField::stress)) state_.stress = rows<6>(cell_field("stress"), cell_);
     if (takes(StateField::plastic_strain)) read_plastic_strain();
     if (takes(StateField::positions)) {
+      expect_same_shape();
       mesh.reference = std::move(mesh.position);
       mesh.position = rows<3>(result_.reader().field("position", dump_), point_);
     }
@@ -150,10 +69,10 @@ class PartStateReader {
   // What a result does not hold is not made up.
   void expect_elements_that_suffice() const {
     const std::string kind(brio::name_of(part_.element));
-    if (word_of(result_.element(name_), "type") != kind)
+    if (result_.element(name_) != kind)
       refuse(fmt::format(
           "part '{}' is of elements '{}', and '{}' is of '{}' in the result; accepted are the same",
-          part_.name, kind, name_, word_of(result_.element(name_), "type")));
+          part_.name, kind, name_, result_.element(name_)));
     const Material& law = *material();
     const bool strained = takes(StateField::plastic_strain);
     if (takes(StateField::stress) || strained)
@@ -186,22 +105,40 @@ class PartStateReader {
       refuse(
           fmt::format("part '{}' is of material model '{}', and of '{}' in the result; accepted are the same",
                       part_.name, model, result_.model(name_)));
-    const NodePointer now = parse_yaml(deck_.text, deck_.file);
-    const NodePointer parts = value_in(value_in(now, "parts"), part_.name);
-    const std::string difference =
-        deck_difference(element_alone(result_.element(name_)), element_alone(value_in(parts, "element")));
-    if (!difference.empty())
+    if (const std::string other = difference_in("element"); !other.empty())
       refuse(
           fmt::format("the state of part '{}' is of other elements: {} in the result; accepted are the same "
                       "settings",
-                      part_.name, difference));
+                      part_.name, other));
   }
 
-  static std::string element_alone(const NodePointer& element) {
-    YamlNode map;
-    map.kind = YamlNode::Kind::map;
-    map.entries.push_back({"element", {}, element});
-    return write_yaml(map);
+  // Positions and tensors are taken as they are, and masses are those of the mesh. Of mesh files a part may
+  // be left, so that the file is another.
+  void expect_same_shape() const {
+    std::string other = difference_in("placement");
+    if (other.empty())
+      other = std::holds_alternative<MeshFromFile>(part_.mesh) ? difference_in("mesh", "scale")
+                                                               : difference_in("mesh");
+    if (!other.empty())
+      refuse(
+          fmt::format("part '{}' does not lie where it lay: {} in the result; accepted are the same mesh and "
+                      "placement",
+                      part_.name, other));
+  }
+
+  /// Of what both decks say of the part under a key, or under another inside of that; empty where they are
+  /// the same.
+  std::string difference_in(const std::string& key, const std::string& inside = "") const {
+    const NodePointer parts = value_in(parse_yaml(deck_.text, deck_.file), "parts");
+    const auto alone = [&](const NodePointer& part) {
+      YamlNode map;
+      map.kind = YamlNode::Kind::map;
+      NodePointer value = value_in(part, key);
+      if (!inside.empty()) value = value_in(value, inside);
+      if (value) map.entries.push_back({inside.empty() ? key : inside, {}, value});
+      return write_yaml(map);
+    };
+    return deck_difference(alone(result_.deck_of(name_)), alone(value_in(parts, part_.name)));
   }
 
   void expect_field(const std::string& field, const std::string& wanted) const {
@@ -349,6 +286,7 @@ bool has_initial_state(const Deck& deck) {
 
 std::vector<PartState> read_initial_states(const Deck& deck, std::span<Mesh> meshes) {
   std::vector<PartState> states;
+  std::map<fs::path, EarlierResult> results;  // each is verified once
   for_each_source(deck, [&](std::size_t condition, const StateSource& source) {
     const std::string& name = deck.initial_conditions[condition].where.set;
     const auto part =
@@ -357,7 +295,8 @@ std::vector<PartState> read_initial_states(const Deck& deck, std::span<Mesh> mes
       if (before.part == part)
         throw DeckError(source.place + ": part '" + name + "' begins with two states; one is accepted");
     try {
-      const EarlierResult result(path_of(source, deck));
+      const fs::path path = path_of(source, deck);
+      const EarlierResult& result = results.try_emplace(path, path).first->second;
       states.push_back(PartStateReader(deck, part, source, result).read(meshes[part]));
       states.back().condition = condition;
     } catch (const FileError& fault) {

@@ -90,6 +90,11 @@ TEST_F(InitialState, IsRefusedAtItsPlaceWhereTheResultDoesNotHaveIt) {
       with(good, "[positions, state, velocity]", "[positions, stress]"),
       "has more than one integration point or other axes, which stress and plastic strain of a result do not "
       "tell; accepted is 'state'");
+  expect(
+      with(good, "{file: a.inp}", "{file: a.inp}, placement: {translate: [1, 0, 0]}"),
+      "part 'pair' does not lie where it lay: placement is '{translate: [1, 0, 0]}', and was nothing in the "
+      "result; accepted are the same mesh and placement");
+  expect(with(good, "{file: a.inp}", "{file: a.inp, scale: 2}"), "scale is '2', and was nothing");
   expect(with(good, "[positions, state, velocity]", "[state]"), "'positions' is wanted beside it");
   expect(with(good, "[positions, state, velocity]", "[]"), "'fields' is empty");
   expect(with(good, "[positions, state, velocity]", "[place]"),

@@ -49,14 +49,14 @@ std::vector<double> values_of(const Model& model, FieldObserver& observer, const
   return {};
 }
 
-const std::vector<std::string> wanted{"contact_pressure", "contact_gap"};
+const std::vector<std::string> contact_fields_wanted{"contact_pressure", "contact_gap"};
 
 double share_of_row(double x) { return std::abs(std::abs(x) - edge / 2) < 0.01 * edge ? 0.5 : 1; }
 
 // The sum of pressure times area is the weight, with what the momentum has changed by.
 TEST(ContactFields, PressureOfARestingBlockCarriesItsWeight) {
   Model model = build_model(deck_of_block(0));
-  FieldObserver observer(model, wanted);
+  FieldObserver observer(model, contact_fields_wanted);
   const std::vector<double> start(observer.observe(model).points);
   ThreadTeam team(1);
   make_steps(model, 6000, 1, team);
@@ -115,7 +115,7 @@ TEST(ContactFields, GapIsTheDistanceBeyondContact) {
   Deck deck = deck_of_block(height);
   deck.loads.clear();
   Model model = build_model(deck);
-  FieldObserver observer(model, wanted);
+  FieldObserver observer(model, contact_fields_wanted);
   const std::vector<double> points = observer.observe(model).points;
   ThreadTeam team(1);
   make_steps(model, 1, 1, team);

@@ -64,7 +64,8 @@ inline Deck turned(Deck deck) {
         },
         load);
   for (Spring& spring : deck.springs)
-    for (SpringEnd* end : {&spring.from, &spring.to}) end->point = turned(end->point);
+    for (SpringEnd* end : {&spring.from, &spring.to})
+      if (end->point) end->point = turned(*end->point);
   return deck;
 }
 

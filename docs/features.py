@@ -67,6 +67,10 @@ FEATURES = {
     "expressions": (["src/deck/expression.cpp"], [], []),
     "tabulated plasticity": (["materials/tabulated/*"], [], []),
     "mass scaling": (["src/sweep/mass_scaling.cpp", "elements/scale_mass.hpp"], [], ["mass scaling"]),
+    "local coordinate systems": (["src/deck/coordinate_system.cpp", "src/motion/skew_supports.cpp"], [], []),
+    "initial state": (["src/initial/*.cpp", "io/run/initial_state.cpp", "io/run/earlier_result.cpp",
+                       "elements/element_state.cpp"], [], []),
+    "contact fields, strain": (["src/fields/contact_fields.cpp", "src/fields/strain.cpp"], [], []),
 }
 
 

@@ -84,6 +84,10 @@ GravityLoad gravity_of(const Gravity& entry, const Deck& deck) {
           entry.factor};
 }
 
+bool turns(int node, const Nodes& nodes) {
+  return nodes.has_rotations() && nodes.rotational_inertia[static_cast<std::size_t>(node)] > 0;
+}
+
 NodalLoad moment_on(const NodalMoment& entry, const Deck& deck, std::span<const Mesh> meshes,
                     const Model& model) {
   NodalLoad load{.nodes = select_nodes(entry.where, deck, meshes, model),
@@ -91,11 +95,7 @@ NodalLoad moment_on(const NodalMoment& entry, const Deck& deck, std::span<const 
                  .factor = entry.factor,
                  .is_moment = true};
   load.bodies = take_rigid(load.nodes, entry.where, model);
-  const Nodes& nodes = model.nodes;
-  const auto turns = [&](int node) {
-    return nodes.has_rotations() && nodes.rotational_inertia[static_cast<std::size_t>(node)] > 0;
-  };
-  if (!std::ranges::all_of(load.nodes, turns))
+  if (!std::ranges::all_of(load.nodes, [&](int node) { return turns(node, model.nodes); }))
     throw BuildError(
         "a moment on nodes that do not turn; accepted are nodes of shells and beams, and rigid parts as a "
         "whole",
@@ -229,16 +229,11 @@ class Fastening {
                        wanted.place);
     if (!spring.is_torsional) return;
     for (const SpringAnchor& anchor : spring.end)
-      if (anchor.node >= 0 && anchor.body < 0 && !turns(anchor.node))
+      if (anchor.node >= 0 && anchor.body < 0 && !turns(anchor.node, model_.nodes))
         throw BuildError("an end of the torsional spring '" + spring.name +
                              "' is a node that does not turn; accepted are nodes of shells and beams, rigid "
                              "parts and fixed points",
                          wanted.place);
-  }
-
-  bool turns(int node) const {
-    return model_.nodes.has_rotations() &&
-           model_.nodes.rotational_inertia[static_cast<std::size_t>(node)] > 0;
   }
 
   std::vector<Ends> ends_of(const Spring& wanted) {
@@ -292,17 +287,17 @@ class Fastening {
     for (std::size_t b = 0; b < model_.rigid.body.size(); ++b)
       if (std::ranges::binary_search(model_.rigid.body[b].node, anchor.node))
         anchor.body = static_cast<int>(b);
-    anchor.mass = mass_of(anchor);
+    anchor.mass = mass_of(anchor, spring.is_torsional());
     return anchor;
   }
 
-  std::size_t mass_of(const SpringAnchor& anchor) {
+  std::size_t mass_of(const SpringAnchor& anchor, bool is_torsional) {
     std::vector<AnchoredMass>& masses = model_.springs.mass;
     const auto key = anchor.body >= 0 ? std::pair(true, anchor.body) : std::pair(false, anchor.node);
     const auto [found, is_new] = index_of_mass_.try_emplace(key, masses.size());
     if (is_new) masses.push_back({.node = anchor.node, .body = anchor.body});
     AnchoredMass& mass = masses[found->second];
-    if (anchor.body >= 0) {
+    if (anchor.body >= 0 && !is_torsional) {  // a moment has no arm
       const Vector3d centre = model_.rigid.body[static_cast<std::size_t>(anchor.body)].centre;
       mass.arm = std::max(mass.arm, (place_of(anchor) - centre).norm());
     }

@@ -6,6 +6,10 @@
 
 namespace brio {
 
+/// Of the contact distance (of nodes and faces: or the shortest edge, if that is less): what is less than
+/// this too close does not count.
+inline constexpr double tolerated_closeness = 0.1;
+
 /// From a point to a triangle, squared.
 double squared_distance_to_triangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
                                     const Eigen::Vector3d& b, const Eigen::Vector3d& c);

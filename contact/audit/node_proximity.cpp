@@ -11,8 +11,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr std::size_t nodes_per_task = 128;
-/// Of the touching distance, or the shortest edge: what is less than this too close does not count.
-constexpr double tolerated_ratio = 0.1;
 
 class NodeProximity {
  public:
@@ -59,7 +57,7 @@ class NodeProximity {
     if (!face.shell && (radius <= 0 || known(face).body == surface_.body[static_cast<std::size_t>(slave)]))
       return 0;
     const double touching = half_thickness(face) + radius;
-    const double least = touching - tolerated_ratio * std::min(touching, face.shortest_edge);
+    const double least = touching - tolerated_closeness * std::min(touching, face.shortest_edge);
     if (box.squared_distance(x) >= least * least) return 0;
     if (is_excluded(slave, face.face)) return 0;
     const double distance = distance_to_face(x, face.x, face.corners);

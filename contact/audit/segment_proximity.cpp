@@ -13,8 +13,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr std::size_t segments_per_task = 128;
-/// Of the sum of radii: what is less than this too close does not count.
-constexpr double tolerated_ratio = 0.1;
 
 enum class SegmentKind : std::uint8_t { beam, particle, free_edge, solid_edge, shell_edge };
 
@@ -132,7 +130,7 @@ class SegmentProximity {
   static double depth_of(const AuditedSegment& first, const AuditedSegment& second) {
     const double reach = first.radius + second.radius;
     const SegmentDistance closest = distance_of_segments(first.x, second.x);
-    if (closest.distance >= (1 - tolerated_ratio) * reach) return 0;
+    if (closest.distance >= (1 - tolerated_closeness) * reach) return 0;
     if (first.is_edge() && !(closest.inside(0) && closest.inside(1))) return 0;
     return reach - closest.distance;
   }

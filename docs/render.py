@@ -98,13 +98,18 @@ def only_parts(source, numbers):
     return found[0] if len(found) == 1 else simple.AppendDatasets(Input=found)
 
 
+def place_in(display, place):
+    """Where a shape has a field: spheres have at their points what cells had."""
+    return "POINTS" if "Glyph" in str(display.Input.SMProxy.GetXMLName()) else place
+
+
 def colour_by(displays, place, name, components, limits, unit, view):
     table = simple.GetColorTransferFunction(name)
     table.ApplyPreset("Viridis (matplotlib)", True)
     table.NanColor = [0.75, 0.75, 0.75]  # what does not have the field
     table.AutomaticRescaleRangeMode = "Never"
     for display in displays:
-        own_place = "POINTS" if "Glyph" in str(display.Input.SMProxy.GetXMLName()) else place  # centres of cells
+        own_place = place_in(display, place)
         simple.ColorBy(display, (own_place, name) if components == 1 else (own_place, name, "Magnitude"))
     table.RescaleTransferFunction(*limits)
     bar = simple.GetScalarBar(table, view)
@@ -128,8 +133,7 @@ def colour_by_part(displays, deck, shown, view):
     table.Annotations = [text for i, part in enumerate(deck.parts) for text in (str(i), part)]
     table.IndexedColors = [c for i in range(len(deck.parts)) for c in PART_COLOURS[i % len(PART_COLOURS)]]
     for display in displays:
-        own_place = "POINTS" if "Glyph" in str(display.Input.SMProxy.GetXMLName()) else "CELLS"
-        simple.ColorBy(display, (own_place, "part"))
+        simple.ColorBy(display, (place_in(display, "CELLS"), "part"))
     if len(shown) > 12:
         return
     bar = simple.GetScalarBar(table, view)

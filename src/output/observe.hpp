@@ -24,6 +24,8 @@ class FieldObserver {
   /// \param variables fields of cells beside part and element number, of `output.fields.variables`; empty:
   /// the default
   explicit FieldObserver(const Model& model, std::span<const std::string> variables = {});
+  FieldObserver(const FieldObserver&) = delete;  // what fills its fields refers to it
+  FieldObserver& operator=(const FieldObserver&) = delete;
 
   /// Fields at the time of the step; call between update_velocities and update_positions.
   const Snapshot& observe(const Model& model);

@@ -40,6 +40,37 @@ void expect_same(const Mesh& a, const Mesh& b, const std::string& what) {
     EXPECT_EQ(pairs(sides), pairs(b.side_sets.at(name))) << what << name;
 }
 
+/// Positions of the nodes once the first of the node sets has been pushed for fifty steps.
+std::vector<double> pushed(const Mesh& mesh) {
+  Deck deck;
+  deck.materials = {{"steel", ElasticPlastic{}}};
+  auto& law = std::get<ElasticPlastic>(deck.materials[0].second);
+  law.density = 1000;
+  law.youngs_modulus = 1e9;
+  law.poissons_ratio = 0.3;
+  law.yield_stress = 1e6;
+  Element element = Hex8{};
+  if (mesh.nodes_per_element == 4) {
+    Shell4 shell;
+    shell.thickness = 1e-3 * std::abs(mesh.position.front()[0] - mesh.position.back()[0]) + 1e-3;
+    element = shell;
+  }
+  deck.parts = {{"part", BoxMesh{}, {}, element, "steel"}};
+  InitialCondition push;
+  push.where.set = "part." + mesh.node_sets.begin()->first;
+  push.velocity = Triple{30, 20, 10};
+  deck.initial_conditions = {push};
+  deck.time.end = 1;
+  Model model = build(deck, std::span(&mesh, 1));
+  ThreadTeam team(1);
+  run(model, 1e9, team, [steps = 0](Model&) mutable { return ++steps < 50; });
+  EXPECT_EQ(model.step, 49);
+  std::vector<double> positions;
+  for (const NodeRecord& node : model.nodes.record)
+    positions.insert(positions.end(), node.position, node.position + 3);
+  return positions;
+}
+
 class FormatsAgree : public testing::TestWithParam<const char*> {};
 
 TEST_P(FormatsAgree, OnEveryNodeElementAndSet) {
@@ -54,6 +85,20 @@ TEST_P(FormatsAgree, OnEveryNodeElementAndSet) {
   expect_same(mesh_of(read_exodus(folder / "a.exo", "a.exo")), mesh, "Exodus ");
   write_classic_exodus(mesh, folder / "b.exo");
   expect_same(mesh_of(read_exodus(folder / "b.exo", "b.exo")), mesh, "classic Exodus ");
+}
+
+TEST_P(FormatsAgree, InTheBitsOfARun) {
+  const Mesh mesh = committed(GetParam());
+  const std::vector<double> expected = pushed(mesh);
+  std::vector<double> at_start;
+  for (const auto& x : mesh.position) at_start.insert(at_start.end(), x.begin(), x.end());
+  EXPECT_NE(expected, at_start);
+  const Folder folder;
+  write_exodus(mesh, folder / "a.exo");
+  EXPECT_EQ(pushed(mesh_of(read_exodus(folder / "a.exo", "a.exo"))), expected);
+  EXPECT_EQ(pushed(mesh_of(read_gmsh(as_gmsh(mesh, true), "a.msh"))), expected);
+  EXPECT_EQ(pushed(mesh_of(read_abaqus(as_abaqus(mesh), "a.inp"))), expected);
+  EXPECT_EQ(pushed(mesh_of(read_ls_dyna(as_ls_dyna(mesh), "a.k"))), expected);
 }
 INSTANTIATE_TEST_SUITE_P(Meshes, FormatsAgree, testing::Values("box", "bracket", "crash_box", "bottle"));
 

@@ -164,17 +164,15 @@ struct Shell4Kernel : Shell4 {
 
   static SymmetricTensor<double> on_global_axes(const ShellGeometry<double>& g,
                                                 const ShellTensor<double>& a) {
-    const double local[3][3] = {{a.xx, a.xy, a.xz}, {a.xy, a.yy, a.yz}, {a.xz, a.yz, 0}};
-    const Vector3<double> axes[3] = {g.axis[0], g.axis[1], g.normal};
-    Tensor<double> global{};
-    for (int p = 0; p < 3; ++p)
-      for (int q = 0; q < 3; ++q) {
-        const double u[3] = {axes[p].x, axes[p].y, axes[p].z};
-        const double v[3] = {axes[q].x, axes[q].y, axes[q].z};
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j) global(i, j) += local[p][q] * u[i] * v[j];
-      }
-    return symmetric_part(global);
+    const Vector3<double> on_axis[2] = {a.xx * g.axis[0] + a.xy * g.axis[1] + a.xz * g.normal,
+                                        a.xy * g.axis[0] + a.yy * g.axis[1] + a.yz * g.normal},
+                          on_normal = a.xz * g.axis[0] + a.yz * g.axis[1];
+    const auto entry = [&](double Vector3<double>::*i, double Vector3<double>::*j) {
+      return on_axis[0].*i * g.axis[0].*j + on_axis[1].*i * g.axis[1].*j + on_normal.*i * g.normal.*j;
+    };
+    using V = Vector3<double>;
+    return {entry(&V::x, &V::x), entry(&V::y, &V::y), entry(&V::z, &V::z),
+            entry(&V::x, &V::y), entry(&V::y, &V::z), entry(&V::x, &V::z)};
   }
 
   /// Update of stress at all points; forces and moments per length, new thickness, work.

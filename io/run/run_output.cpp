@@ -1,6 +1,7 @@
 #include "io/run/run_output.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "src/base/breakdown.hpp"
 #include "src/model/state.hpp"
@@ -23,6 +24,7 @@ RunOutput::RunOutput(const Deck& deck, Model& model, ResultWriter& writer)
       writer_(writer),
       observer_(model, deck.output.fields_.variables),
       history_(history_columns(model)),
+      written_(history_.columns()),
       field_schedule_(field_schedule(deck)),
       history_schedule_(history_schedule(deck)),
       restart_schedule_(restart_schedule(deck)) {
@@ -39,7 +41,24 @@ void RunOutput::keep(const Snapshot& state, bool has_dump) {
            .has_dump = has_dump};
 }
 
+void RunOutput::begin_writing(const Snapshot* fields) {
+  writing_.finish();
+  std::swap(history_, written_);
+  writing_.start([this, fields] {
+    if (fields != nullptr) writer_.write(*fields);
+    writer_.write(written_);
+  });
+  if (!has_begun_) writing_.finish();  // the first names the files, and calls back
+  has_begun_ = true;
+}
+
+void RunOutput::write_now(const Snapshot* fields) {
+  begin_writing(fields);
+  writing_.finish();
+}
+
 void RunOutput::write_what_is_due(ThreadTeam& team) {
+  if (writing_.has_ended()) writing_.finish();  // a disk that is full ends the run now, not at the next dump
   const bool row = history_schedule_.due(model_.times.time), fields = field_schedule_.due(model_.times.time);
   write(row, fields, team);
 }
@@ -47,7 +66,7 @@ void RunOutput::write_what_is_due(ThreadTeam& team) {
 void RunOutput::write_last_state(ThreadTeam& team) {
   write(last_row_ < model_.times.time, last_dump_ < model_.times.time, team);
   const StageTimer timer(model_.stages, Stage::output);
-  writer_.write(history_);
+  write_now(nullptr);
 }
 
 void RunOutput::write(bool row, bool fields, ThreadTeam& team) {
@@ -58,6 +77,7 @@ void RunOutput::write(bool row, bool fields, ThreadTeam& team) {
   if (fields) watch(model_);
   observe_history(model_, row_);
   if (fields || keeps) {
+    writing_.finish();
     state_ = nullptr;  // the one before is written over
     const Snapshot& state = observer_.observe(model_);
     if (const std::string fault = what_results_cannot_hold(state); !fault.empty())
@@ -73,11 +93,10 @@ void RunOutput::write(bool row, bool fields, ThreadTeam& team) {
     last_row_ = model_.times.time;
   }
   if (fields) {
-    writer_.write(*state_);
     model_.impulse_sums.begin_interval();
     last_dump_ = model_.times.time;
   }
-  if (fields || history_.full()) writer_.write(history_);
+  if (fields || history_.full()) begin_writing(fields ? state_ : nullptr);
 }
 
 bool RunOutput::is_save_due() { return restart_schedule_.due(model_.times.time); }
@@ -93,7 +112,7 @@ void RunOutput::serialize(Archive& archive, double& seconds) {
 void RunOutput::save(const std::filesystem::path& folder, const std::string& name, const RunRecord& record,
                      double seconds) {
   const StageTimer timer(model_.stages, Stage::output);
-  writer_.write(history_);
+  write_now(nullptr);
   writer_.note_position();
   write_restart(folder, name, {.record = record, .time = model_.times.time, .step = model_.step},
                 [&](std::ostream& out) {
@@ -127,6 +146,7 @@ double RunOutput::restore(const RestartFile& restart, bool continues_results) {
 
 void RunOutput::write_last_good_state() {
   const StageTimer timer(model_.stages, Stage::output);
+  writing_.finish();
   model_.energy = good_.energy;
   model_.momentum = good_.momentum;
   model_.times = good_.times;
@@ -134,9 +154,8 @@ void RunOutput::write_last_good_state() {
   if (state_ == nullptr && next_kept_ == 0) return write_start();
   if (state_ == nullptr) return;
   // Rows are in the order of time: those since then were good as well.
-  if (!good_.has_dump) writer_.write(*state_);
   if (last_row_ < good_.times.time) history_.append(good_.row);
-  writer_.write(history_);
+  write_now(good_.has_dump ? nullptr : state_);
 }
 
 // Of a run that breaks down in its first step: what the deck describes, if results can hold it.

@@ -1,6 +1,7 @@
 #pragma once
 /// What a run writes while it goes on: fields, history and restart files as they fall due; of a run that
-/// breaks down the last state that was good.
+/// breaks down the last state that was good. Fields and rows are written by a thread of their own while steps
+/// go on: one write at a time, which the next observation awaits.
 
 #include <cstdint>
 #include <filesystem>
@@ -42,6 +43,10 @@ class RunOutput {
   void write_last_good_state();
 
  private:
+  /// Begin to write rows, and fields unless null. \throws FileError of the write before
+  void begin_writing(const Snapshot* fields);
+  /// Write rows, and fields unless null. \throws FileError
+  void write_now(const Snapshot* fields);
   void write(bool row, bool fields, ThreadTeam& team);
   void keep(const Snapshot& state, bool has_dump);
   void write_start();
@@ -65,13 +70,15 @@ class RunOutput {
   Model& model_;
   ResultWriter& writer_;
   FieldObserver observer_;
-  History history_;
+  History history_, written_;  ///< rows that wait; those that are being written
   std::vector<double> row_;
   double last_row_ = -1, last_dump_ = -1;  ///< their times
   OutputSchedule field_schedule_, history_schedule_, restart_schedule_;
   const Snapshot* state_ = nullptr;
   GoodState good_;
   std::int64_t next_kept_ = 0;
+  bool has_begun_ = false;  ///< to write
+  BackgroundJob writing_;   ///< reads the state and rows above: ends before them
 };
 
 }  // namespace brio

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace brio {
@@ -70,6 +71,45 @@ class ThreadTeam {
   std::atomic<Call> call_{nullptr};
   std::atomic<void*> context_{nullptr};
   std::atomic<std::size_t> count_{0};
+};
+
+/// One job at a time on a thread of its own, while the caller goes on.
+class BackgroundJob {
+ public:
+  BackgroundJob() = default;
+  ~BackgroundJob() { await(); }
+  BackgroundJob(const BackgroundJob&) = delete;
+  BackgroundJob& operator=(const BackgroundJob&) = delete;
+
+  /// \pre no job runs \throws std::system_error if the system gives no thread
+  template <class Job>
+  void start(Job job) {
+    ended_ = false;
+    thread_ = std::thread([this, run = std::move(job)] {
+      try {
+        run();
+      } catch (...) {
+        fault_ = std::current_exception();
+      }
+      ended_ = true;
+    });
+  }
+  /// Whether no job runs.
+  bool has_ended() const { return ended_; }
+  /// Wait until no job runs. \throws what it has thrown
+  void finish() {
+    await();
+    if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
+  }
+
+ private:
+  void await() {
+    if (thread_.joinable()) thread_.join();
+  }
+
+  std::thread thread_;
+  std::exception_ptr fault_;
+  std::atomic<bool> ended_{true};
 };
 
 }  // namespace brio

@@ -1,5 +1,9 @@
 #include "src/motion/motion.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "src/base/gather.hpp"
 
 namespace brio {
@@ -7,6 +11,13 @@ namespace brio {
 namespace {
 
 constexpr Row4 first_three{1, 1, 1, 0};
+
+// Of the first three.
+Row4 cross(Row4 a, Row4 b) {
+  const auto next = [](Row4 row) { return __builtin_shufflevector(row, row, 1, 2, 0, 3); };
+  const auto last = [](Row4 row) { return __builtin_shufflevector(row, row, 2, 0, 1, 3); };
+  return next(a) * last(b) - last(a) * next(b);
+}
 
 double sum3(Row4 row) { return row[0] + row[1] + row[2]; }
 
@@ -104,19 +115,33 @@ void move(Nodes& nodes, double step, ThreadTeam& team) {
 
 Momentum momentum(const Nodes& nodes) {
   Momentum sum;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const NodeRecord& record = nodes.record[i];
-    const Vector x{record.position[0], record.position[1], record.position[2]};
-    const double m = nodes.mass[i];
-    const Vector p{m * record.velocity[0], m * record.velocity[1], m * record.velocity[2]};
-    sum.total.add(x, p);
-    const double size = std::sqrt(dot(p, p));
-    sum.linear_size += size;
-    sum.angular_size += size * std::sqrt(dot(x, x));
-    if (nodes.has_rotations())
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        sum.total.angular[axis] += nodes.rotational_inertia[i] * nodes.angular_velocity[i].component[axis];
+  Row4 linear{}, angular{};
+  constexpr std::size_t most = 256;  // nodes at a time: roots are taken in lanes
+  std::array<double, most> linear_size, angular_size;
+  for (std::size_t begin = 0; begin < nodes.size(); begin += most) {
+    const std::size_t count = std::min(most, nodes.size() - begin);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t i = begin + k;
+      const Row4 x = load_row(nodes.record[i].position),
+                 p = nodes.mass[i] * load_row(nodes.record[i].velocity);
+      linear += p;
+      angular += cross(x, p);
+      linear_size[k] = sum3(p * p);
+      angular_size[k] = linear_size[k] * sum3(x * x);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      linear_size[k] = std::sqrt(linear_size[k]);
+      angular_size[k] = std::sqrt(angular_size[k]);
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      sum.linear_size += linear_size[k];
+      sum.angular_size += angular_size[k];
+    }
   }
+  if (nodes.has_rotations())
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      angular += nodes.rotational_inertia[i] * load_row(nodes.angular_velocity[i].component);
+  sum.total = {{linear[0], linear[1], linear[2]}, {angular[0], angular[1], angular[2]}};
   return sum;
 }
 

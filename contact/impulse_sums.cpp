@@ -1,5 +1,6 @@
 #include "contact/impulse_sums.hpp"
 
+#include "contact/geometry/eigen_vector.hpp"
 #include "contact/scene.hpp"
 
 namespace brio {
@@ -7,7 +8,6 @@ namespace brio {
 void ImpulseSums::add(const ContactScene& scene, std::size_t nodes, double step) {
   duration_ += step;
   place_.resize(nodes, -1);
-  const auto vector = [](const Eigen::Vector3d& a) { return Vector3<double>{a[0], a[1], a[2]}; };
   scene.pushed.for_each([&](std::size_t s) {
     const int node = scene.surface.node[s];
     if (node < 0) return;
@@ -17,8 +17,8 @@ void ImpulseSums::add(const ContactScene& scene, std::size_t nodes, double step)
       sum_.push_back({.node = node});
     }
     OfNode& sum = sum_[static_cast<std::size_t>(place)];
-    sum.normal = sum.normal + vector(scene.normal_impulse[s]);
-    sum.friction = sum.friction + vector(scene.friction_impulse[s]);
+    sum.normal = sum.normal + components(scene.normal_impulse[s]);
+    sum.friction = sum.friction + components(scene.friction_impulse[s]);
   });
 }
 

@@ -4,8 +4,9 @@
 #include <cassert>
 #include <chrono>
 
+#include "contact/detection/warm_start.hpp"
 #include "contact/enforcement/recovery.hpp"
-#include "contact/enforcement/warm_start.hpp"
+#include "contact/geometry/eigen_vector.hpp"
 #include "contact/impact_zone.hpp"
 #include "contact/scene.hpp"
 #include "contact/step_totals.hpp"
@@ -21,7 +22,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
-Vector3d to_eigen(const Vector3<double>& a) { return {a.x, a.y, a.z}; }
 void set(double* components, const Vector3<double>& a) {
   components[0] = a.x;
   components[1] = a.y;
@@ -81,6 +81,7 @@ class Resolution {
   static constexpr double behind_wall = 1e-9;
   /// Iterations of the solver for one pass of the options.
   static constexpr int iterations_a_pass = 10;
+  static constexpr std::size_t contacts_a_range = 512;
 
   void name_unresolved() {
     if (scene_.guard.hits.empty()) return;
@@ -137,15 +138,18 @@ class Resolution {
   RowSources sources() const { return {scene_.surface, scene_.features, nodes_, ties_, bodies_}; }
 
   void add_rows_from(std::size_t first) {
-    const std::size_t known = rows_.rows.size();
+    const std::size_t known = rows_.end.row;
     for (std::size_t i = first; i < scene_.contacts.size(); ++i)
       scene_.row_of_contact.push_back(known + i - first);
     const auto contacts = std::span<const Contact>(scene_.contacts).subspan(first);
-    add_rows(rows_, sources(), contacts);
-    if (scene_.options.kinetic_friction)
-      for (std::size_t i = first; i < scene_.contacts.size(); ++i) slow_friction(row_of(i));
+    add_rows(rows_, sources(), contacts, team_);
     const std::span<const double> opening = scene_.loaded.opening_velocities(contacts, recovery(), dt_);
-    for (std::size_t i = first; i < scene_.contacts.size(); ++i) set_target(row_of(i), opening[i - first]);
+    team_.for_ranges(contacts.size(), contacts_a_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (scene_.options.kinetic_friction) slow_friction(row_of(first + i));
+        set_target(row_of(first + i), opening[i]);
+      }
+    });
   }
   // Friction at the sliding velocity with which the time step begins.
   void slow_friction(ConstraintRow& row) const {
@@ -158,8 +162,8 @@ class Resolution {
     row.friction_coefficient *= scene_.options.kinetic_friction->share(scene_.options.friction, speed);
   }
   void add_wall_rows_from(std::size_t first) {
-    const std::size_t known = rows_.rows.size();
-    add_rows(rows_, sources(), walls_, std::span<const NodeAtWall>(scene_.walls.touch).subspan(first));
+    const std::size_t known = rows_.end.row;
+    add_rows(rows_, sources(), walls_, std::span<const NodeAtWall>(scene_.walls.touch).subspan(first), team_);
     for (std::size_t i = known; i < rows_.rows.size(); ++i) set_target(rows_.rows.row[i], 0);
   }
   ConstraintRow& row_of(std::size_t contact) { return rows_.rows.row[scene_.row_of_contact[contact]]; }
@@ -199,29 +203,33 @@ class Resolution {
 
   // Velocities of the blocks, to nodes and bodies.
   void store() {
-    for (std::size_t b = 0; b < rows_.block.size(); ++b) {
-      const Vector3<double>& velocity = rows_.block[b].velocity;
-      const BlockOwner& owner = rows_.owner[b];
-      switch (owner.kind) {
-        case BlockOwner::Kind::node:
-          set(nodes_.record[index(owner.index)].velocity, velocity);
-          if (const int slave = scene_.surface.slave(owner.index); slave >= 0) {
-            scene_.in_contact.insert(slave);
-            scene_.velocity[index(slave)] = to_eigen(velocity);
-          }
-          break;
-        case BlockOwner::Kind::rotation_of_node:
-          set(nodes_.angular_velocity[index(owner.index)].component, velocity);
-          break;
-        case BlockOwner::Kind::body:
-          bodies_[index(owner.index)].velocity = to_eigen(velocity);
-          break;
-        case BlockOwner::Kind::rotation_of_body:
-          bodies_[index(owner.index)].angular_velocity = to_eigen(velocity);
-          break;
-      }
+    team_.for_ranges(rows_.block.size(), contacts_a_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) store(rows_.owner[b], rows_.block[b].velocity);
+    });
+    for (const BlockOwner& owner : rows_.owner) {
+      if (owner.kind != BlockOwner::Kind::node) continue;
+      if (const int slave = scene_.surface.slave(owner.index); slave >= 0) scene_.in_contact.insert(slave);
     }
     if (!ties_.empty()) carry_velocities(ties_, nodes_, dt_);
+  }
+
+  void store(const BlockOwner& owner, const Vector3<double>& velocity) {
+    const auto of = index(owner.index);
+    switch (owner.kind) {
+      case BlockOwner::Kind::node:
+        set(nodes_.record[of].velocity, velocity);
+        if (const int slave = scene_.surface.slave(owner.index); slave >= 0)
+          scene_.velocity[index(slave)] = eigen(velocity);
+        return;
+      case BlockOwner::Kind::rotation_of_node:
+        return set(nodes_.angular_velocity[of].component, velocity);
+      case BlockOwner::Kind::body:
+        bodies_[of].velocity = eigen(velocity);
+        return;
+      case BlockOwner::Kind::rotation_of_body:
+        bodies_[of].angular_velocity = eigen(velocity);
+        return;
+    }
   }
 
   // Positions of the solution.
@@ -287,10 +295,12 @@ class Resolution {
   }
 
   void finish(std::size_t ordinary) {
-    for (std::size_t i = 0; i < scene_.contacts.size(); ++i) {
-      scene_.contacts[i].impulse = row_of(i).impulse;
-      scene_.contacts[i].friction = to_eigen(row_of(i).friction);
-    }
+    team_.for_ranges(scene_.contacts.size(), contacts_a_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        scene_.contacts[i].impulse = row_of(i).impulse;
+        scene_.contacts[i].friction = eigen(row_of(i).friction);
+      }
+    });
     if (scene_.log) log_contacts(scene_);
     const bool at_walls = take_over_walls();
     sum_impulses(scene_);
@@ -340,7 +350,7 @@ class Resolution {
       step.normal_work_before += impulse.dot(before);
       step.normal_work_after += impulse.dot(after);
       const Vector3<double> given{impulse[0], impulse[1], impulse[2]};
-      const Vector3d reaction = to_eigen(nodes_.free_translations(node) * given - given);
+      const Vector3d reaction = eigen(nodes_.free_translations(node) * given - given);
       if (scene_.log && !reaction.isZero(0))
         scene_.log->supports.push_back({.node = scene_.surface.node[s], .impulse = reaction});
       const Vector3d position(nodes_.record[node].position);
@@ -369,16 +379,15 @@ class Resolution {
 
   Vector3<double> final_velocity(std::size_t block) const {
     const auto of = index(rows_.owner[block].index);
-    const auto vector = [](const auto& a) { return Vector3<double>{a[0], a[1], a[2]}; };
     switch (rows_.owner[block].kind) {
       case BlockOwner::Kind::node:
-        return vector(nodes_.record[of].velocity);
+        return components(nodes_.record[of].velocity);
       case BlockOwner::Kind::rotation_of_node:
-        return vector(nodes_.angular_velocity[of].component);
+        return components(nodes_.angular_velocity[of].component);
       case BlockOwner::Kind::body:
-        return vector(bodies_[of].velocity);
+        return components(bodies_[of].velocity);
       default:
-        return vector(bodies_[of].angular_velocity);
+        return components(bodies_[of].angular_velocity);
     }
   }
 
@@ -387,7 +396,7 @@ class Resolution {
     reaction.assign(rows_.block.size(), {0, 0, 0});
     sum_reactions(rows_.rows, rows_.block, rows_.place, reaction);
     for (std::size_t b = 0; b < reaction.size(); ++b) {
-      const Vector3d impulse = to_eigen(reaction[b]);
+      const Vector3d impulse = eigen(reaction[b]);
       if (impulse.isZero(0)) continue;
       const BlockOwner& owner = rows_.owner[b];
       if (owner.kind == BlockOwner::Kind::node)
@@ -400,11 +409,12 @@ class Resolution {
   void account_rows() {
     std::vector<ImpulseOnWall>& pushes = scene_.walls.push;
     pushes.assign(walls_.size(), {});
-    const RowWork work = account_work(rows_.rows, rows_.before, rows_.block, rows_.place, pushes);
+    const RowWork work =
+        account_work(rows_.rows, rows_.before, rows_.block, rows_.place, pushes, rows_.work, team_);
     ContactStep& step = scene_.step;
     for (const ImpulseOnWall& push : pushes) {
-      step.wall_impulse -= to_eigen(push.impulse);
-      step.wall_moment -= to_eigen(push.moment);
+      step.wall_impulse -= eigen(push.impulse);
+      step.wall_moment -= eigen(push.moment);
     }
     step.normal_work_before += work.normal_before;
     step.normal_work_after += work.normal_after;
@@ -412,17 +422,17 @@ class Resolution {
     step.friction_work_after += work.friction_after;
     step.support_work_before += work.support_before;
     step.support_work_after += work.support_after;
-    step.support_impulse += to_eigen(work.support_impulse);
-    step.support_moment += to_eigen(work.support_moment);
+    step.support_impulse += eigen(work.support_impulse);
+    step.support_moment += eigen(work.support_moment);
     if (scene_.log) log_supports();
     if (bodies_.empty()) return;
     for (const ConstraintRow& row : rows_.rows.row) {
       if (row.impulse == 0) continue;
       RowMap(rows_.rows, row).spread(impulse_of(row), [&](int b, const Vector3<double>& given) {
         const BlockOwner& owner = rows_.owner[index(b)];
-        if (owner.kind == BlockOwner::Kind::body) bodies_[index(owner.index)].impulse += to_eigen(given);
+        if (owner.kind == BlockOwner::Kind::body) bodies_[index(owner.index)].impulse += eigen(given);
         if (owner.kind == BlockOwner::Kind::rotation_of_body)
-          bodies_[index(owner.index)].moment += to_eigen(given);
+          bodies_[index(owner.index)].moment += eigen(given);
       });
     }
   }

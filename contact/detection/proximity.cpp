@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "contact/detection/proximity_filter.hpp"
 #include "contact/pairs/pair_packs.hpp"
@@ -162,32 +163,60 @@ class Finder {
   double least_square_;
 };
 
-// In an order that depends on the surface alone, none twice.
-void take_over(Proximity& proximity, std::size_t ranges, std::vector<Contact>& contacts) {
-  auto& found = proximity.found;
-  found.clear();
+// Lists of what ranges have found, by node or edge.
+void list_found(Proximity& proximity, std::size_t ranges) {
+  proximity.found.clear();
+  proximity.before.clear();
+  proximity.features.clear();
   for (std::size_t r = 0; r < ranges; ++r) {
-    for (const FoundContact& entry : proximity.range[r].found) found.push_back(&entry);
+    for (const FoundContact& entry : proximity.range[r].found) {
+      const Contact& contact = entry.contact;
+      const int feature = contact.of_edges() ? contact.slave - first_edge_slave : contact.slave;
+      int& last = proximity.last_found[static_cast<std::size_t>(feature)];
+      proximity.before.push_back(last);
+      last = static_cast<int>(proximity.found.size());
+      proximity.features.insert(feature);
+      proximity.found.push_back(&entry);
+    }
     proximity.closest_points += proximity.range[r].closest_points;
   }
-  std::vector<std::uint64_t>& order = proximity.order;
-  order.clear();
+}
+
+// In an order that depends on the surface alone, none twice.
+void choose(Proximity& proximity, std::size_t feature, Proximity::Chosen& chosen) {
+  std::vector<const FoundContact*>& found = chosen.found;
+  found.clear();
+  for (int i = std::exchange(proximity.last_found[feature], -1); i >= 0;
+       i = proximity.before[static_cast<std::size_t>(i)])
+    found.push_back(proximity.found[static_cast<std::size_t>(i)]);
+  std::sort(found.begin(), found.end(), [](const FoundContact* a, const FoundContact* b) {
+    return std::tuple(a->support, !a->in_plane, a->contact.face, a->contact.node) <
+           std::tuple(b->support, !b->in_plane, b->contact.face, b->contact.node);
+  });
   for (std::size_t i = 0; i < found.size(); ++i)
-    order.push_back(static_cast<std::uint64_t>(found[i]->contact.slave) << 32 | i);
-  std::sort(order.begin(), order.end());
-  for (auto first = order.begin(), last = first; first != order.end(); first = last) {
-    std::vector<const FoundContact*>& of_slave = proximity.of_slave;
-    of_slave.clear();
-    for (; last != order.end() && *last >> 32 == *first >> 32; ++last)
-      of_slave.push_back(found[*last & 0xffffffff]);
-    std::sort(of_slave.begin(), of_slave.end(), [](const FoundContact* a, const FoundContact* b) {
-      return std::tuple(a->support, !a->in_plane, a->contact.face, a->contact.node) <
-             std::tuple(b->support, !b->in_plane, b->contact.face, b->contact.node);
-    });
-    for (std::size_t i = 0; i < of_slave.size(); ++i)
-      if (i == 0 || of_slave[i]->support != of_slave[i - 1]->support)
-        contacts.push_back(of_slave[i]->contact);
+    if (i == 0 || found[i]->support != found[i - 1]->support) chosen.contacts.push_back(found[i]);
+}
+
+// From that place among the contacts on. \returns the end of their places
+std::size_t take_over(Proximity& proximity, std::size_t ranges, std::size_t begin, ThreadTeam& team,
+                      std::vector<Contact>& contacts) {
+  list_found(proximity, ranges);
+  proximity.chosen.resize(proximity.features.ranges());
+  for (Proximity::Chosen& one : proximity.chosen) one.contacts.clear();
+  proximity.features.for_each(team, [&](std::size_t range, std::size_t feature) {
+    choose(proximity, feature, proximity.chosen[range]);
+  });
+  std::size_t end = begin;
+  for (Proximity::Chosen& one : proximity.chosen) {
+    one.begin = end;
+    end += one.contacts.size();
   }
+  if (contacts.size() < end) contacts.resize(end);
+  team.for_each(proximity.chosen.size(), [&](std::size_t range) {
+    const Proximity::Chosen& one = proximity.chosen[range];
+    for (std::size_t i = 0; i < one.contacts.size(); ++i) contacts[one.begin + i] = one.contacts[i]->contact;
+  });
+  return end;
 }
 
 // What the ranges have kept, without gaps.
@@ -200,19 +229,21 @@ void close_up(const Proximity& proximity, std::size_t ranges, std::vector<int>& 
   active.erase(last, active.end());
 }
 
+// Constraints from that place on. \returns the end of their places
 template <class Kind>
-void find_of_kind(Proximity& proximity, const Kind& kind, const ProximityFilter& filter,
-                  std::vector<int>& active, ThreadTeam& team, std::vector<Contact>& contacts) {
-  if (active.empty()) return;
+std::size_t find_of_kind(Proximity& proximity, const Kind& kind, const ProximityFilter& filter,
+                         std::vector<int>& active, std::size_t first, ThreadTeam& team,
+                         std::vector<Contact>& contacts) {
+  if (active.empty()) return first;
   const std::size_t ranges = (active.size() + pairs_a_range - 1) / pairs_a_range;
   while (proximity.range.size() < ranges) proximity.range.emplace_back().found.reserve(pairs_a_range / 8);
   const Finder<Kind> finder(kind, filter);
   team.for_ranges(active.size(), pairs_a_range, [&](std::size_t begin, std::size_t end) {
     finder.find(active, begin, end, proximity.range[begin / pairs_a_range]);
   });
-  take_over(proximity, ranges, contacts);
   proximity.looked_at += active.size();
   close_up(proximity, ranges, active);
+  return take_over(proximity, ranges, first, team, contacts);
 }
 
 }  // namespace
@@ -238,12 +269,15 @@ void select_active(Proximity& proximity, const SurfaceFeatures& features, const 
 void find_proximities(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
                       const Lists& excluded, const ContactOptions& options, FeaturePairs& pairs,
                       const FeatureMotion& motion, ThreadTeam& team, std::vector<Contact>& contacts) {
-  contacts.clear();
+  const std::size_t most = std::max(motion.node.size(), features.edge_node.size());
+  proximity.last_found.resize(most, -1);
+  proximity.features.resize(most);
   const ProximityFilter filter(features, surface, excluded, options, pairs, motion);
   const NodesAndFaces nodes_and_faces{features, motion, pairs.node_face};
-  find_of_kind(proximity, nodes_and_faces, filter, proximity.node_face, team, contacts);
+  std::size_t end = find_of_kind(proximity, nodes_and_faces, filter, proximity.node_face, 0, team, contacts);
   const EdgesAndEdges edges_and_edges{features, motion, pairs.edge_edge};
-  find_of_kind(proximity, edges_and_edges, filter, proximity.edge_edge, team, contacts);
+  end = find_of_kind(proximity, edges_and_edges, filter, proximity.edge_edge, end, team, contacts);
+  contacts.resize(end);
 }
 
 }  // namespace brio

@@ -19,6 +19,7 @@
 #include "contact/pair.hpp"
 #include "contact/pairs/active_pairs.hpp"
 #include "contact/pairs/feature_pairs.hpp"
+#include "contact/surface/slave_set.hpp"
 
 namespace brio {
 
@@ -42,10 +43,15 @@ struct Proximity {
     std::vector<FoundContact> found;
     std::size_t closest_points = 0;
   };
-  std::vector<Range> range;                   ///< working space of ranges of pairs, one task each
-  std::vector<const FoundContact*> found;     ///< of all ranges
-  std::vector<std::uint64_t> order;           ///< of each, Contact::slave and its place
-  std::vector<const FoundContact*> of_slave;  ///< of one slave
+  std::vector<Range> range;                ///< working space of ranges of pairs, one task each
+  std::vector<const FoundContact*> found;  ///< of all ranges
+  std::vector<int> last_found, before;     ///< of a node or edge the last of them, and of each the one before
+  SlaveSet features{0};                    ///< nodes or edges that have found any
+  struct Chosen {
+    std::vector<const FoundContact*> found, contacts;
+    std::size_t begin = 0;  ///< of their places among all
+  };
+  std::vector<Chosen> chosen;  ///< working space of ranges of nodes or edges, one task each
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>

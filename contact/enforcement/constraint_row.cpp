@@ -76,11 +76,11 @@ void set_gradients(FaceFoot& foot, std::span<const Vector> corner, std::span<con
     foot.gradient[k] = along[k] * dual_g + across[k] * dual_h;
 }
 
-void ConstraintRows::clear() {
-  row.clear();
-  translation.clear();
-  rotation.clear();
-  matrix.clear();
+void ConstraintRows::resize(const RowCounts& counts) {
+  row.resize(counts.row);
+  translation.resize(counts.translation);
+  rotation.resize(counts.rotation);
+  matrix.resize(counts.matrix);
 }
 
 ConstraintRow& ConstraintRows::add_row(const Vector& normal, double gap, double friction_coefficient) {
@@ -189,16 +189,25 @@ void ConstraintRows::add_rigid_body(int translation_block, int rotation_block, c
 }
 
 void ConstraintRows::append(const ConstraintRows& other) {
-  const std::size_t first = row.size();
-  row.insert(row.end(), other.row.begin(), other.row.end());
-  for (std::size_t i = first; i < row.size(); ++i) {
-    shift(row[i].translation, translation.size());
-    shift(row[i].rotation, rotation.size());
-    shift(row[i].matrix, matrix.size());
+  const RowCounts own = counts();
+  RowCounts both = own;
+  resize(both += other.counts());
+  overwrite(own, other);
+}
+
+void ConstraintRows::overwrite(const RowCounts& at, const ConstraintRows& other) {
+  const auto copy = [](const auto& from, auto& to, std::size_t first) {
+    std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  copy(other.row, row, at.row);
+  for (std::size_t i = at.row; i < at.row + other.size(); ++i) {
+    shift(row[i].translation, at.translation);
+    shift(row[i].rotation, at.rotation);
+    shift(row[i].matrix, at.matrix);
   }
-  translation.insert(translation.end(), other.translation.begin(), other.translation.end());
-  rotation.insert(rotation.end(), other.rotation.begin(), other.rotation.end());
-  matrix.insert(matrix.end(), other.matrix.begin(), other.matrix.end());
+  copy(other.translation, translation, at.translation);
+  copy(other.rotation, rotation, at.rotation);
+  copy(other.matrix, matrix, at.matrix);
 }
 
 double RowMap::inverse_mass(const Vector& direction, std::span<const VelocityBlock> blocks) const {

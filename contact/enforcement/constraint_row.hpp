@@ -68,6 +68,18 @@ struct ConstraintRow {
 
 enum class Side { first = 1, second = -1 };
 
+/// Lengths of the arrays of rows, or places in them.
+struct RowCounts {
+  std::size_t row = 0, translation = 0, rotation = 0, matrix = 0;
+  RowCounts& operator+=(const RowCounts& other) {
+    row += other.row;
+    translation += other.translation;
+    rotation += other.rotation;
+    matrix += other.matrix;
+    return *this;
+  }
+};
+
 /// Foot of a contact point on a face, or on a triangle (3 corners).
 struct FaceFoot {
   int corners = 4;
@@ -91,7 +103,9 @@ struct ConstraintRows {
   std::vector<MatrixEntry> matrix;
 
   std::size_t size() const { return row.size(); }
-  void clear();
+  RowCounts counts() const { return {row.size(), translation.size(), rotation.size(), matrix.size()}; }
+  void resize(const RowCounts& counts);
+  void clear() { resize({}); }
 
   /// A new row; the entries added next belong to it. The reference is valid until the next row.
   ConstraintRow& add_row(const Vector3<double>& normal, double gap, double friction_coefficient);
@@ -113,6 +127,8 @@ struct ConstraintRows {
 
   /// Rows of another, after the own.
   void append(const ConstraintRows& other);
+  /// Rows of another, over the own from there on.
+  void overwrite(const RowCounts& at, const ConstraintRows& other);
 
  private:
   void add_solid_face(const FaceFoot& foot, double height, double sign);

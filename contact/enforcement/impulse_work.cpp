@@ -6,6 +6,8 @@ using Vector = Vector3<double>;
 
 namespace {
 
+constexpr std::size_t rows_a_part = 512;
+
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 Vector diagonal(const SymmetricTensor<double>& a) { return {a.xx, a.yy, a.zz}; }
@@ -46,32 +48,58 @@ void account_supports(const RowMap& map, const Vector& impulse, std::span<const 
   });
 }
 
-}  // namespace
+void account_row(const ConstraintRows& rows, ConstraintRow& row, std::span<const Vector> before,
+                 std::span<const VelocityBlock> after, std::span<const BlockPlace> places, RowWork& work) {
+  const RowMap map(rows, row);
+  const Vector was = map.velocity([&](int b) { return before[index(b)]; });
+  const Vector is = map.velocity([&](int b) { return after[index(b)].velocity; });
+  const double normal_before = row.impulse * dot(row.normal, was);
+  const double normal_after = row.impulse * dot(row.normal, is);
+  row.normal_work = 0.5 * (normal_before + normal_after);
+  work.normal_before += normal_before;
+  work.normal_after += normal_after;
+  work.friction_before += dot(row.friction, was);
+  work.friction_after += dot(row.friction, is);
+  account_supports(map, impulse_of(row), before, after, places, work);
+}
 
-RowWork account_work(ConstraintRows& rows, std::span<const Vector> before,
-                     std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
-                     std::span<ImpulseOnWall> walls) {
-  RowWork work;
-  for (ConstraintRow& row : rows.row) {
-    if (row.impulse == 0) continue;
-    const RowMap map(rows, row);
-    const Vector was = map.velocity([&](int b) { return before[index(b)]; });
-    const Vector is = map.velocity([&](int b) { return after[index(b)].velocity; });
-    const double normal_before = row.impulse * dot(row.normal, was);
-    const double normal_after = row.impulse * dot(row.normal, is);
-    row.normal_work = 0.5 * (normal_before + normal_after);
-    work.normal_before += normal_before;
-    work.normal_after += normal_after;
-    work.friction_before += dot(row.friction, was);
-    work.friction_after += dot(row.friction, is);
-    const Vector impulse = impulse_of(row);
-    account_supports(map, impulse, before, after, places, work);
+void sum_at_walls(const ConstraintRows& rows, std::span<ImpulseOnWall> walls) {
+  for (const ConstraintRow& row : rows.row) {
     if (row.wall < 0) continue;
+    const Vector impulse = impulse_of(row);
     ImpulseOnWall& wall = walls[index(row.wall)];
     wall.impulse = wall.impulse - impulse;
     wall.moment = wall.moment - cross(row.point, impulse);
     wall.work += dot(impulse, row.wall_velocity);
   }
+}
+
+}  // namespace
+
+RowWork& RowWork::operator+=(const RowWork& other) {
+  normal_before += other.normal_before;
+  normal_after += other.normal_after;
+  friction_before += other.friction_before;
+  friction_after += other.friction_after;
+  support_before += other.support_before;
+  support_after += other.support_after;
+  support_impulse = support_impulse + other.support_impulse;
+  support_moment = support_moment + other.support_moment;
+  return *this;
+}
+
+RowWork account_work(ConstraintRows& rows, std::span<const Vector> before,
+                     std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
+                     std::span<ImpulseOnWall> walls, std::vector<RowWork>& parts, ThreadTeam& team) {
+  parts.assign((rows.size() + rows_a_part - 1) / rows_a_part, {});
+  team.for_ranges(rows.size(), rows_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (rows.row[i].impulse != 0)
+        account_row(rows, rows.row[i], before, after, places, parts[begin / rows_a_part]);
+  });
+  if (!walls.empty()) sum_at_walls(rows, walls);
+  RowWork work;
+  for (const RowWork& part : parts) work += part;
   return work;
 }
 

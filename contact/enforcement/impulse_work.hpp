@@ -2,6 +2,7 @@
 /// Work of the impulses of constraint rows in a step, and reactions of supports and walls.
 
 #include <span>
+#include <vector>
 
 #include "contact/enforcement/constraint_row.hpp"
 
@@ -29,6 +30,8 @@ struct RowWork {
   double support_after = 0;
   Vector3<double> support_impulse{0, 0, 0};
   Vector3<double> support_moment{0, 0, 0};  ///< about the origin
+
+  RowWork& operator+=(const RowWork& other);
 };
 
 /// Impulse and work of all rows at a rigid wall.
@@ -41,10 +44,10 @@ struct ImpulseOnWall {
 /// Adds up work and reactions, and sets the normal work of each row.
 /// \param before velocities of the blocks before the step's impulses, at the half step before.
 /// \param after the blocks with their velocities at the end.
-/// \param walls by number; their sums are increased.
+/// \param walls by number; their sums are increased. \param parts working space: sums of ranges of rows
 RowWork account_work(ConstraintRows& rows, std::span<const Vector3<double>> before,
                      std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
-                     std::span<ImpulseOnWall> walls);
+                     std::span<ImpulseOnWall> walls, std::vector<RowWork>& parts, ThreadTeam& team);
 
 /// Reactions of supports block by block, of which `account_work` gives the sums. \param reaction one a block;
 /// they are increased

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace brio {
 
@@ -96,12 +97,17 @@ bool FaceFlatness::may_reach(double path, const SurfaceFeatures& features, std::
                      [&](int slave) { return motion.is_corrected(slave) && !motion.is_within(slave, left); });
 }
 
-bool FaceFlatness::bends(const SurfaceFeatures& features, int face, const FeatureMotion& motion) {
+bool FaceFlatness::may_bend(const SurfaceFeatures& features, int face, const FeatureMotion& motion) const {
   const auto f = static_cast<std::size_t>(face);
-  if (flat_[f] == Flatness::none) return false;
+  return flat_[f] != Flatness::none &&
+         may_reach(std::min(until_[f].thin, until_[f].convex), features, f, motion);
+}
+
+bool FaceFlatness::bends(const SurfaceFeatures& features, int face, const FeatureMotion& motion) {
+  if (!may_bend(features, face, motion)) return false;
+  const auto f = static_cast<std::size_t>(face);
   Until& until = until_[f];
   const auto may = [&](double path) { return may_reach(path, features, f, motion); };
-  if (!may(std::min(until.thin, until.convex))) return false;
   const double thickness = flat_thickness(features, f, flat_[f]), path = motion.of_face.path[f];
   const Corners start = at_start(features, f, motion), end = at_end(features, f, motion);
   if (!may(until.convex)) {
@@ -127,18 +133,20 @@ bool FaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotio
 }
 
 void FaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion, std::uint8_t mark,
-                             std::vector<std::uint8_t>& flags) {
-  for (std::size_t f = 0; f < flat_.size(); ++f) {
+                             std::vector<std::uint8_t>& flags, ThreadTeam& team) {
+  const auto has_changed = [&](std::size_t f) {
     const auto may = [&](double path) { return may_reach(path, features, f, motion); };
-    if (flat_[f] == Flatness::none || !may(std::min(until_[f].thin, until_[f].convex))) continue;
+    if (flat_[f] == Flatness::none || !may(std::min(until_[f].thin, until_[f].convex))) return false;
     if (!renew(until_[f], at_start(features, f, motion), flat_thickness(features, f, flat_[f]),
                motion.of_face.path[f], may))
-      continue;
+      return false;
     const Flatness now = flatness_of(features, f, motion);
-    if (now <= flat_[f]) continue;
-    flat_[f] = now;
-    flags[f] |= mark;
-  }
+    return now > std::exchange(flat_[f], std::max(now, flat_[f]));
+  };
+  team.for_ranges(flat_.size(), faces_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      if (has_changed(f)) flags[f] |= mark;
+  });
 }
 
 }  // namespace brio

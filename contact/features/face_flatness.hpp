@@ -42,9 +42,11 @@ class FaceFlatness {
   /// Whether a face is no longer as flat as it was at the end of the step.
   bool any_bends(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team);
   bool bends(const SurfaceFeatures& features, int face, const FeatureMotion& motion);
+  /// Whether that has to be asked.
+  bool may_bend(const SurfaceFeatures& features, int face, const FeatureMotion& motion) const;
   /// Take over what faces have become that bend more. \param mark that the flags of such faces get
   void take_over(const SurfaceFeatures& features, const FeatureMotion& motion, std::uint8_t mark,
-                 std::vector<std::uint8_t>& flags);
+                 std::vector<std::uint8_t>& flags, ThreadTeam& team);
 
   /// Whether an edge is paired, with what keeps their radii.
   bool pairs(const EdgeFeature& edge, bool radii) const {

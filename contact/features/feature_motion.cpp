@@ -284,16 +284,17 @@ void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surfa
                                     const SlaveSet& in_contact, std::span<const Eigen::Vector3d> corrected,
                                     double dt, std::span<const RigidMotion> bodies, ThreadTeam& team) {
   const std::size_t driven = bodies.empty() ? 0 : driven_.size();
-  start_sums(driven + 1);
-  bool exceeds = false;
+  const std::size_t ranges = in_contact.ranges();
+  sum_.assign(ranges + (driven + features_a_range - 1) / features_a_range, {});
   is_solution_ = true;
   corrected_ = &in_contact;
-  in_contact.for_each([&](std::size_t s) {
+  in_contact.for_each(team, [&](std::size_t range, std::size_t s) {
     for (int axis = 0; axis < 3; ++axis) node[s].end[axis] = node[s].start[axis] + dt * corrected[s][axis];
-    if (bodies.empty() || surface.rigid_body(surface.node[s]) < 0) exceeds = raise(s) || exceeds;
+    if (!bodies.empty() && surface.rigid_body(surface.node[s]) >= 0) return;
+    sum_[range].exceeds = raise(s) || sum_[range].exceeds;
   });
   team.for_ranges(driven, features_a_range, [&](std::size_t begin, std::size_t end) {
-    Sum& sum = sum_[begin / features_a_range];
+    Sum& sum = sum_[ranges + begin / features_a_range];
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t s = index(driven_[i]);
       const int body = surface.rigid_body(surface.node[s]);
@@ -302,7 +303,6 @@ void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surfa
       sum.exceeds = raise(s) || sum.exceeds;
     }
   });
-  sum_[0].exceeds = sum_[0].exceeds || exceeds;
   finish_raising(features, team);
 }
 

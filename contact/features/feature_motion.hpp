@@ -62,11 +62,19 @@ class FeatureMotion {
 
   /// Whether the ends of all nodes are as predicted but for those that `for_each_corrected` visits.
   bool knows_corrected() const { return is_solution_ && corrected_ != nullptr; }
-  /// Slave nodes that the solution has moved, and those of rigid bodies.
+  /// By threads, `visit(range, slave)`: slave nodes that the solution has moved, in the first of two kinds of
+  /// ranges, then those of rigid bodies.
   template <class Visit>
-  void for_each_corrected(Visit&& visit) const {
-    corrected_->for_each(visit);
-    for (int slave : driven_) visit(index(slave));
+  void for_each_corrected(ThreadTeam& team, Visit&& visit) const {
+    corrected_->for_each(team, visit);
+    const std::size_t first = corrected_->ranges();
+    team.for_ranges(driven_.size(), driven_a_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) visit(first + begin / driven_a_range, index(driven_[i]));
+    });
+  }
+  std::size_t ranges_moved_by_solution() const { return corrected_->ranges(); }
+  std::size_t ranges_of_corrected() const {
+    return corrected_->ranges() + (driven_.size() + driven_a_range - 1) / driven_a_range;
   }
 
   /// Whether a node's displacement in the frame of its group, to its last position at the end of the step, is
@@ -100,6 +108,7 @@ class FeatureMotion {
   }
 
  private:
+  static constexpr std::size_t driven_a_range = 1024;
   /// Of a node, in the frame of its group.
   struct alignas(16) Way {
     double moved;  ///< from the start of the last step to that of this one; 0: nothing is known of the last

@@ -98,12 +98,29 @@ bool FeaturePairs::is_due(const SurfaceFeatures& features, const Surface& surfac
 bool FeaturePairs::is_due_after_solution(const SurfaceFeatures& features, const Surface& surface,
                                          const FeatureMotion& motion, ThreadTeam& team) {
   if (!motion.knows_corrected() || motion.exceeds_limits()) return is_due(features, surface, motion, team);
-  bool due = false;
-  motion.for_each_corrected([&](std::size_t s) {
+  may_bend_.resize(motion.ranges_of_corrected());
+  for (std::vector<int>& faces : may_bend_) faces.clear();
+  std::atomic<bool> due = false;
+  motion.for_each_corrected(team, [&](std::size_t range, std::size_t s) {
     if (surface.node[s] < 0) return;
-    due = due || !is_inside(s, motion, 1);
-    for (int f : surface.faces_of.of(static_cast<int>(s))) due = flat_.bends(features, f, motion) || due;
+    const int slave = static_cast<int>(s);
+    if (!is_inside(s, motion, 1)) due.store(true, std::memory_order_relaxed);
+    // Each face once: at the first of its nodes that contact has moved.
+    const auto is_first = [&](int face) {
+      const std::array<int, 4>& corner = at(features.face_node, face);
+      return std::none_of(corner.begin(), corner.end(),
+                          [&](int other) { return other < slave && motion.is_corrected(other); });
+    };
+    for (int f : surface.faces_of.of(slave))
+      if (flat_.may_bend(features, f, motion) && is_first(f)) may_bend_[range].push_back(f);
   });
+  const auto bend = [&](std::size_t range) {
+    for (int f : may_bend_[range])
+      if (flat_.bends(features, f, motion)) due.store(true, std::memory_order_relaxed);
+  };
+  const std::size_t moved = motion.ranges_moved_by_solution();
+  team.for_each(moved, bend);
+  for (std::size_t range = moved; range < may_bend_.size(); ++range) bend(range);
   return due;
 }
 
@@ -208,7 +225,7 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   }
   const bool has_debris = !debris_node_.empty() || debris_.box.size() > 0;
   debris_.begin_search(has_debris ? surface.slaves() : 0);
-  if (!is_first && collect_leaving(scene, motion)) {
+  if (!is_first && collect_leaving(scene, motion, team)) {
     lay_boxes_of_leaving(scene, motion);
     drop_pairs(scene, motion, team);
     add_diagonals(scene, motion.groups);
@@ -295,7 +312,7 @@ void FeaturePairs::mark_changes(const Scene& scene) {
 }
 
 // \returns whether they are few
-bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& motion) {
+bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team) {
   const Surface& surface = scene.surface;
   mark_changes(scene);
   std::size_t count = 0;
@@ -307,7 +324,7 @@ bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& moti
   const auto few = static_cast<double>(reach_.size()) * most_leaving;
   if (static_cast<double>(count + faces_.box.changed() + rounds_.box.changed() + debris_.box.changed()) > few)
     return false;
-  flat_.take_over(scene.features, motion, Flags::bends, faces_.flag);
+  flat_.take_over(scene.features, motion, Flags::bends, faces_.flag, team);
   const auto collect = [&](SearchedBoxes& boxes, int i, const auto& nodes) {
     for (int node : nodes) at(boxes.flag, i) |= at(node_flag_, node);
     if ((boxes.flag_of(i) & Flags::leaves) != 0) boxes.leaving.push_back(i);

@@ -128,7 +128,7 @@ class FeaturePairs {
   void list_rounds_of_nodes(const Scene& scene);
   void list_debris(const Scene& scene);
 
-  bool collect_leaving(const Scene& scene, const FeatureMotion& motion);
+  bool collect_leaving(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team);
   void mark_changes(const Scene& scene);
   void close_up();
   void start_over(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
@@ -162,6 +162,7 @@ class FeaturePairs {
   PairBlocks face_blocks_, round_blocks_;  ///< of pairs of faces, and of beams and particles with faces
   std::vector<CaptureBox> reach_;          ///< of each slave node: where it may be until the next search
   FaceFlatness flat_;
+  std::vector<std::vector<int>> may_bend_;  ///< working space: faces, by range of nodes
   SearchedBoxes faces_, rounds_, debris_;
   std::vector<std::uint8_t> node_flag_;             ///< as those of the faces at each slave node
   std::vector<double> face_radius_, round_radius_;  ///< largest of the features of each

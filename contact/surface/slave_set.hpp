@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/base/parallel.hpp"
+
 namespace brio {
 
 class SlaveSet {
@@ -26,10 +28,19 @@ class SlaveSet {
 
   template <class Visit>
   void for_each(Visit&& visit) const {
-    for (std::size_t w = 0; w < word_.size(); ++w)
-      for (std::uint64_t left = word_[w]; left != 0; left &= left - 1)
-        visit(w * bits + static_cast<std::size_t>(std::countr_zero(left)));
+    for (std::size_t w = 0; w < word_.size(); ++w) visit_word(w, visit);
   }
+
+  /// By threads, `visit(range, slave)`, in ascending order within each of `ranges()`, which are the same for
+  /// any number of threads.
+  template <class Visit>
+  void for_each(ThreadTeam& team, Visit&& visit) const {
+    team.for_ranges(word_.size(), words_a_range, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t w = begin; w < end; ++w)
+        visit_word(w, [&](std::size_t slave) { visit(begin / words_a_range, slave); });
+    });
+  }
+  std::size_t ranges() const { return (word_.size() + words_a_range - 1) / words_a_range; }
 
   void clear() { word_.assign(word_.size(), 0); }
 
@@ -40,7 +51,14 @@ class SlaveSet {
   }
 
  private:
-  static constexpr std::size_t bits = 64;
+  static constexpr std::size_t bits = 64, words_a_range = 16;
+
+  template <class Visit>
+  void visit_word(std::size_t w, Visit&& visit) const {
+    for (std::uint64_t left = word_[w]; left != 0; left &= left - 1)
+      visit(w * bits + static_cast<std::size_t>(std::countr_zero(left)));
+  }
+
   std::vector<std::uint64_t> word_;
 };
 

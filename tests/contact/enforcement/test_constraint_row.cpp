@@ -187,7 +187,9 @@ TEST_F(Rows, EnergyAndMomentumBalance) {
   scene.blocks[2].velocity = {0.1, 0, 0};
   solve(scene, to_the_end());
   ImpulseOnWall reaction[1];
-  const RowWork work = account_work(scene.rows, before, scene.blocks, places, reaction);
+  std::vector<RowWork> parts;
+  ThreadTeam team;
+  const RowWork work = account_work(scene.rows, before, scene.blocks, places, reaction, parts, team);
   const auto change = [&](std::size_t b, double mass) {
     return 0.5 * mass * (dot(scene.blocks[b].velocity, scene.blocks[b].velocity) - dot(before[b], before[b]));
   };

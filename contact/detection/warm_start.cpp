@@ -1,4 +1,4 @@
-#include "contact/enforcement/warm_start.hpp"
+#include "contact/detection/warm_start.hpp"
 
 #include <cmath>
 

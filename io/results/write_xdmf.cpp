@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "io/files/text_file.hpp"
 
 namespace brio {
@@ -65,6 +67,9 @@ const char* topology_type(std::optional<CellType> type) {
   return "";
 }
 
+/// ParaView selects no block of this name, which it gives to the leaves of its own tree of blocks.
+constexpr std::string_view reserved_name = "dataset";
+
 StoredArray rows_of(StoredArray array, std::int64_t first, std::int64_t rows) {
   array.first_row += first;
   array.rows = rows;
@@ -127,7 +132,7 @@ void XdmfWriter::append(const StoredDump& dump) {
   blocks_.resize(dump.parts.size());
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     const StoredPart& part = dump.parts[i];
-    blocks_[i].name = part.range.name;
+    blocks_[i].name = part.range.name == reserved_name ? part.range.name + "_" : part.range.name;
     if (part.range.cells > 0) blocks_[i].steps += grid(dump, part);
   }
   ++dumps_;

@@ -84,7 +84,7 @@ std::string outcome_text(const RunOutcome& outcome) {
   text += "wall time by stage:";
   for (const auto& [stage, seconds] : summary.wall_s.by_stage)
     if (seconds > 0) text += fmt::format(" {} {:.2f} s", stage, seconds);
-  return text + fmt::format("\nresults: {} (ParaView 5.12 or later), {} (ParaView 5.11)\n",
+  return text + fmt::format("\nresults: {} (ParaView 5.12 or later), {} (ParaView 5.11 or later, by parts)\n",
                             outcome.vtkhdf.string(), outcome.xdmf.string());
 }
 

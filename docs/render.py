@@ -88,6 +88,13 @@ def von_mises(source):
                              Function=expression)
 
 
+def one_grid(source):
+    """What the reader shows as a block a part."""
+    if not source.GetDataInformation().IsCompositeDataSet():
+        return source
+    return simple.MergeBlocks(Input=source, MergePoints=0)
+
+
 def only_parts(source, numbers):
     """The cells of some parts."""
     found = []
@@ -211,7 +218,8 @@ class Scene:
         available = list(self.reader.TimestepValues)
         self.times = available if options.animation else chosen_times(options.times, available)
         self.reader.UpdatePipeline(self.times[0])
-        source = self.reader
+        source = one_grid(self.reader)
+        source.UpdatePipeline(self.times[0])
         if options.color == "stress":
             information(source, "stress")
             source, options.color = von_mises(source), "von Mises stress"

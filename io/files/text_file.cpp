@@ -68,7 +68,7 @@ int new_file(const std::filesystem::path& path) {
   return opened(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW);
 }
 
-void replace_text_file(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces,
+void replace_text_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces,
                        bool sync) {
   std::filesystem::path temporary = path;
   temporary += ".partial";

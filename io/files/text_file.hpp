@@ -2,16 +2,16 @@
 /// Small files that are complete at every moment. Nothing is written through a symbolic link.
 
 #include <filesystem>
-#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace brio {
 
 /// Write the pieces to a temporary name in the same folder, then rename: the old file or the new one is
 /// there. \param sync whether the file is on the disk when this returns. \throws FileError; the old file is
 /// then untouched and nothing is left beside it.
-void replace_text_file(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces,
+void replace_text_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces,
                        bool sync = false);
 
 /// Append to a file that exists. \throws FileError; the file is then as long as before.

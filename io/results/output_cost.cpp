@@ -67,10 +67,13 @@ double field_bytes(const Snapshot& snapshot) {
   return bytes;
 }
 
-// Connectivity twice, once with a code or two a cell; offsets, types.
+// Connectivity, of a scene that is shown as a whole twice, the second time with a code or two a cell;
+// offsets, types.
 double topology_bytes(const Snapshot& snapshot) {
   const auto cells = static_cast<double>(snapshot.topology.cell_type.size());
-  double bytes = 16 * static_cast<double>(snapshot.topology.connectivity.size()) + (8 + 8 + 1) * cells;
+  const double list = 8 * static_cast<double>(snapshot.topology.connectivity.size());
+  double bytes = list + (8 + 1) * cells;
+  if (!is_shown_by_parts(snapshot)) bytes += list + 8 * cells;
   for (const FieldArray& field : snapshot.cell_fields)
     if (field.fixed_by_topology) bytes += width(field.storage) * static_cast<double>(field.values.size());
   return bytes;
@@ -100,8 +103,9 @@ OutputCost measure_output(const Deck& deck, Model& model, double steps) {
   const Snapshot& snapshot = observer.observe(model);
   const double first_seconds = seconds_of([&] { writer.write(snapshot); });
   cost.first_dump_bytes = folder.bytes();
+  const auto description = static_cast<double>(fs::file_size(writer.xdmf()));
   const double next_seconds = seconds_of([&] { writer.write(observer.observe(model)); });
-  cost.dump_bytes = field_bytes(snapshot);
+  cost.dump_bytes = field_bytes(snapshot) + description;
   cost.topology_bytes = topology_bytes(snapshot);
   cost.dump_seconds = cost.dumps > 1 ? next_seconds : first_seconds;
 

@@ -50,6 +50,7 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const std::string& name
 
 void ResultWriter::note_position() {
   lock_->check();
+  xdmf_.write(xdmf(), sync_each_time());
   for (const std::filesystem::path& file : {vtkhdf(), history_csv()}) sync_to_disk(file);
   const Hdf5File file = Hdf5File::open_to_read(vtkhdf());
   tables_ = file.tables();
@@ -127,7 +128,7 @@ void ResultWriter::write(const Snapshot& snapshot) {
   file.close();
   if (!published_) publish();
   xdmf_.append(dump);
-  xdmf_.write(xdmf(), sync_each_time());
+  if (xdmf_.is_due()) xdmf_.write(xdmf(), sync_each_time());
 }
 
 void ResultWriter::write(History& history) {
@@ -144,6 +145,7 @@ void ResultWriter::write(const Summary& end_state) {
   lock_->check();
   if (!published_) publish();  // a run that failed before its first dump has ended as well
   const bool sync = settings_.sync != Sync::never;
+  xdmf_.write(xdmf(), sync_each_time());
   if (sync)
     for (const std::filesystem::path& file : {vtkhdf(), history_csv(), xdmf()})
       if (std::filesystem::exists(file)) sync_to_disk(file);

@@ -1,7 +1,9 @@
 #pragma once
 /// The result folder of a run:
 ///   NAME.vtkhdf        dumps as a transient VTKHDF unstructured grid, `/history`, `/deck`
-///   NAME.xdmf2         the same dumps for ParaView versions that do not read a transient VTKHDF file
+///   NAME.xdmf2         the same dumps for ParaView versions that do not read a transient VTKHDF file, by
+///   part;
+///                      the last tenth of them when the run is saved or ends
 ///   NAME.history.csv   the history as a table
 ///   NAME.summary.json  the end state
 ///   NAME.log           what the program said, written by whoever runs it

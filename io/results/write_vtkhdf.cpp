@@ -21,6 +21,8 @@ constexpr hsize_t largest_chunk_rows = 16384;
 constexpr hsize_t smallest_chunk_rows = 256;
 constexpr hsize_t step_chunk_rows = 1024;  // 8 kB of 8-byte numbers
 
+constexpr std::size_t most_parts_shown = 100;  // as many as the history has columns of
+
 hid_t file_type(Storage storage) {
   switch (storage) {
     case Storage::single_precision:
@@ -87,7 +89,46 @@ std::vector<std::int64_t> mixed_list(const Topology& topology) {
   return list;
 }
 
+/// Rows of the connectivity: numbers of points.
+StoredArray connectivity_rows(std::int64_t first, std::int64_t rows, std::int64_t rows_in_file) {
+  return {"", root + "/Connectivity", Storage::integer, 1, first, rows, rows_in_file};
+}
+
+/// \param row at which the connectivity of the dump begins
+std::vector<StoredPart> parts_of(const Snapshot& snapshot, std::int64_t row) {
+  const Topology& topology = snapshot.topology;
+  const std::int64_t end = row + topology.offset.back();
+  std::vector<StoredPart> parts;
+  for (const SnapshotPart& part : snapshot.parts) {
+    StoredPart& stored = parts.emplace_back(StoredPart{.range = part});
+    if (part.cells == 0) continue;
+    const auto first = static_cast<std::size_t>(part.first_cell),
+               last = static_cast<std::size_t>(part.first_cell + part.cells);
+    stored.type = static_cast<CellType>(topology.cell_type[first]);
+    assert(std::all_of(topology.cell_type.begin() + part.first_cell,
+                       topology.cell_type.begin() + part.first_cell + part.cells,
+                       [&](unsigned char type) { return type == *stored.type; }));
+    stored.connectivity =
+        connectivity_rows(row + topology.offset[first], topology.offset[last] - topology.offset[first], end);
+  }
+  return parts;
+}
+
+/// The vertex that stands for a scene without cells, as its first part.
+std::vector<StoredPart> parts_of_nothing(const Snapshot& snapshot, std::int64_t row) {
+  std::vector<StoredPart> parts;
+  for (const SnapshotPart& part : snapshot.parts) parts.push_back({.range = {.name = part.name}});
+  parts.front() = {.range = {.name = snapshot.parts.front().name, .cells = 1, .points = 1},
+                   .type = vertex_cell,
+                   .connectivity = connectivity_rows(row, 1, row + 1)};
+  return parts;
+}
+
 }  // namespace
+
+bool is_shown_by_parts(const Snapshot& snapshot) {
+  return !snapshot.parts.empty() && snapshot.parts.size() <= most_parts_shown;
+}
 
 void VtkhdfWriter::create_fields(Hdf5File& file, const string& group, const std::vector<FieldArray>& fields,
                                  std::int64_t rows, int compression) {
@@ -131,13 +172,15 @@ void VtkhdfWriter::create_layout(Hdf5File& file, const Snapshot& snapshot, const
   for (const FieldArray& field : snapshot.global_fields) {
     file.create_table(steps + "/FieldDataSizes/" + field.name, {H5T_STD_I64LE, 2, step_chunk_rows});
   }
-  file.create_group("/xdmf");
-  file.create_table(mixed_topology, {H5T_STD_I64LE, 0, chunk_rows(corners)});
+  if (!is_shown_by_parts(snapshot)) {
+    file.create_group("/xdmf");
+    file.create_table(mixed_topology, {H5T_STD_I64LE, 0, chunk_rows(corners)});
+  }
   file.create_table(steps + "/Values", {H5T_IEEE_F64LE, 0, step_chunk_rows});
 }
 
 void VtkhdfWriter::append_topology(Hdf5File& file, const Topology& topology, std::int64_t points,
-                                   Progress& next) {
+                                   bool by_parts, Progress& next) {
   assert(topology.offset.size() == topology.cell_type.size() + 1 && topology.offset.front() == 0);
   assert(topology.offset.back() == static_cast<std::int64_t>(topology.connectivity.size()));
   next.points = points;
@@ -146,10 +189,12 @@ void VtkhdfWriter::append_topology(Hdf5File& file, const Topology& topology, std
   append_list(file, root + "/Offsets", topology.offset);
   next.cell_row = file.append_rows(root + "/Types", topology.cell_type.size(), H5T_NATIVE_UCHAR,
                                    topology.cell_type.data());
-  const std::vector<std::int64_t> list = mixed_list(topology);
-  const auto length = static_cast<std::int64_t>(list.size());
-  const std::int64_t first = append_list(file, mixed_topology, list);
-  next.mixed_topology = {"", mixed_topology, Storage::integer, 1, first, length, first + length};
+  if (!by_parts) {
+    const std::vector<std::int64_t> list = mixed_list(topology);
+    const auto length = static_cast<std::int64_t>(list.size());
+    const std::int64_t first = append_list(file, mixed_topology, list);
+    next.mixed_topology = {"", mixed_topology, Storage::integer, 1, first, length, first + length};
+  }
   append_number(file, root + "/NumberOfPoints", points);
   append_number(file, root + "/NumberOfCells", next.cells);
   append_number(file, root + "/NumberOfConnectivityIds",
@@ -214,15 +259,19 @@ StoredDump VtkhdfWriter::append(Hdf5File& file, const Snapshot& snapshot) {
 
   const auto points = static_cast<std::int64_t>(snapshot.points.size() / 3);
   const bool new_topology = next.steps == 0 || snapshot.topology_version != next.topology_version;
-  if (new_topology) append_topology(file, topology, points, next);
+  const bool by_parts = is_shown_by_parts(snapshot);
+  if (new_topology) append_topology(file, topology, points, by_parts, next);
   next.topology_version = snapshot.topology_version;
   assert(next.points == points && next.cells == static_cast<std::int64_t>(topology.cell_type.size()));
 
   StoredDump dump;
   dump.time = snapshot.time;
-  dump.points = points;
-  dump.cells = next.cells;
-  dump.mixed_topology = next.mixed_topology;
+  if (!by_parts)
+    dump.parts = {{.range = {.name = "scene", .cells = next.cells, .points = points},
+                   .connectivity = next.mixed_topology}};
+  else
+    dump.parts = nothing_left ? parts_of_nothing(snapshot, next.connectivity_row)
+                              : parts_of(snapshot, next.connectivity_row);
   const std::int64_t point_row = file.append_rows(root + "/Points", static_cast<hsize_t>(points),
                                                   H5T_NATIVE_DOUBLE, snapshot.points.data());
   dump.coordinates = {"",        root + "/Points", Storage::double_precision, 3,

@@ -6,9 +6,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "src/base/cell_type.hpp"
 #include "src/output/snapshot.hpp"
 
 namespace brio {
@@ -31,15 +33,24 @@ struct StoredArray {
   }
 };
 
+/// Cells that are shown under a name of their own.
+struct StoredPart {
+  SnapshotPart range{};            ///< within the arrays of the dump
+  std::optional<CellType> type{};  ///< of all its cells; none: `connectivity` is XDMF's list of mixed cells
+  StoredArray connectivity{};      ///< points of its cells, counted from the first of the dump
+};
+
 /// All that a description of the dump in another language needs.
 struct StoredDump {
   double time = 0;
-  std::int64_t points = 0;
-  std::int64_t cells = 0;
+  std::vector<StoredPart> parts;  ///< the same ones in every dump, also without cells
   StoredArray coordinates;
-  StoredArray mixed_topology;  ///< XDMF's own list of cells
   std::vector<StoredArray> point_fields, cell_fields, global_fields;
 };
+
+/// Whether a scene is described part by part: its description grows with parts times dumps. Where it is not,
+/// the file has the list of mixed cells, `/xdmf/MixedTopology`, for a description of the scene as a whole.
+bool is_shown_by_parts(const Snapshot& snapshot);
 
 class VtkhdfWriter {
  public:
@@ -82,7 +93,8 @@ class VtkhdfWriter {
   void create_layout(Hdf5File& file, const Snapshot& snapshot, const Topology& topology) const;
   static void create_fields(Hdf5File& file, const std::string& group, const std::vector<FieldArray>& fields,
                             std::int64_t rows, int compression);
-  void append_topology(Hdf5File& file, const Topology& topology, std::int64_t points, Progress& next);
+  void append_topology(Hdf5File& file, const Topology& topology, std::int64_t points, bool by_parts,
+                       Progress& next);
   void append_fields(Hdf5File& file, const std::string& group, const std::vector<FieldArray>& fields,
                      std::int64_t rows, bool new_topology, std::vector<std::int64_t>& fixed_row,
                      std::vector<StoredArray>& stored);

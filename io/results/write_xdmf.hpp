@@ -1,11 +1,13 @@
 #pragma once
 /// The XDMF companion (http://www.xdmf.org/index.php/XDMF_Model_and_Format): it describes every dump by slabs
 /// of the datasets in the VTKHDF file, for ParaView versions that do not read a transient VTKHDF file.
-/// Nothing but the list of cells is stored twice. The ending `.xdmf2` makes ParaView take its Xdmf2 reader;
-/// the Xdmf3 reader drops fields that are slabs.
+/// Each part is a temporal collection of its own, which ParaView shows as a block under the name of the part.
+/// The ending `.xdmf2` makes ParaView take its Xdmf2 reader; the Xdmf3 reader drops fields that are slabs.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "io/results/write_vtkhdf.hpp"
 
@@ -18,22 +20,39 @@ class XdmfWriter {
 
   void append(const StoredDump& dump);
 
+  /// Whether dumps have grown by a tenth since they were last written. If each text that is due is written,
+  /// all of them together have about eleven times the length of the last.
+  bool is_due() const { return 10 * dumps_ >= 11 * written_; }
+
   /// Write all dumps so far to a temporary name beside `path` and rename it: a reader sees the old text or
-  /// the new. \throws FileError
-  void write(const std::filesystem::path& path, bool sync = false) const;
+  /// the new. Nothing is written of no dump. \throws FileError
+  void write(const std::filesystem::path& path, bool sync = false);
 
   /// Saved and restored (src/base/state_archive.hpp): the dumps so far.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(steps_);
+    archive(blocks_, dumps_, written_);
   }
 
  private:
+  /// The dumps of a part.
+  struct Block {
+    std::string name, steps;
+
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(name, steps);
+    }
+  };
+
   std::string slab(const StoredArray& array) const;
+  std::string list(const StoredArray& array) const;
   std::string attribute(const StoredArray& array, const char* center) const;
+  std::string grid(const StoredDump& dump, const StoredPart& part) const;
 
   std::string heavy_file_;  // escaped for XML
-  std::string steps_;
+  std::vector<Block> blocks_;
+  std::int64_t dumps_ = 0, written_ = 0;
 };
 
 }  // namespace brio

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "elements/element_state.hpp"
 #include "src/fields/strain.hpp"
@@ -52,6 +53,7 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> va
   add_point_fields(model, variables);
   if (std::ranges::find(variables, state_variable) != variables.end()) add_state(model);
   add_cell_fields(model, variables);
+  note_parts(model);
   take_topology(model);
   take_positions(model);
   reference_ = snapshot_.points;
@@ -152,11 +154,25 @@ void FieldObserver::add_state(const Model& model) {
   cell_source_.push_back({CellSource::Kind::state});
 }
 
+void FieldObserver::note_parts(const Model& model) {
+  for (const PartInModel& part : model.parts) {
+    std::int64_t first = part.node.empty() ? 0 : std::numeric_limits<std::int64_t>::max(), last = -1;
+    for (const int node : part.node) {
+      const std::int64_t point = point_of_node_[static_cast<std::size_t>(node)];
+      first = std::min(first, point);
+      last = std::max(last, point);
+    }
+    snapshot_.parts.push_back({.name = part.name, .first_point = first, .points = last + 1 - first});
+  }
+}
+
 // Cells of the elements that live, by part and element.
 void FieldObserver::take_topology(const Model& model) {
   Topology& topology = snapshot_.topology;
   topology = {};
-  for (const PartInModel& part : model.parts) {
+  for (std::size_t p = 0; p < model.parts.size(); ++p) {
+    const PartInModel& part = model.parts[p];
+    const std::size_t first_cell = topology.cell_type.size();
     const Block& block = model.blocks[part.block];
     const RigidBody* rigid =
         part.rigid >= 0 ? &model.rigid.body[static_cast<std::size_t>(part.rigid)] : nullptr;
@@ -174,6 +190,8 @@ void FieldObserver::take_topology(const Model& model) {
         topology.connectivity.push_back(point_of_node_[static_cast<std::size_t>(node)]);
       }
     }
+    snapshot_.parts[p].first_cell = static_cast<std::int64_t>(first_cell);
+    snapshot_.parts[p].cells = static_cast<std::int64_t>(topology.cell_type.size() - first_cell);
   }
   topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
   for (FieldArray& cell_field : snapshot_.cell_fields)

@@ -67,6 +67,7 @@ class FieldObserver {
   void add_cell_fields(const Model& model, std::span<const std::string> variables);
   void add_cell_field(std::string_view name, CellSource source);
   void add_state(const Model& model);
+  void note_parts(const Model& model);
   void take_topology(const Model& model);
   void take_positions(const Model& model);
   void number_points(const Model& model);

@@ -35,13 +35,21 @@ struct Topology {
   std::vector<std::int64_t> offset;  ///< cells + 1; cell c has connectivity[offset[c]] to [offset[c + 1])
 };
 
+/// Cells of one type that stand together, over points that may be those of other parts too.
+struct SnapshotPart {
+  std::string name;
+  std::int64_t first_cell = 0, cells = 0;
+  std::int64_t first_point = 0, points = 0;  ///< all that its cells refer to
+};
+
 /// The scene at one time. Every dump of one file holds the same fields in the same order.
 struct Snapshot {
   double time = 0;
   std::int64_t step = 0;
   std::vector<double> points;  ///< current x y z of every point
   Topology topology;
-  int topology_version = 0;  ///< raise it whenever topology or the number of points has changed
+  int topology_version = 0;         ///< raise it whenever topology or the number of points has changed
+  std::vector<SnapshotPart> parts;  ///< the same ones in every dump, also without cells; may be left empty
   std::vector<FieldArray> point_fields;
   std::vector<FieldArray> cell_fields;
   std::vector<FieldArray> global_fields;  ///< `components` values each

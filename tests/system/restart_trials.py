@@ -54,8 +54,9 @@ def tables(path):
 
 
 def expect_same(expected, folder, name):
-    require((folder / f"{name}.history.csv").read_bytes() == (expected / f"{name}.history.csv").read_bytes(),
-            "the history differs")
+    for what, ending in (("history", "history.csv"), ("description for ParaView", "xdmf2")):
+        require((folder / f"{name}.{ending}").read_bytes() == (expected / f"{name}.{ending}").read_bytes(),
+                f"the {what} differs")
     one, other = tables(expected / f"{name}.vtkhdf"), tables(folder / f"{name}.vtkhdf")
     require(one.keys() == other.keys(), "the result file has other tables")
     for table, values in one.items():

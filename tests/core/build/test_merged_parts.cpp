@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "src/output/observe.hpp"
+#include "tests/core/output/snapshot_parts.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -130,6 +131,7 @@ TEST(MergedParts, PointsAndMassesAreCountedOnce) {
   const Snapshot& snapshot = observer.observe(model);
   EXPECT_EQ(snapshot.points.size(), 3 * 45u);
   EXPECT_EQ(snapshot.topology.cell_type.size(), 32u);
+  expect_parts_hold_their_cells(snapshot);
   std::vector<int> uses(45, 0);
   for (const std::int64_t point : snapshot.topology.connectivity) ++uses[static_cast<std::size_t>(point)];
   EXPECT_EQ(std::count(uses.begin(), uses.end(), 0), 0);

@@ -11,6 +11,7 @@
 
 #include "src/output/observe.hpp"
 #include "tests/contact/allocation_count.hpp"
+#include "tests/core/output/snapshot_parts.hpp"
 #include "tests/core/sweep/erosion_scene.hpp"
 
 namespace brio {
@@ -260,6 +261,9 @@ TEST(Erosion, ResultsShowTheElementsThatLive) {
   EXPECT_NE(end.topology_version, start.topology_version);
   EXPECT_EQ(end.topology.cell_type.size(), living);
   EXPECT_EQ(end.points.size(), start.points.size());
+  EXPECT_LT(end.parts[0].cells, start.parts[0].cells);
+  EXPECT_EQ(end.parts[1].cells, 27);
+  expect_parts_hold_their_cells(end);
   const auto values = [&](const std::string& name) {
     for (const FieldArray& field : end.cell_fields)
       if (field.name == name) return field.values;

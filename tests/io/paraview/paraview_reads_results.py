@@ -1,4 +1,5 @@
-"""ParaView reads a result through its .xdmf2 companion: every array at every time, in random order.
+"""ParaView reads a result through its .xdmf2 companion, as a whole and by parts: every array at every time, in random
+order.
 
     xvfb-run -a pvbatch tests/io/paraview/paraview_reads_results.py WRITE_SCENE
 
@@ -13,10 +14,11 @@ import tempfile
 
 import numpy as np
 from paraview import servermanager, simple
+from vtk import vtkCompositeDataSet
 from vtk.util.numpy_support import vtk_to_numpy
 
 
-# XDMF's mixed list knows lines and vertices as polygons of lines and groups of vertices.
+# XDMF knows lines and vertices as polygons of lines and groups of vertices.
 TYPE_IN_XDMF = {1: 2, 3: 4, 9: 9, 12: 12}
 
 
@@ -53,19 +55,58 @@ def compare_dump(grid, dump):
             + compare_fields(f"global field at {time}", grid.GetFieldData(), dump["global_fields"]))
 
 
+def rows(field, first, count):
+    wide = field["components"]
+    return {"components": wide, "values": field["values"][wide * first:wide * (first + count)]}
+
+
+def of_part(dump, part):
+    """What a dump says of one part: its points are counted from its first."""
+    (cell, cells), (point, points) = part["cells"], part["points"]
+    begin, end = dump["offset"][cell], dump["offset"][cell + cells]
+    return {"time": dump["time"], "points": dump["points"][3 * point:3 * (point + points)],
+            "types": dump["types"][cell:cell + cells],
+            "connectivity": [p - point for p in dump["connectivity"][begin:end]],
+            "offset": [o - begin for o in dump["offset"][cell:cell + cells + 1]],
+            "point_fields": {n: rows(f, point, points) for n, f in dump["point_fields"].items()},
+            "cell_fields": {n: rows(f, cell, cells) for n, f in dump["cell_fields"].items()},
+            "global_fields": dump["global_fields"]}
+
+
+def compare_parts(blocks, dump):
+    names = [blocks.GetMetaData(i).Get(vtkCompositeDataSet.NAME()) for i in range(blocks.GetNumberOfBlocks())]
+    if names != [part["name"] for part in dump["parts"]]:
+        raise SystemExit(f"blocks at {dump['time']}: {names}")
+    compared = 1
+    for i, part in enumerate(dump["parts"]):
+        grid = blocks.GetBlock(i)
+        if part["cells"][1] > 0:
+            compared += compare_dump(grid, of_part(dump, part))
+        elif grid is not None and grid.GetNumberOfCells() > 0:
+            raise SystemExit(f"{part['name']} has {grid.GetNumberOfCells()} cells at {dump['time']}, written were none")
+    return compared
+
+
+def compare_result(path, dumps, order, compare_one):
+    """Returns the number of arrays compared, and the reader."""
+    reader = simple.OpenDataFile(path)
+    compare("times", reader.TimestepValues, [dump["time"] for dump in dumps])
+    compared = 0
+    for i in order:
+        reader.UpdatePipeline(dumps[i]["time"])
+        compared += compare_one(servermanager.Fetch(reader), dumps[i])
+    return compared, reader
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([sys.argv[1], folder], check=True)
         with open(os.path.join(folder, "expected.json"), encoding="utf-8") as file:
             dumps = json.load(file)
-        reader = simple.OpenDataFile(os.path.join(folder, "scene.xdmf2"))
-        compare("times", reader.TimestepValues, [dump["time"] for dump in dumps])
         order = 3 * list(range(len(dumps)))
         random.Random(1).shuffle(order)
-        compared = 0
-        for i in order:
-            reader.UpdatePipeline(dumps[i]["time"])
-            compared += compare_dump(servermanager.Fetch(reader), dumps[i])
+        compared, reader = compare_result(os.path.join(folder, "scene.xdmf2"), dumps, order, compare_dump)
+        compared += compare_result(os.path.join(folder, "by_parts/scene.xdmf2"), dumps, order, compare_parts)[0]
         labels = [reader.CellData["stress"].GetComponentName(c) for c in range(6)]
         compare("labels of stress", labels, ["XX", "YY", "ZZ", "XY", "YZ", "XZ"])
         print(f"{compared} arrays over {len(order)} visits of {len(dumps)} dumps are as written")

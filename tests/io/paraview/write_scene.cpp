@@ -1,4 +1,5 @@
-/// Writes the small scene of the result tests and, beside it, what a reader must find in it, as JSON.
+/// Writes the small scene of the result tests, as a whole and by parts, and beside it what a reader must find
+/// in it, as JSON.
 /// Usage: write_scene FOLDER
 
 #include <cstdio>
@@ -20,8 +21,18 @@ nlohmann::json expected_fields(const std::vector<brio::FieldArray>& fields) {
   return result;
 }
 
+nlohmann::json expected_parts(const brio::Snapshot& snapshot) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const brio::SnapshotPart& part : snapshot.parts)
+    result.push_back({{"name", part.name},
+                      {"cells", {part.first_cell, part.cells}},
+                      {"points", {part.first_point, part.points}}});
+  return result;
+}
+
 nlohmann::json expected_dump(const brio::Snapshot& snapshot) {
   return {{"time", snapshot.time},
+          {"parts", expected_parts(snapshot)},
           {"points", snapshot.points},
           {"types", snapshot.topology.cell_type},
           {"connectivity", snapshot.topology.connectivity},
@@ -32,13 +43,15 @@ nlohmann::json expected_dump(const brio::Snapshot& snapshot) {
 }
 
 void write_scene(const std::filesystem::path& folder) {
-  brio::ResultWriter writer(folder, "scene", {}, {"time"});
+  brio::ResultWriter writer(folder, "scene", {}, {"time"}),
+      part_writer(folder / "by_parts", "scene", {}, {"time"});
   nlohmann::json dumps = nlohmann::json::array();
   const std::vector<int> deleted_cells{0, 0, 1, 1, 3, 3, 7};
   for (std::size_t dump = 0; dump < deleted_cells.size(); ++dump) {
     const brio::Snapshot snapshot = brio::test::mixed_snapshot(static_cast<int>(dump), deleted_cells[dump]);
     writer.write(snapshot);
-    dumps.push_back(expected_dump(snapshot));
+    part_writer.write(brio::test::by_parts(snapshot));
+    dumps.push_back(expected_dump(brio::test::by_parts(snapshot)));
   }
   std::ofstream(folder / "expected.json") << dumps;
 }

@@ -74,6 +74,7 @@ class Restart : public testing::Test {
   void expect_same_results(const std::string& a, const std::string& b) const {
     EXPECT_FALSE(content(file(a, ".history.csv")).empty());
     EXPECT_TRUE(content(file(a, ".history.csv")) == content(file(b, ".history.csv")));
+    EXPECT_TRUE(content(file(a, ".xdmf2")) == content(file(b, ".xdmf2")));
     const ResultReader one(file(a, ".vtkhdf")), other(file(b, ".vtkhdf"));
     ASSERT_EQ(one.times(), other.times());
     EXPECT_EQ(one.history().values, other.history().values);

@@ -2,6 +2,7 @@
 /// A small scene whose every number can be told from its place, for tests of result files: a hexahedron row,
 /// two quadrilaterals, a line and a vertex; cells disappear as time goes on.
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include <unistd.h>
 
+#include "src/base/cell_type.hpp"
 #include "src/output/snapshot.hpp"
 
 namespace brio::test {
@@ -110,6 +112,23 @@ inline Snapshot mixed_snapshot(int dump, int topology_version) {
   s.global_fields = {{"total_energy", 1, field_values(dump, 4, 1, 1), Storage::double_precision},
                      {"momentum", 3, field_values(dump, 5, 1, 3), Storage::double_precision}};
   return s;
+}
+
+/// The scene by parts, each of one type of cells; points of the cable are those of its neighbours too.
+inline Snapshot by_parts(Snapshot scene) {
+  scene.parts = {{.name = "bricks", .points = 20},
+                 {.name = "plates", .first_point = 20, .points = 6},
+                 {.name = "cable", .first_point = 23, .points = 4},
+                 {.name = "mass", .first_point = 26, .points = 1}};
+  const std::vector<unsigned char>& types = scene.topology.cell_type;
+  std::int64_t first = 0;
+  for (std::size_t part = 0; part < 4; ++part) {
+    const CellType type = cell_with(8 >> part);
+    scene.parts[part].first_cell = first;
+    scene.parts[part].cells = std::count(types.begin(), types.end(), type);
+    first += scene.parts[part].cells;
+  }
+  return scene;
 }
 
 }  // namespace brio::test

@@ -82,7 +82,7 @@ int verified_dumps(const std::filesystem::path& path) {
   return count;
 }
 
-/// The description is whole, and describes no dump that is not there.
+/// The description is whole, describes no dump that is not there, and lacks no more than a tenth.
 void verify_xdmf(const std::filesystem::path& path, int dumps) {
   const std::string text = test::text_of(path);
   ASSERT_TRUE(text.ends_with("</Grid>\n</Domain>\n</Xdmf>\n"));
@@ -90,7 +90,7 @@ void verify_xdmf(const std::filesystem::path& path, int dumps) {
   for (std::size_t at = text.find("<Time"); at != std::string::npos; at = text.find("<Time", at + 1))
     ++described;
   EXPECT_LE(described, dumps);
-  EXPECT_GE(described, dumps - 1);
+  EXPECT_GT(11 * described, 10 * (dumps - 1));
 }
 
 /// \return rows of the history, compared with those written.

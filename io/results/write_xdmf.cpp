@@ -51,6 +51,13 @@ const char* attribute_type(std::int64_t components) {
   return components == 3 ? "Vector" : "Matrix";
 }
 
+/// Of a matrix the reader takes the last dimension as the number of components, from ParaView 6.1 on the
+/// product of the last two.
+std::string shape_of(const StoredArray& array) {
+  const bool is_matrix = array.components != 1 && array.components != 3;
+  return fmt::format("{}{} {}", array.rows, is_matrix ? " 1" : "", array.components);
+}
+
 /// Of a polyline or polyvertex the number of points in one must be said. Nothing: cells of several types.
 const char* topology_type(std::optional<CellType> type) {
   if (!type) return R"(TopologyType="Mixed")";
@@ -83,14 +90,15 @@ XdmfWriter::XdmfWriter(const std::string& heavy_file) : heavy_file_(escaped(heav
 // No blank before the first child: the reader would take the slabs of all times for one, and read it once.
 std::string XdmfWriter::slab(const StoredArray& array) const {
   return fmt::format(
-      "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{rows} {columns}\">"
+      "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{shape}\">"
       "<DataItem Dimensions=\"3 2\" NumberType=\"Int\" Precision=\"8\">{first} 0 1 1 {rows} "
       "{columns}</DataItem>"
       "<DataItem Dimensions=\"{total} {columns}\" {type} "
       "Format=\"HDF\">{file}:{dataset}</DataItem></DataItem>",
-      fmt::arg("rows", array.rows), fmt::arg("columns", array.components), fmt::arg("first", array.first_row),
-      fmt::arg("total", array.rows_in_file), fmt::arg("type", number_type(array.storage)),
-      fmt::arg("file", heavy_file_), fmt::arg("dataset", escaped(array.dataset)));
+      fmt::arg("shape", shape_of(array)), fmt::arg("rows", array.rows), fmt::arg("columns", array.components),
+      fmt::arg("first", array.first_row), fmt::arg("total", array.rows_in_file),
+      fmt::arg("type", number_type(array.storage)), fmt::arg("file", heavy_file_),
+      fmt::arg("dataset", escaped(array.dataset)));
 }
 
 // Of a dataset with one dimension.

@@ -85,6 +85,14 @@ TEST(XdmfFile, SceneOfMoreThanAHundredPartsIsShownWhole) {
   }
 }
 
+TEST(XdmfFile, SixComponentsAreAMatrixOfOneRow) {
+  const std::string text = description_of({by_parts(mixed_snapshot(0, 0))});
+  EXPECT_NE(block_of(text, "bricks")
+                .find("Name=\"stress\" AttributeType=\"Matrix\" Center=\"Cell\">"
+                      "<DataItem ItemType=\"HyperSlab\" Dimensions=\"4 1 6\">"),
+            std::string::npos);
+}
+
 /// So that the time to write it grows with the dumps, not with their square.
 TEST(XdmfFile, AllTextsOfARunAreElevenTimesTheLast) {
   const Folder folder;

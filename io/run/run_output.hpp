@@ -52,7 +52,7 @@ class RunOutput {
   void write_start();
 
   // A state is kept after so many steps and this share of those made: of ten thousand steps about 120.
-  static constexpr std::int64_t least_steps_between = 20, share_of_steps = 50;
+  static constexpr std::int64_t least_steps_between = 50, share_of_steps = 50;
 
   /// What was true at the state that the observer holds.
   struct GoodState {

@@ -8,6 +8,7 @@ void prepare_history(const Deck& deck, Model& model) {
   model.tells_rigid_bodies = history.rigid_bodies;
   if (model.tells_rigid_bodies && model.rigid.empty())
     throw BuildError("output.history.rigid_bodies: no part is rigid; accepted where one is");
+  model.tells_part_energies = history.part_energies;
   if (!history.forces) return;
   for (ContactScene& scene : model.contacts) scene.log = make_impulse_log(*history.forces, deck, model);
   model.forces = make_force_sums(*history.forces, deck, model);

@@ -215,6 +215,7 @@ struct HistoryOutput {
   std::vector<Probe> probes;
   std::optional<ForceOutput> forces;
   bool rigid_bodies = false;
+  bool part_energies = false;
   static constexpr auto fields() {
     return field_table(
         optional("every", &HistoryOutput::every, positive,
@@ -225,7 +226,9 @@ struct HistoryOutput {
                  "forces that are written as well: means over the time since the row before"),
         optional("rigid_bodies", &HistoryOutput::rigid_bodies, any_number,
                  "true: columns PART.centre_x, _y, _z of the centre of mass and PART.rotation_x, _y, _z, the "
-                 "rotation vector from the start, in radians and at most pi long, of every rigid part"));
+                 "rotation vector from the start, in radians and at most pi long, of every rigid part"),
+        optional("part_energies", &HistoryOutput::part_energies, any_number,
+                 "true: columns PART.kinetic, PART.internal, PART.hourglass of every part"));
   }
 };
 struct RestartOutput {

@@ -95,6 +95,7 @@ struct Model {
   std::vector<ProbeInRun> probes;           ///< one a probe of the deck
   std::optional<ForceSums> forces;          ///< if the deck asks for forces in the history
   bool tells_rigid_bodies = false;          ///< whether the deck asks for their motion in the history
+  bool tells_part_energies = false;         ///< whether the deck asks for those of each part
   std::vector<KineticEnergy> kinetic_sums;  ///< one a range of nodes
   StageTimes stages;
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "src/output/observe.hpp"
+#include "src/output/part_energy_columns.hpp"
 #include "src/output/result_order.hpp"
 #include "src/output/result_tables.hpp"
 #include "src/output/rigid_columns.hpp"
@@ -54,6 +55,7 @@ std::vector<std::string> history_columns(const Model& model) {
     for (const auto cause : deletion_causes) columns.push_back("deleted_by_" + std::string(cause));
   add_columns(model.probes, columns);
   if (model.tells_rigid_bodies) add_rigid_columns(model, columns);
+  if (model.tells_part_energies) add_part_energy_columns(model, columns);
   add_columns(model.springs, columns);
   if (model.forces) add_columns(*model.forces, columns);
   return columns;
@@ -87,6 +89,7 @@ void observe_history(Model& model, std::vector<double>& row) {
     for (const auto count : model.erosion->deleted_by_cause) row.push_back(static_cast<double>(count));
   add_values(model.probes, model.nodes, row);
   if (model.tells_rigid_bodies) add_rigid_values(model, row);
+  if (model.tells_part_energies) add_part_energy_values(model, row);
   add_values(model.springs, row);
   if (model.forces) add_values(*model.forces, row);
 }

@@ -84,6 +84,7 @@ output:
   history:
     probes: {top: {part: plate, point: [0, 0, 3]}}
     rigid_bodies: true
+    part_energies: true
     forces: {reactions: all, contact: all, sections: {cut: {part: block, point: [0, 0, 0.1], normal: [0, 0, 1]}}}
 )";
 

@@ -50,7 +50,7 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const std::string& name
 
 void ResultWriter::note_position() {
   lock_->check();
-  xdmf_.write(xdmf(), sync_each_time());
+  if (xdmf_.is_behind()) xdmf_.write(xdmf(), sync_each_time());
   for (const std::filesystem::path& file : {vtkhdf(), history_csv()}) sync_to_disk(file);
   const Hdf5File file = Hdf5File::open_to_read(vtkhdf());
   tables_ = file.tables();
@@ -145,7 +145,7 @@ void ResultWriter::write(const Summary& end_state) {
   lock_->check();
   if (!published_) publish();  // a run that failed before its first dump has ended as well
   const bool sync = settings_.sync != Sync::never;
-  xdmf_.write(xdmf(), sync_each_time());
+  if (xdmf_.is_behind()) xdmf_.write(xdmf(), sync_each_time());
   if (sync)
     for (const std::filesystem::path& file : {vtkhdf(), history_csv(), xdmf()})
       if (std::filesystem::exists(file)) sync_to_disk(file);

@@ -24,6 +24,9 @@ class XdmfWriter {
   /// all of them together have about eleven times the length of the last.
   bool is_due() const { return 10 * dumps_ >= 11 * written_; }
 
+  /// Whether there are dumps that are not written.
+  bool is_behind() const { return written_ < dumps_; }
+
   /// Write all dumps so far to a temporary name beside `path` and rename it: a reader sees the old text or
   /// the new. Nothing is written of no dump. \throws FileError
   void write(const std::filesystem::path& path, bool sync = false);

@@ -59,17 +59,19 @@ void RunOutput::write_now(const Snapshot* fields) {
 
 void RunOutput::write_what_is_due(ThreadTeam& team) {
   if (writing_.has_ended()) writing_.finish();  // a disk that is full ends the run now, not at the next dump
-  const bool row = history_schedule_.due(model_.times.time), fields = field_schedule_.due(model_.times.time);
-  write(row, fields, team);
+  const std::optional<double> fields = field_schedule_.due_within(model_.times.time, model_.times.next);
+  write(history_schedule_.due(model_.times.time), fields, team);
 }
 
 void RunOutput::write_last_state(ThreadTeam& team) {
-  write(last_row_ < model_.times.time, last_dump_ < model_.times.time, team);
+  std::optional<double> fields;
+  if (last_dump_ < model_.times.time) fields = model_.times.time;
+  write(last_row_ < model_.times.time, fields, team);
   const StageTimer timer(model_.stages, Stage::output);
   write_now(nullptr);
 }
 
-void RunOutput::write(bool row, bool fields, ThreadTeam& team) {
+void RunOutput::write(bool row, std::optional<double> fields, ThreadTeam& team) {
   const bool keeps = model_.step >= next_kept_;
   if (!row && !fields && !keeps) return;
   if (fields) audit_contacts(model_, team);
@@ -79,12 +81,12 @@ void RunOutput::write(bool row, bool fields, ThreadTeam& team) {
   if (fields || keeps) {
     writing_.finish();
     state_ = nullptr;  // the one before is written over
-    const Snapshot& state = observer_.observe(model_);
+    const Snapshot& state = observer_.observe(model_, fields.value_or(model_.times.time));
     if (const std::string fault = what_results_cannot_hold(state); !fault.empty())
       throw Breakdown(fault + " at time " + written(model_.times.time) +
                       " is too large for the results or not a number; check units and velocities of the "
                       "deck, else try a smaller time.step_scale");
-    keep(state, fields);
+    keep(state, fields.has_value());
     next_kept_ = model_.step + least_steps_between + model_.step / share_of_steps;
   }
   if (row) {
@@ -138,7 +140,7 @@ double RunOutput::restore(const RestartFile& restart, bool continues_results) {
     return seconds;
   }
   writer_.return_to_position();
-  field_schedule_.due(model_.times.time);
+  field_schedule_.due_within(model_.times.time, model_.times.next);
   history_schedule_.due(model_.times.time);
   keep(observer_.observe(model_), last_dump_ == model_.times.time);
   return seconds;

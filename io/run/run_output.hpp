@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,8 @@ class RunOutput {
   void begin_writing(const Snapshot* fields);
   /// Write rows, and fields unless null. \throws FileError
   void write_now(const Snapshot* fields);
-  void write(bool row, bool fields, ThreadTeam& team);
+  /// \param fields the time of them, if they are due
+  void write(bool row, std::optional<double> fields, ThreadTeam& team);
   void keep(const Snapshot& state, bool has_dump);
   void write_start();
 

@@ -23,6 +23,9 @@ Tensors have the components xx, yy, zz, xy, yz, xz on global axes; stress is Cau
 the kinds of elements of the deck have), or names. What is of shells or beams alone is not a number (NaN) in other elements, and a
 deck without any is refused such a name.
 
+A dump has the time that was asked for. Positions and displacements are of that time: in a time step nodes move evenly. Velocities are of
+that half step, and all else is of the beginning of the step, except with `state`, where a dump has the time of a step.
+
 | field | components | of | unit | meaning |
 | --- | --- | --- | --- | --- |
 )";

@@ -205,10 +205,11 @@ void FieldObserver::follow(const Model& model) {
   deleted_ = deleted_then;
 }
 
-void FieldObserver::take_positions(const Model& model) {
+void FieldObserver::take_positions(const Model& model, double after) {
   for (std::size_t p = 0; p < node_of_point_.size(); ++p) {
     const NodeRecord& record = model.nodes.record[static_cast<std::size_t>(node_of_point_[p])];
-    for (std::size_t i = 0; i < 3; ++i) snapshot_.points[3 * p + i] = record.position[i];
+    for (std::size_t i = 0; i < 3; ++i)
+      snapshot_.points[3 * p + i] = record.position[i] + after * record.velocity[i];
   }
 }
 
@@ -314,14 +315,14 @@ void FieldObserver::fill_cells(const Model& model) {
   }
 }
 
-const Snapshot& FieldObserver::observe(const Model& model) {
-  snapshot_.time = model.times.time;
+const Snapshot& FieldObserver::observe(const Model& model, double time) {
+  snapshot_.time = state_field_ == none ? time : model.times.time;
   snapshot_.step = model.step;
   if (deleted_so_far(model) != deleted_) {
     take_topology(model);
     ++snapshot_.topology_version;
   }
-  take_positions(model);
+  take_positions(model, snapshot_.time - model.times.time);
   fill_points(model);
   fill_cells(model);
   return snapshot_;

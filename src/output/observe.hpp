@@ -27,8 +27,11 @@ class FieldObserver {
   FieldObserver(const FieldObserver&) = delete;  // what fills its fields refers to it
   FieldObserver& operator=(const FieldObserver&) = delete;
 
-  /// Fields at the time of the step; call between update_velocities and update_positions.
-  const Snapshot& observe(const Model& model);
+  /// Fields at the time of the step; call between update_velocities and update_positions. \param time in the
+  /// step that begins: positions are those of that time, along which nodes move evenly. With `state` it is
+  /// that of the step, from which other runs can start.
+  const Snapshot& observe(const Model& model, double time);
+  const Snapshot& observe(const Model& model) { return observe(model, model.times.time); }
 
   /// Saved and restored (src/base/state_archive.hpp): which topology the last snapshot had.
   template <class Archive>
@@ -69,7 +72,7 @@ class FieldObserver {
   void add_state(const Model& model);
   void note_parts(const Model& model);
   void take_topology(const Model& model);
-  void take_positions(const Model& model);
+  void take_positions(const Model& model, double after = 0);
   void number_points(const Model& model);
   void fill_points(const Model& model);
   void fill_cells(const Model& model);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "src/deck/deck.hpp"
@@ -30,6 +31,23 @@ class OutputSchedule {
       next_ = index_ < times_.size() ? times_[index_] : HUGE_VAL;
     }
     return true;
+  }
+
+  /// The time that is due at a step or before the next, none if none is; then waits for one that is not.
+  std::optional<double> due_within(double time, double step) {
+    const double end = time + (1 - 1e-9) * step;  // what rounding takes for the next step is due there
+    if (!(next_ < end)) return {};
+    const double asked = next_;
+    if (interval_ > 0) {
+      double passed = std::floor(end / interval_);
+      if (interval_ * passed >= end) --passed;
+      next_ =
+          std::isfinite(passed) ? std::max(interval_ * (passed + 1), std::nextafter(asked, HUGE_VAL)) : end;
+    } else {
+      while (index_ < times_.size() && times_[index_] < end) ++index_;
+      next_ = index_ < times_.size() ? times_[index_] : HUGE_VAL;
+    }
+    return std::max(asked, time);
   }
 
   /// How often it is due from the start to an end, which is due in any case, by steps that are short.

@@ -134,6 +134,41 @@ TEST(OutputSchedule, IsDueAtTheStartThenOncePerInterval) {
   EXPECT_TRUE(schedule.due(0.5));
 }
 
+// The time is that which was asked for, in the step that reaches it; at its end it waits for the next step.
+TEST(OutputSchedule, IsDueInTheStepThatReachesATime) {
+  OutputSchedule schedule = OutputSchedule::every(0.1);
+  EXPECT_EQ(schedule.due_within(0, 0.04), 0);
+  EXPECT_EQ(schedule.due_within(0.04, 0.04), std::nullopt);
+  EXPECT_EQ(schedule.due_within(0.08, 0.04), 0.1);
+  EXPECT_EQ(schedule.due_within(0.12, 0.08), std::nullopt);
+  EXPECT_EQ(schedule.due_within(0.2, 0.04), 0.2);
+  EXPECT_EQ(schedule.due_within(0.24, 0.3), 0.1 * 3);  // several in one step count once
+  EXPECT_EQ(schedule.due_within(0.54, 0.04), std::nullopt);
+  OutputSchedule given = OutputSchedule::at({0.3, 0.1});
+  EXPECT_EQ(given.due_within(0, 0.1), 0);
+  EXPECT_EQ(given.due_within(0.1, 0.1), 0.1);
+  EXPECT_EQ(given.due_within(0.2, 0.11), 0.3);
+  EXPECT_EQ(given.due_within(0.31, 9), std::nullopt);
+}
+
+// Of steps whose sum is rounded, and of very many in an interval.
+TEST(OutputSchedule, EachTimeIsDueOnceInStepsOfAnySize) {
+  for (const double step : {0.1, 0.1 / 3, 1e-3 / 7, 1e-6}) {
+    OutputSchedule schedule = OutputSchedule::every(0.1);
+    double time = 0;
+    int count = 0;
+    while (time < 0.95) {
+      if (const auto asked = schedule.due_within(time, step)) {
+        EXPECT_NEAR(*asked, 0.1 * count, 1e-12);
+        EXPECT_LE(*asked - time, step);
+        ++count;
+      }
+      time += step;
+    }
+    EXPECT_EQ(count, 10) << step;
+  }
+}
+
 TEST(OutputSchedule, GivenTimesAreMetInOrder) {
   OutputSchedule schedule = OutputSchedule::at({0.3, 0.1});
   EXPECT_TRUE(schedule.due(0));

@@ -72,10 +72,18 @@ void add_overrides(CLI::App* command, std::vector<std::string>& overrides) {
       ->allow_extra_args(false);
 }
 
-void add_threads(CLI::App* command, int& threads) {
-  command->add_option("--threads", threads, "number of threads; default all processors")
+void add_threads(CLI::App* command, int& threads, bool& by_size) {
+  command
+      ->add_option_function<int>(
+          "--threads",
+          [&threads, &by_size](int number) {
+            threads = number;
+            by_size = false;
+          },
+          "number of threads; default all processors, but at most one for each thousand elements")
       ->check(CLI::Range(1, 1024));
   threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  by_size = true;
 }
 
 void add_run_command(CLI::App& program, const std::string& command_line, int& exit_code) {
@@ -84,7 +92,7 @@ void add_run_command(CLI::App& program, const std::string& command_line, int& ex
   CLI::App* command = program.add_subcommand("run", "Run a deck and write its results");
   command->add_option("deck", options.deck, "YAML deck")->required();
   command->add_option("--output", options.output, "result folder; default NAME.results here");
-  add_threads(command, options.threads);
+  add_threads(command, options.threads, options.threads_by_size);
   add_overrides(command, options.overrides);
   command
       ->add_option("--restart", options.restart,
@@ -130,7 +138,7 @@ void add_check_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "check", "Read a deck, build its scene, summarize it and predict the cost of a run");
   command->add_option("deck", options.deck, "YAML deck")->required();
-  add_threads(command, options.threads);
+  add_threads(command, options.threads, options.threads_by_size);
   const auto add_budget = [command](const char* name, const std::function<void(const std::string&)>& set,
                                     const char* meaning) {
     return command->add_option_function<std::string>(name, set, meaning)

@@ -117,7 +117,8 @@ RunOutcome run_with_log(RunOptions& options, RunLog& log, bool quiet) {
 int run(RunArguments& arguments) {
   arguments.options.stop = &noted_signal();
   arguments.options.built = note_signals;  // until then there is nothing to close
-  RunLog log(arguments.command, arguments.options.threads);
+  const char* bound = arguments.options.threads_by_size ? "at most " : "";
+  RunLog log(arguments.command, fmt::format("{}{}", bound, arguments.options.threads));
   const RunOutcome outcome = run_with_log(arguments.options, log, arguments.quiet);
   if (!outcome.message.empty()) tell(log, "\nbrio: " + outcome.message + "\n");
   for (const std::string& warning : outcome.summary.warnings) tell(log, "brio: warning: " + warning + "\n");

@@ -29,7 +29,7 @@ std::string name_of_machine() {
 
 }  // namespace
 
-RunLog::RunLog(const std::string& command, int threads)
+RunLog::RunLog(const std::string& command, const std::string& threads)
     : kept_(fmt::format("brio {}, {}, {}, threads {}\n{}\n", BRIO_VERSION, time_of_day(), name_of_machine(),
                         threads, command)) {}
 

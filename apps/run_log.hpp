@@ -11,7 +11,7 @@ namespace brio {
 class RunLog {
  public:
   /// Begins with the program, the command, the machine and the time of day.
-  RunLog(const std::string& command, int threads);
+  RunLog(const std::string& command, const std::string& threads);
   /// \param goes_on whether a log that is there is continued
   void open(const std::filesystem::path& path, bool goes_on);
   void add(const std::string& text);

@@ -1,11 +1,14 @@
 #include "io/run/check_deck.hpp"
 
+#include "io/run/run_deck.hpp"
 #include "src/output/observe.hpp"
 
 namespace brio {
 
-CheckReport check_deck(const ForecastOptions& options, const std::function<void(const CheckReport&)>& look) {
+CheckReport check_deck(const ForecastOptions& given, const std::function<void(const CheckReport&)>& look) {
+  ForecastOptions options = given;
   ScenePrepared scene = prepare_scene(options);
+  options.threads = threads_of(scene.model, options.threads, options.threads_by_size);
   const Deck& deck = scene.deck;
   const Model& model = scene.model;
   CheckReport report;

@@ -46,7 +46,7 @@ struct CheckReport {
 /// \param look is shown the report before the forecast, which takes time; forecast and `built` are still
 /// missing. \throws DeckError, and Breakdown where the first step cannot be made
 CheckReport check_deck(
-    const ForecastOptions& options,
+    const ForecastOptions& given,
     const std::function<void(const CheckReport&)>& look = [](const CheckReport&) {});
 
 /// Keys in full words; a number that is not finite becomes null.

@@ -15,6 +15,7 @@ struct ForecastOptions {
   std::filesystem::path deck;
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE
   int threads = 1;
+  bool threads_by_size = false;    ///< as of RunOptions
   double timed_run_s = 1;          ///< budget of the first timed run, by the work_clock
   double coarse_run_s = 0;         ///< budget of coarse runs and further timed steps; 0: none
   double coarse_run_fraction = 1;  ///< the same as a fraction of the predicted run

@@ -258,6 +258,13 @@ void make_first_step(const Deck& deck, Model& model, ThreadTeam& team) {
                     " are accepted: beyond, a step no longer changes the time");
 }
 
+int threads_of(const Model& model, int threads, bool by_size) {
+  constexpr std::size_t elements_a_thread = 1000;
+  std::size_t elements = 0;
+  for (const Block& block : model.blocks) elements += block.element_count;
+  return by_size ? std::clamp(static_cast<int>(elements / elements_a_thread), 1, threads) : threads;
+}
+
 RunOutcome run_deck(const RunOptions& options) {
   const auto start = Clock::now();
   Model model;
@@ -266,7 +273,8 @@ RunOutcome run_deck(const RunOptions& options) {
   if (options.notice)
     for (const std::string& notice : deck.mesh_notices) options.notice(notice);
   if (options.built) options.built();
-  ThreadTeam team(options.threads);
+  const int threads = threads_of(model, options.threads, options.threads_by_size);
+  ThreadTeam team(threads);
   // A first step finds what is wrong with a scene, and what a restored state does not hold.
   const std::string fault = restart ? "" : fault_of([&] { make_first_step(deck, model, team); });
   const std::string name = options.deck.stem().string();
@@ -277,7 +285,7 @@ RunOutcome run_deck(const RunOptions& options) {
                          .deck_text = deck.text,
                          .overrides = options.overrides,
                          .version = BRIO_VERSION,
-                         .threads = options.threads,
+                         .threads = threads,
                          .mesh_checksums = deck.mesh_checksums,
                          .program = writes_states(deck) ? program_checksum_text() : ""};
   const auto published = [&options, log = outcome.folder / (name + ".log")](bool goes_on) {
@@ -319,7 +327,7 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.summary.status = state.status;
   outcome.summary.exit_code = state.exit_code;
   if (restart) outcome.summary.restarted_from = restart->path.string();
-  outcome.summary.threads = options.threads;
+  outcome.summary.threads = threads;
   outcome.summary.peak_memory_mb = peak_memory_mb();
   outcome.summary.wall_s.total = run.seconds();
   outcome.summary.element_updates_per_s =

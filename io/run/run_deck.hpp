@@ -31,11 +31,16 @@ struct Progress {
   double remaining_s = 0;  ///< if the rest goes on like the last part
 };
 
+/// With fewer elements than a thousand a thread, threads cost more than they gain. \param by_size whether a
+/// small scene has fewer than `threads`
+int threads_of(const Model& model, int threads, bool by_size);
+
 struct RunOptions {
   std::filesystem::path deck;
   std::vector<std::string> overrides;  ///< KEY.PATH=VALUE
   std::filesystem::path output;        ///< result folder; empty: NAME.results where the program runs
   int threads = 1;
+  bool threads_by_size = false;          ///< whether a small scene has fewer threads (`threads_of`)
   bool overwrite = false;                ///< whether results of an earlier run are removed, not moved aside
   std::filesystem::path restart;         ///< restart file of a run that goes on; empty: one that begins
   std::optional<double> stop_after_s{};  ///< wall time after which the run is saved and stops

@@ -34,6 +34,16 @@ boundary_conditions: [{rigid_wall: {point: [0, 0, -0.6], normal: [0, 0, 1]}}]
 time: {end: 0.03}
 )";
 
+// Of which threads cost more than they gain.
+TEST_F(Program, ASmallSceneHasOneThreadUnlessMoreAreAskedFor) {
+  write("cube.yaml", small_deck);
+  ASSERT_EQ(brio("run cube.yaml --quiet").exit_code, 0);
+  EXPECT_EQ(summary("cube")["threads"], 1);
+  ASSERT_EQ(brio("run cube.yaml --quiet --overwrite --threads 3").exit_code, 0);
+  EXPECT_EQ(summary("cube")["threads"], 3);
+  EXPECT_NE(brio("check cube.yaml --coarse-run=0").output.find("for 1 thread,"), std::string::npos);
+}
+
 TEST_F(Program, RunsADeckAndLeavesItsResults) {
   write("cube.yaml", small_deck);
   const Ending ending = brio("run cube.yaml");

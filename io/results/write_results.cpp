@@ -121,24 +121,43 @@ void ResultWriter::publish() {
   if (sync_each_time()) sync_to_disk(folder_);
 }
 
-void ResultWriter::write(const Snapshot& snapshot) {
+Hdf5File ResultWriter::open() const {
   lock_->check();
-  Hdf5File file = Hdf5File::open_to_append(current(".vtkhdf"), sync_each_time());
+  return Hdf5File::open_to_append(current(".vtkhdf"), sync_each_time());
+}
+
+void ResultWriter::append(Hdf5File& file, const Snapshot& snapshot) {
   const StoredDump dump = dumps_.append(file, snapshot);
-  file.close();
   if (!published_) publish();
   xdmf_.append(dump);
   if (xdmf_.is_due()) xdmf_.write(xdmf(), sync_each_time());
 }
 
-void ResultWriter::write(History& history) {
-  if (history.pending_rows() == 0) return;
-  lock_->check();
-  Hdf5File file = Hdf5File::open_to_append(current(".vtkhdf"), sync_each_time());
+void ResultWriter::append(Hdf5File& file, History& history) {
   append_history(file, history);
-  file.close();
+  file.commit();
   append_history_csv(current(".history.csv"), history, sync_each_time());
   history.clear_pending();
+}
+
+void ResultWriter::write(const Snapshot& snapshot) {
+  Hdf5File file = open();
+  append(file, snapshot);
+  file.close();
+}
+
+void ResultWriter::write(History& history) {
+  if (history.pending_rows() == 0) return;
+  Hdf5File file = open();
+  append(file, history);
+  file.close();
+}
+
+void ResultWriter::write(const Snapshot& snapshot, History& history) {
+  Hdf5File file = open();
+  append(file, snapshot);
+  if (history.pending_rows() > 0) append(file, history);
+  file.close();
 }
 
 void ResultWriter::write(const Summary& end_state) {

@@ -34,6 +34,8 @@
 
 namespace brio {
 
+class Hdf5File;
+
 struct ResultSettings {
   int compression = 0;  ///< gzip level of points and fields; 0 is about ten times faster
   Sync sync = Sync::never;
@@ -71,6 +73,9 @@ class ResultWriter {
   /// Append the pending rows to the result file and the CSV file, and clear them. \throws FileError
   void write(History& history);
 
+  /// Both, as one after the other.
+  void write(const Snapshot& snapshot, History& history);
+
   /// The end of the run. \throws FileError
   void write(const Summary& summary);
 
@@ -84,6 +89,9 @@ class ResultWriter {
   std::filesystem::path path(const char* ending) const { return folder_ / (name_ + ending); }
   /// Where the file grows at present.
   std::filesystem::path current(const char* ending) const;
+  Hdf5File open() const;
+  void append(Hdf5File& file, const Snapshot& snapshot);
+  void append(Hdf5File& file, History& history);
   void publish();
   void remove_earlier() const;
   void move_earlier_aside() const;

@@ -45,8 +45,10 @@ void RunOutput::begin_writing(const Snapshot* fields) {
   writing_.finish();
   std::swap(history_, written_);
   writing_.start([this, fields] {
-    if (fields != nullptr) writer_.write(*fields);
-    writer_.write(written_);
+    if (fields != nullptr)
+      writer_.write(*fields, written_);
+    else
+      writer_.write(written_);
   });
   if (!has_begun_) writing_.finish();  // the first names the files, and calls back
   has_begun_ = true;

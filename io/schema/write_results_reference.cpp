@@ -20,7 +20,7 @@ area, `-` is none.
 
 Tensors have the components xx, yy, zz, xy, yz, xz on global axes; stress is Cauchy's, and tension is positive.
 `output.fields.variables` chooses those of elements, and of points those that are not always written: `default`, `all` (those that
-the kinds of elements of the deck have), or names. What is of shells or beams alone is not a number (NaN) in other elements, and a
+the kinds of elements of the deck have), or names. What is of some kinds of elements alone is not a number (NaN) in others, and a
 deck without any is refused such a name.
 
 | field | components | of | unit | meaning |
@@ -36,6 +36,7 @@ std::string field_row(std::string_view name, int components, std::string_view of
 std::string kinds_of(const CellVariable& variable) {
   if (variable.of == &ElementTraits::has_thickness) return "shells";
   if (variable.of == &ElementTraits::has_section) return "beams";
+  if (variable.of == &ElementTraits::has_hourglass_control) return "hex8, shells, particles";
   return variable.is_partial() ? "hexahedra, shells" : "elements";
 }
 
@@ -58,7 +59,7 @@ std::string field_rows() {
   return rows +
          "| a name of a material's history, such as `temperature` | 1 | elements | of the law | largest or "
          "mean of "
-         "the integration points; 0 in materials that do not know it |\n";
+         "the integration points; NaN in materials that do not know it |\n";
 }
 
 template <class Rows>

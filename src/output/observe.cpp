@@ -27,7 +27,8 @@ bool any_has(const Model& model, bool ElementTraits::*trait) {
 ElementSample sample_of(const Model& model, const PartInModel& part, std::size_t element) {
   if (part.rigid >= 0) {
     ElementSample sample{};
-    sample.thickness = model.rigid.body[static_cast<std::size_t>(part.rigid)].thickness;
+    const double thickness = model.rigid.body[static_cast<std::size_t>(part.rigid)].thickness;
+    if (thickness > 0) sample.thickness = thickness;
     return sample;
   }
   const Block& block = model.blocks[part.block];
@@ -108,7 +109,13 @@ void FieldObserver::add_cell_field(std::string_view name, CellSource source) {
   const int components = source.variable != nullptr ? source.variable->components : 1;
   snapshot_.cell_fields.push_back(
       field(std::string(name), components, 0, fixed ? Storage::integer : Storage::single_precision, fixed));
-  snapshot_.cell_fields.back().is_partial = source.variable != nullptr && source.variable->is_partial();
+  // Without plasticity there is no plastic strain, and without failure no damage: 0. Of what other laws alone
+  // know, not a number.
+  snapshot_.cell_fields.back().is_partial =
+      source.variable != nullptr
+          ? source.variable->is_partial()
+          : source.kind == CellSource::Kind::history &&
+                std::ranges::find(default_fields(), name, &DefaultField::name) == default_fields().end();
   cell_source_.push_back(source);
 }
 
@@ -116,8 +123,9 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
   using Kind = CellSource::Kind;
   const auto add_variable = [&](std::string_view name) {
     const CellVariable& variable = cell_variable(name);
-    add_cell_field(name, {variable.values == nullptr ? Kind::strain : Kind::variable, &variable});
-    if (variable.values == nullptr) note_thickness(model);
+    const Kind of_nodes = name == "strain_rate" ? Kind::strain_rate : Kind::strain;
+    add_cell_field(name, {variable.values == nullptr ? of_nodes : Kind::variable, &variable});
+    if (name == "strain") note_thickness(model);
   };
   const bool has_default =
       variables.empty() || std::ranges::find(variables, default_group) != variables.end();
@@ -224,29 +232,49 @@ void FieldObserver::note_thickness(const Model& model) {
   }
 }
 
-// Of hexahedra and shells that are not rigid.
-void FieldObserver::strain_of(const ElementSample& sample, const Cell& at, double* out) const {
-  std::fill_n(out, 6, ElementSample::undefined);
+// Of hexahedra and shells that are not rigid; none of others.
+std::span<const std::int64_t> FieldObserver::strained_corners(const Model& model, const Cell& at) const {
   const Topology& topology = snapshot_.topology;
   const auto first = static_cast<std::size_t>(topology.offset[at.number]),
              count = static_cast<std::size_t>(topology.offset[at.number + 1]) - first;
-  const bool shell = count == 4;
-  if (count < 4 || (shell && thickness_[at.part].empty())) return;
+  if (count < 4 || model.parts[at.part].rigid >= 0) return {};
+  return std::span(topology.connectivity).subspan(first, count);
+}
+
+SymmetricTensor<double> FieldObserver::strain_of(const Model& model, const ElementSample& sample,
+                                                 const Cell& at) const {
+  const std::span<const std::int64_t> corner = strained_corners(model, at);
+  if (corner.empty()) return ElementSample::undefined_tensor;
   std::array<Eigen::Vector3d, 8> before, now;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto point = static_cast<std::size_t>(topology.connectivity[first + k]);
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const auto point = static_cast<std::size_t>(corner[k]);
     before[k] = Eigen::Vector3d(&reference_[3 * point]);
     now[k] = Eigen::Vector3d(&snapshot_.points[3 * point]);
   }
-  const std::span<const Eigen::Vector3d> from(before.data(), count), to(now.data(), count);
-  const SymmetricTensor<double> strain = logarithmic_strain(
-      shell ? deformation_of_shell(from, to, sample.thickness / thickness_[at.part][at.place])
-            : deformation_of_hexahedron(from, to));
-  std::ranges::copy(std::array{strain.xx, strain.yy, strain.zz, strain.xy, strain.yz, strain.xz}, out);
+  const std::span<const Eigen::Vector3d> from(before.data(), corner.size()), to(now.data(), corner.size());
+  return logarithmic_strain(
+      corner.size() == 4 ? deformation_of_shell(from, to, sample.thickness / thickness_[at.part][at.place])
+                         : deformation_of_hexahedron(from, to));
 }
 
-void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
-                              FieldArray& field) const {
+// On the shape of the half step, where a rotation by steps of any size strains nothing.
+SymmetricTensor<double> FieldObserver::strain_rate_of(const Model& model, const Cell& at) const {
+  const std::span<const std::int64_t> corner = strained_corners(model, at);
+  if (corner.empty()) return ElementSample::undefined_tensor;
+  std::array<Eigen::Vector3d, 8> now, velocity;
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const auto node = static_cast<std::size_t>(node_of_point_[static_cast<std::size_t>(corner[k])]);
+    const NodeRecord& record = model.nodes.record[node];
+    velocity[k] = Eigen::Vector3d(record.velocity);
+    now[k] = Eigen::Vector3d(record.position) + 0.5 * model.times.next * velocity[k];
+  }
+  const std::span<const Eigen::Vector3d> place(now.data(), corner.size()),
+      rate(velocity.data(), corner.size());
+  return corner.size() == 4 ? strain_rate_of_shell(place, rate) : strain_rate_of_hexahedron(place, rate);
+}
+
+void FieldObserver::fill_cell(const Model& model, const CellSource& source, const ElementSample& sample,
+                              const Cell& at, FieldArray& field) const {
   double* values = &field.values[static_cast<std::size_t>(field.components) * at.number];
   switch (source.kind) {
     case CellSource::Kind::part:
@@ -259,10 +287,13 @@ void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sam
       source.variable->values(sample, values);
       return;
     case CellSource::Kind::strain:
-      strain_of(sample, at, values);
+      write_components(strain_of(model, sample, at), values);
+      return;
+    case CellSource::Kind::strain_rate:
+      write_components(strain_rate_of(model, at), values);
       return;
     case CellSource::Kind::history:
-      *values = sample.named(field.name);
+      *values = sample.named(field.name, field.is_partial ? ElementSample::undefined : 0);
       return;
     case CellSource::Kind::state:
       return;  // no sample tells it
@@ -289,7 +320,8 @@ void FieldObserver::fill_cells(const Model& model) {
       if (part.element_slot[e] < 0 && part.rigid < 0) continue;
       const ElementSample sample = sample_of(model, part, e);
       for (std::size_t k = 0; k < cell_source_.size(); ++k)
-        fill_cell(cell_source_[k], sample, {p, e, part.number_of_element(e), cell}, snapshot_.cell_fields[k]);
+        fill_cell(model, cell_source_[k], sample, {p, e, part.number_of_element(e), cell},
+                  snapshot_.cell_fields[k]);
       if (state_field_ != none) fill_state(model, part, e, cell);
       ++cell;
     }

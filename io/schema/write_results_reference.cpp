@@ -3,6 +3,7 @@
 #include "io/schema/write_schema.hpp"
 #include "src/fields/cell_variables.hpp"
 #include "src/fields/contact_fields.hpp"
+#include "src/fields/rotation.hpp"
 #include "src/output/result_tables.hpp"
 
 namespace brio {
@@ -54,6 +55,9 @@ std::string field_rows() {
   for (const PointVariable& variable : contact_variables())
     rows += field_row(variable.name, variable.components, "points, with contact", variable.unit,
                       variable.meaning);
+  const PointVariable& rotation = rotation_variable();
+  rows += field_row(rotation.name, rotation.components, "points, with shells or beams", rotation.unit,
+                    rotation.meaning);
   for (const DefaultField& field : state_fields())
     rows += field_row(field.name, field.components, field.of, field.unit, field.meaning);
   return rows +

@@ -324,7 +324,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads, std::sp
   start_balances(model);
   add_energies(states, model);
   make_springs(deck, meshes, model);
-  prepare_history(deck, model);
+  prepare_output(deck, model);
   return model;
 }
 

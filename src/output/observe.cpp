@@ -35,6 +35,11 @@ ElementSample sample_of(const Model& model, const PartInModel& part, std::size_t
   return block.kernel.sample(block, model.nodes, static_cast<std::size_t>(part.element_slot[element]));
 }
 
+bool is_of_points(std::string_view name) {
+  return name == rotation_variable().name ||
+         std::ranges::find(contact_variables(), name, &PointVariable::name) != contact_variables().end();
+}
+
 bool has_ids(const Model& model) {
   return std::any_of(model.parts.begin(), model.parts.end(),
                      [](const PartInModel& part) { return !part.node_id.empty(); });
@@ -63,7 +68,7 @@ void FieldObserver::add_point_field(FieldArray field, PointValues values) {
   point_values_.push_back(std::move(values));
 }
 
-void FieldObserver::add_contact_field(const PointVariable& variable) {
+void FieldObserver::add_point_variable(const PointVariable& variable) {
   FieldArray added = field(std::string(variable.name), variable.components, node_of_point_.size());
   added.is_partial = variable.is_partial;
   add_point_field(std::move(added), [&variable, this](const Model& model, std::size_t point, double* out) {
@@ -92,10 +97,11 @@ void FieldObserver::add_point_fields(const Model& model, std::span<const std::st
                       std::copy_n(now.nodes.angular_velocity[node].component, 3, out);
                     });
   if (!model.contacts.empty()) {
-    add_contact_field(contact_force_variable());
+    add_point_variable(contact_force_variable());
     for (const PointVariable& variable : contact_variables())
-      if (std::ranges::find(variables, variable.name) != variables.end()) add_contact_field(variable);
+      if (std::ranges::find(variables, variable.name) != variables.end()) add_point_variable(variable);
   }
+  if (!model.rotations.empty()) add_point_variable(rotation_variable());
   if (!has_ids(model)) return;
   number_points(model);
   add_point_field(field("node_id", 1, points, Storage::integer, true),
@@ -140,9 +146,7 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
     if (can_be_damaged(model)) add_cell_field("damage", {Kind::history});
   }
   for (const std::string& name : variables) {
-    if (name == default_group || name == state_variable ||
-        std::ranges::find(contact_variables(), name, &PointVariable::name) != contact_variables().end())
-      continue;
+    if (name == default_group || name == state_variable || is_of_points(name)) continue;
     if (std::ranges::find(chosen_variables(), name, &CellVariable::name) != chosen_variables().end())
       add_variable(name);
     else

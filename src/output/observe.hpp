@@ -9,6 +9,7 @@
 
 #include "src/fields/cell_variables.hpp"
 #include "src/fields/contact_fields.hpp"
+#include "src/fields/rotation.hpp"
 #include "src/model/model.hpp"
 #include "src/output/history.hpp"
 #include "src/output/snapshot.hpp"
@@ -61,7 +62,7 @@ class FieldObserver {
                  FieldArray& field) const;
   void add_point_fields(const Model& model, std::span<const std::string> variables);
   void add_point_field(FieldArray field, PointValues values);
-  void add_contact_field(const PointVariable& variable);
+  void add_point_variable(const PointVariable& variable);
   void note_thickness(const Model& model);
   std::span<const std::int64_t> strained_corners(const Model& model, const Cell& at) const;
   SymmetricTensor<double> strain_of(const Model& model, const ElementSample& sample, const Cell& at) const;

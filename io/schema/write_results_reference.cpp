@@ -46,7 +46,8 @@ std::string field_rows() {
                      field_row("velocity", 3, "points", "velocity", "of the last half step");
   const PointVariable& force = contact_force_variable();
   rows += field_row(force.name, force.components, "points, with contact", force.unit, force.meaning);
-  rows += field_row("node_id", 1, "points, with mesh files", "-", "number in the file");
+  rows += field_row("node_id", 1, "points, with mesh files", "-",
+                    "number in the file; of generated meshes likewise as `element_id`");
   for (const DefaultField& field : default_fields())
     rows += field_row(field.name, field.components, field.of, field.unit, field.meaning);
   for (const CellVariable& variable : chosen_variables())

@@ -112,7 +112,10 @@ constexpr DefaultField told_by_default[] = {
     {"radius", 1, "elements, with beams or particles", "length", "NaN in other elements"},
     {"density", 1, "elements, with particles", "density", "NaN in other elements"},
     {"part", 1, "elements, always", "-", "index of the part in the deck from 0"},
-    {"element_id", 1, "elements, always", "-", "number of the element in its mesh"}};
+    {"element_id", 1, "elements, always", "-",
+     "number of the element in its mesh file; elements of generated meshes have those after the largest of "
+     "files, "
+     "or from 0, in the order of the deck: unique over the scene unless two files have the same"}};
 constexpr DefaultField of_state[] = {
     {"state", 0, "elements but particles, by its name alone", "",
      "all that elements remember, in double precision, as many numbers as the largest has, from which other "

@@ -308,5 +308,35 @@ TEST(CellVariables, OfOtherKindsAndMaterialsAreNotANumber) {
   EXPECT_EQ(what_results_cannot_hold(snapshot), "");
 }
 
+std::vector<double> field_of(const Model& model, const std::string& name) {
+  FieldObserver observer(model);
+  const Snapshot& snapshot = observer.observe(model);
+  for (const auto* list : {&snapshot.point_fields, &snapshot.cell_fields})
+    for (const FieldArray& field : *list)
+      if (field.name == name) return field.values;
+  return {};
+}
+
+// Those of a file stay, and generated ones go on behind the largest of any file.
+TEST(CellVariables, NumbersAreUniqueOverTheScene) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  deck.parts = {box("first", {1, 1, 1}, {1, 1, 2}, {0, 0, 0}, hex8()),
+                box("file", {1, 1, 1}, {1, 1, 1}, {3, 0, 0}, hex8()),
+                box("rigid", {1, 1, 1}, {1, 1, 1}, {6, 0, 0}, Rigid{})};
+  deck.time.end = 1;
+  std::vector<Mesh> meshes;
+  for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
+  EXPECT_EQ(field_of(build(deck, meshes), "element_id"), (std::vector<double>{0, 1, 2, 3}));
+  meshes[1].element_id = {70};
+  for (std::int64_t node = 0; node < 8; ++node) meshes[1].node_id.push_back(100 - node);
+  const Model model = build(deck, meshes);
+  EXPECT_EQ(field_of(model, "element_id"), (std::vector<double>{71, 72, 70, 73}));
+  std::vector<double> nodes = field_of(model, "node_id");
+  EXPECT_EQ(nodes[12], 100);
+  std::ranges::sort(nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_EQ(nodes[i], 93 + static_cast<double>(i));
+}
+
 }  // namespace
 }  // namespace brio

@@ -188,8 +188,7 @@ def place_camera(view, box, direction, zoom, aspect):
 
 
 def thick_shapes(source, time):
-    """Tubes and spheres. A sphere of its radius in the middle of a beam is inside its tube, so that beams and
-    particles need not be told apart."""
+    """Tubes, and spheres of their radius at all nodes: particles, and joints that leave no gap where beams meet."""
     if "radius" not in source.CellData.keys():
         return []
     with_radius = simple.Threshold(Input=source, Scalars=["CELLS", "radius"])
@@ -199,10 +198,11 @@ def thick_shapes(source, time):
     tubes = simple.Tube(Input=surface, Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar", NumberofSides=12)
     tubes.UpdatePipeline(time)
     shapes = [tubes] if tubes.GetDataInformation().GetNumberOfPoints() > 0 else []  # ParaView cannot show what is empty
-    on_cells = simple.PointDatatoCellData(Input=with_radius)  # centres have what cells have
-    centres = simple.CellCenters(Input=on_cells, VertexCells=1)
-    spheres = simple.Glyph(Input=centres, GlyphType="Sphere", ScaleArray=["POINTS", "radius"], ScaleFactor=2.0,
+    apart = simple.Shrink(Input=with_radius, ShrinkFactor=1.0)  # each cell with nodes of its own, which have its values
+    ends = simple.CellDatatoPointData(Input=apart)
+    spheres = simple.Glyph(Input=ends, GlyphType="Sphere", ScaleArray=["POINTS", "radius"], ScaleFactor=2.0,
                            GlyphMode="All Points")
+    spheres.GlyphType.ThetaResolution = spheres.GlyphType.PhiResolution = 12
     return shapes + [spheres]
 
 

@@ -264,8 +264,9 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
     Law::named_history()([&](const auto& row) {
       sample.history[next++] = history_value(law, row, points.data(), count);
       if (row.name != "equivalent_plastic_strain" || !Kind::Settings::traits.has_thickness) return;
-      for (ElementSample::Side* side : {&sample.top, &sample.bottom})
-        side->plastic_strain = history_value(law, row, &points[side->point], 1);
+      for (ElementSample::Layer* layer : {&sample.top, &sample.middle, &sample.bottom})
+        if (layer->point != ElementSample::Layer::none)
+          layer->plastic_strain = history_value(law, row, &points[layer->point], 1);
     });
   }
   return sample;

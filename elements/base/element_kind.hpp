@@ -71,6 +71,7 @@ struct ElementTraits {
   bool has_radius = false;
   bool has_density = false;
   bool has_section = false;
+  bool has_hourglass_control = false;
 };
 
 /// What the sweep asks of a kernel.

@@ -19,34 +19,38 @@ struct ElementSample {
 
   SymmetricTensor<double> stress{};  ///< Cauchy stress; mean over the points
   double internal_energy = 0;
-  double thickness = 0;  ///< shells; 0 for others
-  double radius = 0;     ///< beams and particles; 0 for others
-  double density = 0;    ///< particles; 0 for others
+  double hourglass_energy = undefined;  ///< stored; kinds with hourglass control
+  double volume = undefined;            ///< present
+  double thickness = undefined;         ///< shells
+  double radius = undefined;            ///< beams and particles
+  double density = undefined;           ///< particles
 
-  /// Shells: at the outermost integration point on one side.
-  struct Side {
-    std::size_t point = 0;
+  /// Shells: at one integration point of the thickness.
+  struct Layer {
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::size_t point = none;
     SymmetricTensor<double> stress = undefined_tensor;
     double plastic_strain = undefined;  ///< the sweep fills it
   };
-  Side top{}, bottom{};  ///< the normal points to the top
+  Layer top{}, middle{}, bottom{};  ///< the outermost, the normal points to the top; of even rules no middle
   /// Shells: integral over the thickness of the place, from the middle to the top, times the stress; force.
   SymmetricTensor<double> bending_moment = undefined_tensor;
 
   /// Beams, in the middle, on axes of the section: along the beam, y and z.
   std::array<double, 3> section_force{undefined, undefined, undefined};   ///< axial force, shear forces
   std::array<double, 3> section_moment{undefined, undefined, undefined};  ///< torque, bending moments
+  double twist = undefined;  ///< rotation about the axis over the initial length, where ends turn
 
   // Of the law, whatever the element (materials/named_history.hpp); the sweep fills it.
   static constexpr std::size_t most_named = 8;
   std::span<const std::string_view> history_names{};
   std::array<double, most_named> history{};
 
-  /// The value of that name; 0 where the law knows none.
-  double named(std::string_view name) const {
+  /// The value of that name. \param otherwise where the law knows none
+  double named(std::string_view name, double otherwise = undefined) const {
     for (std::size_t k = 0; k < history_names.size(); ++k)
       if (history_names[k] == name) return history[k];
-    return 0;
+    return otherwise;
   }
 };
 

@@ -151,6 +151,7 @@ struct Beam2Kernel : Beam2 {
       const Quaternion<double> middle = middle_of(header.triad[0], header.triad[1]);
       x = rotated(middle, Vector3<double>{1, 0, 0});
       shear = rotated(middle, Vector3<double>{0, mean.xy, mean.xz});
+      out.twist = header.strain.bend.x / header.length;
     }
     out.stress = {mean.xx * x.x * x.x + 2 * x.x * shear.x,
                   mean.xx * x.y * x.y + 2 * x.y * shear.y,
@@ -159,6 +160,7 @@ struct Beam2Kernel : Beam2 {
                   mean.xx * x.y * x.z + x.y * shear.z + x.z * shear.y,
                   mean.xx * x.x * x.z + x.x * shear.z + x.z * shear.x};
     out.internal_energy = header.internal_energy;
+    out.volume = fibres->area * header.length;
     out.radius = fibres->radius;
     return out;
   }

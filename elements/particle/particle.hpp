@@ -33,7 +33,8 @@ struct Particle {
                                         .gains_mass = false,
                                         .shares_nodes = false,
                                         .has_radius = true,
-                                        .has_density = true};
+                                        .has_density = true,
+                                        .has_hourglass_control = true};
   template <class Law>
   static constexpr bool accepts = is_solid_law<Law>;
 

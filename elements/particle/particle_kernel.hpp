@@ -254,6 +254,8 @@ struct ParticleKernel : Particle {
                        const Point<double, Law>* point) const {
     return {.stress = fixed_stress(*point),
             .internal_energy = header.internal_energy,
+            .hourglass_energy = header.hourglass_energy,
+            .volume = header.volume,
             .radius = 0.5 * edge_of_cube(header.volume),
             .density = header.mass / header.volume};
   }

@@ -14,8 +14,10 @@ struct Shell4 {
   static constexpr std::string_view name = "shell4";
   static constexpr int nodes = 4;
   static constexpr bool rotations = true;
-  static constexpr ElementTraits traits{
-      .cell = quadrilateral_cell, .summary_key = "shell4", .has_thickness = true};
+  static constexpr ElementTraits traits{.cell = quadrilateral_cell,
+                                        .summary_key = "shell4",
+                                        .has_thickness = true,
+                                        .has_hourglass_control = true};
   template <class Law>
   static constexpr bool accepts = Law::traits.update_plane_stress;
 

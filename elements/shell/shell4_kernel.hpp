@@ -146,21 +146,38 @@ struct Shell4Kernel : Shell4 {
       const auto k = static_cast<std::size_t>(p);
       mean = mean + rule().weight[k] * point[p].stress;
       first_moment = first_moment + rule().weight[k] * rule().place[k] * point[p].stress;
-      if (rule().place[k] > rule().place[out.top.point]) out.top.point = k;
-      if (rule().place[k] < rule().place[out.bottom.point]) out.bottom.point = k;
+      if (rule().place[k] == 0) out.middle.point = k;
     }
+    // Rules go from the bottom to the top.
+    out.bottom.point = 0;
+    out.top.point = static_cast<std::size_t>(thickness_points - 1);
     out.stress = on_global_axes(g, mean);
     out.bending_moment = on_global_axes(g, header.thickness * header.thickness * first_moment);
-    for (ElementSample::Side* side : {&out.top, &out.bottom})
-      side->stress = on_global_axes(g, point[side->point].stress);
+    for (ElementSample::Layer* layer : {&out.top, &out.middle, &out.bottom})
+      if (layer->point != ElementSample::Layer::none)
+        layer->stress = on_global_axes(g, point[layer->point].stress);
     out.internal_energy = header.internal_energy;
+    out.hourglass_energy = stored_hourglass_energy(header);
     out.thickness = header.thickness;
+    out.volume = g.area * header.thickness;
     return out;
   }
 
  private:
   /// Angle, in radians, at which resistance to drilling yields.
   static constexpr double drilling_limit = 0.01;
+
+  /// That of the springs against hourglass modes and drilling.
+  template <class Law>
+  static double stored_hourglass_energy(const Header<double, Law>& header) {
+    const HourglassStiffness<double>& stiffness = header.hourglass_stiffness;
+    double twice =
+        stiffness.normal * square(header.hourglass[2]) + header.drilling_stiffness * square(header.drilling);
+    for (int c = 0; c < 2; ++c)
+      twice +=
+          stiffness.membrane * square(header.hourglass[c]) + stiffness.rotation * square(header.rotation[c]);
+    return 0.5 * twice;
+  }
 
   static SymmetricTensor<double> on_global_axes(const ShellGeometry<double>& g,
                                                 const ShellTensor<double>& a) {

@@ -19,7 +19,8 @@ struct Hex8 {
   static constexpr std::string_view name = "hex8";
   static constexpr int nodes = 8;
   static constexpr bool rotations = false;
-  static constexpr ElementTraits traits{.cell = hexahedron_cell, .summary_key = "hex8"};
+  static constexpr ElementTraits traits{
+      .cell = hexahedron_cell, .summary_key = "hex8", .has_hourglass_control = true};
   template <class Law>
   static constexpr bool accepts = is_solid_law<Law>;
 

@@ -195,9 +195,10 @@ struct Hex8FullKernel : Hex8Full {
   }
 
   template <class Law>
-  ElementSample sample(const NodalMotion<double, 8>&, const Law&, const Header<double, Law>& header,
+  ElementSample sample(const NodalMotion<double, 8>& motion, const Law&, const Header<double, Law>& header,
                        const Point<double, Law>* point) const {
-    ElementSample result{.internal_energy = header.internal_energy};
+    ElementSample result{.internal_energy = header.internal_energy,
+                         .volume = mean_gradient(modes(motion.position)).volume};
     result.stress = isotropic(0.0);
     for (int p = 0; p < hexahedron_points; ++p)
       result.stress = result.stress + (1.0 / hexahedron_points) * fixed_stress(point[p]);

@@ -185,9 +185,12 @@ struct Hex8Kernel : Hex8 {
   }
 
   template <class Law>
-  ElementSample sample(const NodalMotion<double, 8>&, const Law&, const Header<double, Law>& header,
+  ElementSample sample(const NodalMotion<double, 8>& motion, const Law&, const Header<double, Law>& header,
                        const Point<double, Law>* point) const {
-    return {.stress = fixed_stress(*point), .internal_energy = header.internal_energy};
+    return {.stress = fixed_stress(*point),
+            .internal_energy = header.internal_energy,
+            .hourglass_energy = stored_energy(header.hourglass),
+            .volume = mean_gradient(modes(motion.position)).volume};
   }
 };
 

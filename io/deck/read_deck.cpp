@@ -6,6 +6,7 @@
 #include "io/yaml/yaml_source.hpp"
 #include "src/fields/cell_variables.hpp"
 #include "src/fields/contact_fields.hpp"
+#include "src/fields/rotation.hpp"
 
 namespace brio {
 
@@ -30,6 +31,8 @@ void read_variables(Deck& deck, const YamlNode& root) {
   std::vector<std::string_view> others = std::move(histories);
   if (deck.contact)
     for (const PointVariable& variable : contact_variables()) others.push_back(variable.name);
+  if (std::ranges::any_of(deck.parts, [](const Part& part) { return has_rotations(part.element); }))
+    others.push_back(rotation_variable().name);
   std::vector<std::string_view> known{default_group, all_group, state_variable};
   const auto is_had = [&](const CellVariable& variable) {
     return variable.of == nullptr || std::ranges::any_of(deck.parts, [&](const Part& part) {

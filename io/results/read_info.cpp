@@ -75,13 +75,11 @@ FieldInfo field_info(const Hdf5File& file, const string& where, const string& gr
   FieldInfo info{where, name, rows > 0 ? static_cast<int>(values.size() / static_cast<std::size_t>(rows)) : 0,
                  std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double value : values) {
-    if (std::isnan(value)) {
-      info.min = info.max = value;
-      break;
-    }
+    if (std::isnan(value)) continue;  // what does not have the field
     info.min = std::min(info.min, value);
     info.max = std::max(info.max, value);
   }
+  if (info.min > info.max) info.min = info.max = std::nan("");
   return info;
 }
 

@@ -17,7 +17,7 @@ struct FieldInfo {
   std::string where;  ///< "point", "cell" or "global"
   std::string name;
   int components = 1;
-  double min = 0, max = 0;  ///< over all rows and components; not-a-number where any value is
+  double min = 0, max = 0;  ///< over what is a number in any row and component; neither is where nothing is one
 };
 
 struct ResultInfo {

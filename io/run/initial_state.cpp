@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <unordered_map>
@@ -152,22 +153,39 @@ class PartStateReader {
     return result_.reader().field(name, dump_);
   }
 
+  // Numbers of generated elements begin behind those of other parts. No element is deleted at the start.
+  std::int64_t first_id(const Mesh& mesh, std::int64_t number) const {
+    if (!mesh.element_id.empty()) return 0;
+    const std::vector<std::int64_t> part = result_.reader().cells(0).part;
+    const std::vector<double> id = result_.reader().field("element_id", 0).values;
+    double first = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < part.size(); ++c)
+      if (part[c] == number) first = std::min(first, id[c]);
+    return std::isfinite(first) ? static_cast<std::int64_t>(first) : 0;
+  }
+
   void find_cells(const Mesh& mesh, std::int64_t number) {
     cells_ = result_.reader().cells(dump_);
     const std::vector<double> id = result_.reader().field("element_id", dump_).values;
+    first_id_ = first_id(mesh, number);
     std::unordered_map<std::int64_t, std::size_t> cell_of;
     for (std::size_t c = 0; c < cells_.part.size(); ++c)
       if (cells_.part[c] == number) cell_of.emplace(static_cast<std::int64_t>(id[c]), c);
     for (std::size_t e = 0; e < mesh.element_count(); ++e) {
-      const auto found = cell_of.find(mesh.number_of_element(e));
+      const auto found = cell_of.find(number_of(mesh, e));
       if (found == cell_of.end())
         refuse(
             fmt::format("element {} of part '{}' is not among the {} of '{}' in {} at time {:g}: it was "
                         "deleted, or is of another mesh; accepted are parts whose elements are all there",
-                        mesh.number_of_element(e), part_.name, cell_of.size(), name_, source_.result,
+                        number_of(mesh, e), part_.name, cell_of.size(), name_, source_.result,
                         result_.reader().times()[dump_]));
       cell_.push_back(found->second);
     }
+  }
+
+  /// In the result.
+  std::int64_t number_of(const Mesh& mesh, std::size_t element) const {
+    return first_id_ + mesh.number_of_element(element);
   }
 
   // Points of nodes, by the corners of elements.
@@ -209,7 +227,7 @@ class PartStateReader {
     refuse(fmt::format(
         "element {} of part '{}' has other nodes in {}, or in another order; accepted is the mesh "
         "of that run, or a part of it",
-        mesh.number_of_element(element), part_.name, source_.result));
+        number_of(mesh, element), part_.name, source_.result));
   }
 
   template <std::size_t components>
@@ -257,6 +275,7 @@ class PartStateReader {
   std::size_t dump_;
   PartState state_;
   ReadCells cells_;
+  std::int64_t first_id_ = 0;              ///< of a generated mesh
   std::vector<std::size_t> cell_, point_;  ///< by element and node of the mesh
 };
 

@@ -3,6 +3,7 @@
 #include "io/schema/write_schema.hpp"
 #include "src/fields/cell_variables.hpp"
 #include "src/fields/contact_fields.hpp"
+#include "src/fields/rotation.hpp"
 #include "src/output/result_tables.hpp"
 
 namespace brio {
@@ -20,7 +21,7 @@ area, `-` is none.
 
 Tensors have the components xx, yy, zz, xy, yz, xz on global axes; stress is Cauchy's, and tension is positive.
 `output.fields.variables` chooses those of elements, and of points those that are not always written: `default`, `all` (those that
-the kinds of elements of the deck have), or names. What is of shells or beams alone is not a number (NaN) in other elements, and a
+the kinds of elements of the deck have), or names. What is of some kinds of elements alone is not a number (NaN) in others, and a
 deck without any is refused such a name.
 
 A dump has the time that was asked for. Positions and displacements are of that time: in a time step nodes move evenly. Velocities are of
@@ -39,6 +40,7 @@ std::string field_row(std::string_view name, int components, std::string_view of
 std::string kinds_of(const CellVariable& variable) {
   if (variable.of == &ElementTraits::has_thickness) return "shells";
   if (variable.of == &ElementTraits::has_section) return "beams";
+  if (variable.of == &ElementTraits::has_hourglass_control) return "hex8, shells, particles";
   return variable.is_partial() ? "hexahedra, shells" : "elements";
 }
 
@@ -47,7 +49,8 @@ std::string field_rows() {
                      field_row("velocity", 3, "points", "velocity", "of the last half step");
   const PointVariable& force = contact_force_variable();
   rows += field_row(force.name, force.components, "points, with contact", force.unit, force.meaning);
-  rows += field_row("node_id", 1, "points, with mesh files", "-", "number in the file");
+  rows += field_row("node_id", 1, "points, with mesh files", "-",
+                    "number in the file; of generated meshes likewise as `element_id`");
   for (const DefaultField& field : default_fields())
     rows += field_row(field.name, field.components, field.of, field.unit, field.meaning);
   for (const CellVariable& variable : chosen_variables())
@@ -56,12 +59,15 @@ std::string field_rows() {
   for (const PointVariable& variable : contact_variables())
     rows += field_row(variable.name, variable.components, "points, with contact", variable.unit,
                       variable.meaning);
+  const PointVariable& rotation = rotation_variable();
+  rows += field_row(rotation.name, rotation.components, "points, with shells or beams", rotation.unit,
+                    rotation.meaning);
   for (const DefaultField& field : state_fields())
     rows += field_row(field.name, field.components, field.of, field.unit, field.meaning);
   return rows +
          "| a name of a material's history, such as `temperature` | 1 | elements | of the law | largest or "
          "mean of "
-         "the integration points; 0 in materials that do not know it |\n";
+         "the integration points; NaN in materials that do not know it |\n";
 }
 
 template <class Rows>

@@ -82,6 +82,25 @@ std::size_t place_parts(const Deck& deck, std::span<const Mesh> meshes, const Sh
   return static_cast<std::size_t>(next);
 }
 
+// Generated meshes go on after the largest numbers of mesh files, in the order of the deck.
+void number_generated(std::vector<PartInModel>& parts) {
+  std::int64_t next_node = 0, next_element = 0;
+  for (const PartInModel& part : parts) {
+    for (const std::int64_t id : part.node_id) next_node = std::max(next_node, id + 1);
+    for (const std::int64_t id : part.element_id) next_element = std::max(next_element, id + 1);
+  }
+  for (PartInModel& part : parts) {
+    if (part.node_id.empty()) {
+      part.first_node = next_node;
+      next_node += static_cast<std::int64_t>(part.node.size());
+    }
+    if (part.element_id.empty()) {
+      part.first_element = next_element;
+      next_element += static_cast<std::int64_t>(part.element_order.size());
+    }
+  }
+}
+
 void fill_nodes(const Deck& deck, std::span<const Mesh> meshes, const SharedNodes& shared, std::size_t count,
                 Model& model) {
   const bool turning = std::any_of(deck.parts.begin(), deck.parts.end(),
@@ -281,6 +300,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads, std::sp
   std::vector<std::vector<int>> connectivity;
   SharedNodes shared = share_nodes(deck, meshes);
   const std::size_t node_count = place_parts(deck, meshes, shared, model, connectivity);
+  number_generated(model.parts);
   fill_nodes(deck, meshes, shared, node_count, model);
   model.merged = std::move(shared.merged);
   make_blocks(deck, connectivity, model);
@@ -324,7 +344,7 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads, std::sp
   start_balances(model);
   add_energies(states, model);
   make_springs(deck, meshes, model);
-  prepare_history(deck, model);
+  prepare_output(deck, model);
   return model;
 }
 

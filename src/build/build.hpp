@@ -42,8 +42,8 @@ SystemAxes axes_everywhere(const Deck& deck, const std::string& name, const std:
 [[noreturn]] void refuse_on_axis(const Model& model, std::size_t node, const std::string& system,
                                  const std::string& place);
 
-/// What the deck wants in the history beside what is always there: probes, motion of rigid bodies, forces.
-/// \throws BuildError
-void prepare_history(const Deck& deck, Model& model);
+/// What the deck wants in results beside what is always there: rotations of nodes; in the history probes,
+/// motion of rigid bodies, forces. \throws BuildError
+void prepare_output(const Deck& deck, Model& model);
 
 }  // namespace brio

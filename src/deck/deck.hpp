@@ -184,13 +184,14 @@ struct FieldOutput {
         optional("times", &FieldOutput::times, non_negative, "times of dumps instead"),
         optional(
             "variables", &FieldOutput::variables, any_number,
-            "fields of cells, a list: default, all, von_mises, pressure, triaxiality, internal_energy, "
-            "strain "
-            "(logarithmic); with contact contact_pressure, contact_gap; of shells stress_top, stress_bottom, "
-            "equivalent_plastic_strain_top, "
+            "fields, a list: default, all, von_mises, pressure, triaxiality, internal_energy, "
+            "internal_energy_density, hourglass_energy_density, strain (logarithmic), strain_rate; with "
+            "contact contact_pressure, contact_gap; of shells stress_top, stress_middle, stress_bottom, "
+            "equivalent_plastic_strain_top, equivalent_plastic_strain_middle, "
             "equivalent_plastic_strain_bottom, membrane_force, bending_moment; of beams beam_force, "
-            "beam_moment (not a number in other elements); or a name of the history of a material, such as "
-            "temperature (0 in materials that do not know it); or state, all that elements remember, from "
+            "beam_moment, beam_twist; of nodes of both rotation (not a number in other elements); or a name "
+            "of the history of a material, such as temperature (not a number in materials that do not know "
+            "it); or state, all that elements remember, from "
             "which other decks can start; part and element_id are written in any case; default: [default] "
             "(docs/results.md)"));
   }

@@ -12,17 +12,21 @@
 
 namespace brio {
 
-/// What follows from what an element tells of itself, or from where its nodes were and are.
+/// What follows from what an element tells of itself, or from where its nodes were and are, and their
+/// velocities.
 struct CellVariable {
   std::string_view name;
   int components;  ///< 1, 3, or 6 of a symmetric tensor: xx, yy, zz, xy, yz, xz
-  void (*values)(const ElementSample&, double* out);  ///< null: of its nodes
+  void (*values)(const ElementSample&, double* out);  ///< null: of its nodes (strain.hpp)
   /// Of the kinds of elements that have it; null: of all. Elsewhere it is not a number.
   bool ElementTraits::*of;
   std::string_view unit, meaning;  ///< for the manual
 
   bool is_partial() const { return of != nullptr || values == nullptr; }
 };
+
+/// xx, yy, zz, xy, yz, xz. \param out six
+void write_components(const SymmetricTensor<double>& tensor, double* out);
 
 /// Those that a deck can name: of the stress that is written, energy, strain, and of shells and beams alone.
 std::span<const CellVariable> chosen_variables();

@@ -2,20 +2,10 @@
 /// Fields of points of scenes with contact: means since the last dump.
 
 #include <span>
-#include <string_view>
 
-#include "src/model/model.hpp"
+#include "src/fields/point_variable.hpp"
 
 namespace brio {
-
-/// A field of points.
-struct PointVariable {
-  std::string_view name;
-  int components;
-  void (*values)(const Model&, int node, double* out);
-  bool is_partial;                 ///< not a number where there is no such thing
-  std::string_view unit, meaning;  ///< for the manual
-};
 
 /// Written of every scene with contact.
 const PointVariable& contact_force_variable();

@@ -36,6 +36,16 @@ Matrix3d frame_of_shell(std::span<const Vector3d> corners, double normal_length)
   return columns;
 }
 
+SymmetricTensor<double> components(const Matrix3d& a) {
+  return {a(0, 0), a(1, 1), a(2, 2), a(0, 1), a(1, 2), a(0, 2)};
+}
+
+/// Of a velocity gradient on the directions that are left by a projection.
+SymmetricTensor<double> symmetric_within(const Matrix3d& projection, const Matrix3d& gradient) {
+  if (!gradient.allFinite()) return components(Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  return components(projection * (0.5 * (gradient + gradient.transpose())) * projection);
+}
+
 }  // namespace
 
 SymmetricTensor<double> logarithmic_strain(const Matrix3d& deformation_gradient) {
@@ -48,7 +58,7 @@ SymmetricTensor<double> logarithmic_strain(const Matrix3d& deformation_gradient)
     strain += (square > 0 ? 0.5 * std::log(square) : std::numeric_limits<double>::quiet_NaN()) * direction *
               direction.transpose();
   }
-  return {strain(0, 0), strain(1, 1), strain(2, 2), strain(0, 1), strain(1, 2), strain(0, 2)};
+  return components(strain);
 }
 
 Matrix3d deformation_of_hexahedron(std::span<const Vector3d> before, std::span<const Vector3d> now) {
@@ -58,6 +68,21 @@ Matrix3d deformation_of_hexahedron(std::span<const Vector3d> before, std::span<c
 Matrix3d deformation_of_shell(std::span<const Vector3d> before, std::span<const Vector3d> now,
                               double thickness_stretch) {
   return frame_of_shell(now, thickness_stretch) * frame_of_shell(before, 1).inverse();
+}
+
+SymmetricTensor<double> strain_rate_of_hexahedron(std::span<const Vector3d> now,
+                                                  std::span<const Vector3d> velocity) {
+  return symmetric_within(Matrix3d::Identity(), jacobian(velocity) * jacobian(now).inverse());
+}
+
+SymmetricTensor<double> strain_rate_of_shell(std::span<const Vector3d> now,
+                                             std::span<const Vector3d> velocity) {
+  const Matrix3d frame = frame_of_shell(now, 1);
+  Matrix3d rates = Matrix3d::Zero();
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    rates.col(static_cast<Eigen::Index>(axis)) = tangent(velocity, axis);
+  const Vector3d normal = frame.col(2);
+  return symmetric_within(Matrix3d::Identity() - normal * normal.transpose(), rates * frame.inverse());
 }
 
 }  // namespace brio

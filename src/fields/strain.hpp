@@ -1,5 +1,6 @@
 #pragma once
-/// Logarithmic strain of elements, of their middle, from where their nodes were and are.
+/// Logarithmic strain of elements, of their middle, from where their nodes were and are, and its rate from
+/// their velocities.
 
 #include <Eigen/Dense>
 #include <span>
@@ -17,5 +18,13 @@ Eigen::Matrix3d deformation_of_hexahedron(std::span<const Eigen::Vector3d> befor
 /// In the middle of the middle surface of a shell of four corners, its normal stretched as its thickness.
 Eigen::Matrix3d deformation_of_shell(std::span<const Eigen::Vector3d> before,
                                      std::span<const Eigen::Vector3d> now, double thickness_stretch);
+
+/// Rate of deformation D in the middle of a hexahedron; not a number where it has no volume.
+/// \param now, velocity of eight corners
+SymmetricTensor<double> strain_rate_of_hexahedron(std::span<const Eigen::Vector3d> now,
+                                                  std::span<const Eigen::Vector3d> velocity);
+/// In the middle surface of a shell of four corners: nothing along the normal.
+SymmetricTensor<double> strain_rate_of_shell(std::span<const Eigen::Vector3d> now,
+                                             std::span<const Eigen::Vector3d> velocity);
 
 }  // namespace brio

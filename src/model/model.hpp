@@ -25,6 +25,7 @@
 #include "src/motion/energy_balance.hpp"
 #include "src/motion/loads.hpp"
 #include "src/motion/motion.hpp"
+#include "src/motion/node_rotations.hpp"
 #include "src/motion/rigid.hpp"
 #include "src/motion/springs.hpp"
 #include "src/sweep/assembled_step.hpp"
@@ -73,7 +74,8 @@ struct Model {
       particle_searches;  ///< of blocks of particles with an updated-Lagrangian kernel
   std::vector<ActiveLoad> loads;
   Springs springs;
-  NodalDamping damping;  ///< empty unless a part is damped
+  NodalDamping damping;     ///< empty unless a part is damped
+  NodeRotations rotations;  ///< if the deck asks for them in the fields
   std::vector<PrescribedNodes> prescribed;
   std::vector<WallInRun> walls;
   std::vector<ContactWall> contact_walls;  ///< the same, as contact takes them in a step

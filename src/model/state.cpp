@@ -11,7 +11,7 @@ void serialize(Archive& archive, Model& model) {
   archive(model.step, model.element_updates, model.times, model.control, model.assembled_step);
   archive(model.energy, model.part_energy, model.momentum);
   archive.section(2);
-  archive(model.nodes, model.blocks, model.parts, model.schedule);
+  archive(model.nodes, model.rotations, model.blocks, model.parts, model.schedule);
   archive(model.particle_searches, model.loads, model.springs, model.ties, model.rigid);
   archive.section(3);
   archive(model.contacts, model.contact_audits, model.impulse_sums);
@@ -26,10 +26,11 @@ void serialize(Archive& archive, Model& model) {
 
 /// Sizes that the deck determines.
 struct Sizes {
-  std::size_t nodes, blocks, parts, loads, springs, bodies, contacts;
+  std::size_t nodes, rotations, blocks, parts, loads, springs, bodies, contacts;
   bool erodes, adds_mass;
   explicit Sizes(const Model& model)
       : nodes(model.nodes.size()),
+        rotations(model.rotations.size()),
         blocks(model.blocks.size()),
         parts(model.parts.size()),
         loads(model.loads.size()),

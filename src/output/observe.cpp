@@ -28,11 +28,17 @@ bool any_has(const Model& model, bool ElementTraits::*trait) {
 ElementSample sample_of(const Model& model, const PartInModel& part, std::size_t element) {
   if (part.rigid >= 0) {
     ElementSample sample{};
-    sample.thickness = model.rigid.body[static_cast<std::size_t>(part.rigid)].thickness;
+    const double thickness = model.rigid.body[static_cast<std::size_t>(part.rigid)].thickness;
+    if (thickness > 0) sample.thickness = thickness;
     return sample;
   }
   const Block& block = model.blocks[part.block];
   return block.kernel.sample(block, model.nodes, static_cast<std::size_t>(part.element_slot[element]));
+}
+
+bool is_of_points(std::string_view name) {
+  return name == rotation_variable().name ||
+         std::ranges::find(contact_variables(), name, &PointVariable::name) != contact_variables().end();
 }
 
 bool has_ids(const Model& model) {
@@ -64,7 +70,7 @@ void FieldObserver::add_point_field(FieldArray field, PointValues values) {
   point_values_.push_back(std::move(values));
 }
 
-void FieldObserver::add_contact_field(const PointVariable& variable) {
+void FieldObserver::add_point_variable(const PointVariable& variable) {
   FieldArray added = field(std::string(variable.name), variable.components, node_of_point_.size());
   added.is_partial = variable.is_partial;
   add_point_field(std::move(added), [&variable, this](const Model& model, std::size_t point, double* out) {
@@ -93,10 +99,11 @@ void FieldObserver::add_point_fields(const Model& model, std::span<const std::st
                       std::copy_n(now.nodes.angular_velocity[node].component, 3, out);
                     });
   if (!model.contacts.empty()) {
-    add_contact_field(contact_force_variable());
+    add_point_variable(contact_force_variable());
     for (const PointVariable& variable : contact_variables())
-      if (std::ranges::find(variables, variable.name) != variables.end()) add_contact_field(variable);
+      if (std::ranges::find(variables, variable.name) != variables.end()) add_point_variable(variable);
   }
+  if (!model.rotations.empty()) add_point_variable(rotation_variable());
   if (!has_ids(model)) return;
   number_points(model);
   add_point_field(field("node_id", 1, points, Storage::integer, true),
@@ -110,7 +117,13 @@ void FieldObserver::add_cell_field(std::string_view name, CellSource source) {
   const int components = source.variable != nullptr ? source.variable->components : 1;
   snapshot_.cell_fields.push_back(
       field(std::string(name), components, 0, fixed ? Storage::integer : Storage::single_precision, fixed));
-  snapshot_.cell_fields.back().is_partial = source.variable != nullptr && source.variable->is_partial();
+  // Without plasticity there is no plastic strain, and without failure no damage: 0. Of what other laws alone
+  // know, not a number.
+  snapshot_.cell_fields.back().is_partial =
+      source.variable != nullptr
+          ? source.variable->is_partial()
+          : source.kind == CellSource::Kind::history &&
+                std::ranges::find(default_fields(), name, &DefaultField::name) == default_fields().end();
   cell_source_.push_back(source);
 }
 
@@ -118,8 +131,9 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
   using Kind = CellSource::Kind;
   const auto add_variable = [&](std::string_view name) {
     const CellVariable& variable = cell_variable(name);
-    add_cell_field(name, {variable.values == nullptr ? Kind::strain : Kind::variable, &variable});
-    if (variable.values == nullptr) note_thickness(model);
+    const Kind of_nodes = name == "strain_rate" ? Kind::strain_rate : Kind::strain;
+    add_cell_field(name, {variable.values == nullptr ? of_nodes : Kind::variable, &variable});
+    if (name == "strain") note_thickness(model);
   };
   const bool has_default =
       variables.empty() || std::ranges::find(variables, default_group) != variables.end();
@@ -134,9 +148,7 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
     if (can_be_damaged(model)) add_cell_field("damage", {Kind::history});
   }
   for (const std::string& name : variables) {
-    if (name == default_group || name == state_variable ||
-        std::ranges::find(contact_variables(), name, &PointVariable::name) != contact_variables().end())
-      continue;
+    if (name == default_group || name == state_variable || is_of_points(name)) continue;
     if (std::ranges::find(chosen_variables(), name, &CellVariable::name) != chosen_variables().end())
       add_variable(name);
     else
@@ -243,29 +255,49 @@ void FieldObserver::note_thickness(const Model& model) {
   }
 }
 
-// Of hexahedra and shells that are not rigid.
-void FieldObserver::strain_of(const ElementSample& sample, const Cell& at, double* out) const {
-  std::fill_n(out, 6, ElementSample::undefined);
+// Of hexahedra and shells that are not rigid; none of others.
+std::span<const std::int64_t> FieldObserver::strained_corners(const Model& model, const Cell& at) const {
   const Topology& topology = snapshot_.topology;
   const auto first = static_cast<std::size_t>(topology.offset[at.number]),
              count = static_cast<std::size_t>(topology.offset[at.number + 1]) - first;
-  const bool shell = count == 4;
-  if (count < 4 || (shell && thickness_[at.part].empty())) return;
+  if (count < 4 || model.parts[at.part].rigid >= 0) return {};
+  return std::span(topology.connectivity).subspan(first, count);
+}
+
+SymmetricTensor<double> FieldObserver::strain_of(const Model& model, const ElementSample& sample,
+                                                 const Cell& at) const {
+  const std::span<const std::int64_t> corner = strained_corners(model, at);
+  if (corner.empty()) return ElementSample::undefined_tensor;
   std::array<Eigen::Vector3d, 8> before, now;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto point = static_cast<std::size_t>(topology.connectivity[first + k]);
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const auto point = static_cast<std::size_t>(corner[k]);
     before[k] = Eigen::Vector3d(&reference_[3 * point]);
     now[k] = Eigen::Vector3d(&snapshot_.points[3 * point]);
   }
-  const std::span<const Eigen::Vector3d> from(before.data(), count), to(now.data(), count);
-  const SymmetricTensor<double> strain = logarithmic_strain(
-      shell ? deformation_of_shell(from, to, sample.thickness / thickness_[at.part][at.place])
-            : deformation_of_hexahedron(from, to));
-  std::ranges::copy(std::array{strain.xx, strain.yy, strain.zz, strain.xy, strain.yz, strain.xz}, out);
+  const std::span<const Eigen::Vector3d> from(before.data(), corner.size()), to(now.data(), corner.size());
+  return logarithmic_strain(
+      corner.size() == 4 ? deformation_of_shell(from, to, sample.thickness / thickness_[at.part][at.place])
+                         : deformation_of_hexahedron(from, to));
 }
 
-void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
-                              FieldArray& field) const {
+// On the shape of the half step, where a rotation by steps of any size strains nothing.
+SymmetricTensor<double> FieldObserver::strain_rate_of(const Model& model, const Cell& at) const {
+  const std::span<const std::int64_t> corner = strained_corners(model, at);
+  if (corner.empty()) return ElementSample::undefined_tensor;
+  std::array<Eigen::Vector3d, 8> now, velocity;
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const auto node = static_cast<std::size_t>(node_of_point_[static_cast<std::size_t>(corner[k])]);
+    const NodeRecord& record = model.nodes.record[node];
+    velocity[k] = Eigen::Vector3d(record.velocity);
+    now[k] = Eigen::Vector3d(record.position) + 0.5 * model.times.next * velocity[k];
+  }
+  const std::span<const Eigen::Vector3d> place(now.data(), corner.size()),
+      rate(velocity.data(), corner.size());
+  return corner.size() == 4 ? strain_rate_of_shell(place, rate) : strain_rate_of_hexahedron(place, rate);
+}
+
+void FieldObserver::fill_cell(const Model& model, const CellSource& source, const ElementSample& sample,
+                              const Cell& at, FieldArray& field) const {
   double* values = &field.values[static_cast<std::size_t>(field.components) * at.number];
   switch (source.kind) {
     case CellSource::Kind::part:
@@ -278,10 +310,13 @@ void FieldObserver::fill_cell(const CellSource& source, const ElementSample& sam
       source.variable->values(sample, values);
       return;
     case CellSource::Kind::strain:
-      strain_of(sample, at, values);
+      write_components(strain_of(model, sample, at), values);
+      return;
+    case CellSource::Kind::strain_rate:
+      write_components(strain_rate_of(model, at), values);
       return;
     case CellSource::Kind::history:
-      *values = sample.named(field.name);
+      *values = sample.named(field.name, field.is_partial ? ElementSample::undefined : 0);
       return;
     case CellSource::Kind::state:
       return;  // no sample tells it
@@ -308,7 +343,8 @@ void FieldObserver::fill_cells(const Model& model) {
       if (part.element_slot[e] < 0 && part.rigid < 0) continue;
       const ElementSample sample = sample_of(model, part, e);
       for (std::size_t k = 0; k < cell_source_.size(); ++k)
-        fill_cell(cell_source_[k], sample, {p, e, part.number_of_element(e), cell}, snapshot_.cell_fields[k]);
+        fill_cell(model, cell_source_[k], sample, {p, e, part.number_of_element(e), cell},
+                  snapshot_.cell_fields[k]);
       if (state_field_ != none) fill_state(model, part, e, cell);
       ++cell;
     }

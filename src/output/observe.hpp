@@ -9,6 +9,7 @@
 
 #include "src/fields/cell_variables.hpp"
 #include "src/fields/contact_fields.hpp"
+#include "src/fields/rotation.hpp"
 #include "src/model/model.hpp"
 #include "src/output/history.hpp"
 #include "src/output/snapshot.hpp"
@@ -46,7 +47,7 @@ class FieldObserver {
 
   /// What fills a field of cells.
   struct CellSource {
-    enum class Kind { part, element, variable, strain, history, state };
+    enum class Kind { part, element, variable, strain, strain_rate, history, state };
     Kind kind;
     const CellVariable* variable = nullptr;
   };
@@ -60,13 +61,15 @@ class FieldObserver {
     std::size_t number;
   };
 
-  void fill_cell(const CellSource& source, const ElementSample& sample, const Cell& at,
+  void fill_cell(const Model& model, const CellSource& source, const ElementSample& sample, const Cell& at,
                  FieldArray& field) const;
   void add_point_fields(const Model& model, std::span<const std::string> variables);
   void add_point_field(FieldArray field, PointValues values);
-  void add_contact_field(const PointVariable& variable);
+  void add_point_variable(const PointVariable& variable);
   void note_thickness(const Model& model);
-  void strain_of(const ElementSample& sample, const Cell& at, double* out) const;
+  std::span<const std::int64_t> strained_corners(const Model& model, const Cell& at) const;
+  SymmetricTensor<double> strain_of(const Model& model, const ElementSample& sample, const Cell& at) const;
+  SymmetricTensor<double> strain_rate_of(const Model& model, const Cell& at) const;
   void add_cell_fields(const Model& model, std::span<const std::string> variables);
   void add_cell_field(std::string_view name, CellSource source);
   void add_state(const Model& model);

@@ -155,6 +155,13 @@ void move_nodes(Model& model, ThreadTeam& team) {
   move(model.nodes, model.times.next, team);
 }
 
+// Where the deck asks for rotations.
+void turn_nodes(Model& model, ThreadTeam& team) {
+  if (model.rotations.empty()) return;
+  const StageTimer timer(model.stages, Stage::nodes);
+  turn(model.rotations, model.nodes, model.times.next, team);
+}
+
 void place_tied_nodes(Model& model) {
   if (model.ties.empty()) return;
   const StageTimer timer(model.stages, Stage::ties);
@@ -233,6 +240,7 @@ void update_velocities(Model& model, double energy_error_limit, ThreadTeam& team
 
 void update_positions(Model& model, ThreadTeam& team) {
   move_nodes(model, team);
+  turn_nodes(model, team);
   place_tied_nodes(model);
   Balances{model.energy, model.momentum} += move_rigid(model, team);
   advance_time(model);

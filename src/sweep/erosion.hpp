@@ -30,12 +30,15 @@ struct PartInModel {
   double mass = 0;                 ///< at the start
   std::vector<std::int64_t> node_id, element_id;  ///< in its mesh file; empty: the mesh is generated
 
-  /// Numbers that users know: of the mesh file, or of the part's mesh, from 0.
+  /// Numbers of the first node and element of a generated mesh, so that none is that of another part.
+  std::int64_t first_node = 0, first_element = 0;
+
+  /// Numbers that users know: of the mesh file, or in the order of the part's mesh.
   std::int64_t number_of_node(std::size_t of_mesh) const {
-    return node_id.empty() ? static_cast<std::int64_t>(of_mesh) : node_id[of_mesh];
+    return node_id.empty() ? first_node + static_cast<std::int64_t>(of_mesh) : node_id[of_mesh];
   }
   std::int64_t number_of_element(std::size_t of_mesh) const {
-    return element_id.empty() ? static_cast<std::int64_t>(of_mesh) : element_id[of_mesh];
+    return element_id.empty() ? first_element + static_cast<std::int64_t>(of_mesh) : element_id[of_mesh];
   }
 
   /// Saved and restored (src/base/state_archive.hpp).

@@ -80,7 +80,7 @@ TEST(ToyLaw, NamesItsHistoryWhichElementsKnowNothingOf) {
     const double energy = 0.5 * 1e6 / 2.6 * 1e-6;
     EXPECT_NEAR(cube.sample().named("dissipation"), energy, 0.1 * energy);
     EXPECT_DOUBLE_EQ(cube.sample().named("temperature_rise"), 1e-6 * cube.sample().named("dissipation"));
-    EXPECT_EQ(cube.sample().named("equivalent_plastic_strain"), 0);
+    EXPECT_TRUE(std::isnan(cube.sample().named("equivalent_plastic_strain")));
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
+#include <numbers>
 
 #include "src/fields/cell_variables.hpp"
 #include "src/output/observe.hpp"
@@ -67,7 +69,7 @@ TEST(CellVariables, AllStandsForTheDefaultWhatFollowsFromItAndHistories) {
   const auto of_solids = [](const CellVariable& variable) { return variable.of == nullptr; };
   EXPECT_EQ(named_variables(wanted, histories, of_solids),
             (std::vector<std::string>{"pressure", "default", "von_mises", "triaxiality", "internal_energy",
-                                      "strain", "temperature"}));
+                                      "internal_energy_density", "strain", "strain_rate", "temperature"}));
   const auto of_any = [](const CellVariable&) { return true; };
   EXPECT_EQ(named_variables(wanted, histories, of_any).size(), 2 + chosen_variables().size());
 }
@@ -137,6 +139,19 @@ TEST(CellVariables, OfABentShellAreThoseOfAPlate) {
   EXPECT_NEAR(force[1], 0.3 * force[0], 1e-6 * force[0]);
 }
 
+// Of odd rules there is a point in the middle, which bending does not strain.
+TEST(CellVariables, OfTheMiddleOfAShellAreThoseOfItsMembrane) {
+  const auto pull = [](const double* x) { return Vector{curving * x[0], 0, 0}; };
+  double step = 0;
+  const auto middle = after_a_step(shell_deck(5), "stress_middle", 0, bending, pull, step);
+  const double expected = young / (1 - 0.09) * curving * step;
+  EXPECT_NEAR(middle[0], expected, 1e-5 * expected);
+  EXPECT_NEAR(middle[1], 0.3 * middle[0], 1e-6 * expected);
+  for (const char* name : {"stress_middle", "equivalent_plastic_strain_middle"})
+    for (const double value : after_a_step(shell_deck(4), name, 0, bending, pull, step))
+      EXPECT_TRUE(std::isnan(value)) << name;
+}
+
 TEST(CellVariables, PlasticStrainOfAShellIsToldBySide) {
   PowerLawHardening law;
   law.density = 1000;
@@ -151,7 +166,11 @@ TEST(CellVariables, PlasticStrainOfAShellIsToldBySide) {
   const auto top = after_a_step(shell_deck(5, law), "equivalent_plastic_strain_top", 0, bending, pull, step);
   const auto bottom =
       after_a_step(shell_deck(5, law), "equivalent_plastic_strain_bottom", 0, bending, pull, step);
+  const auto middle =
+      after_a_step(shell_deck(5, law), "equivalent_plastic_strain_middle", 0, bending, pull, step);
   EXPECT_GT(top[0], 0.5 * thickness * curving * step);
+  EXPECT_LT(middle[0], 0.6 * top[0]);
+  EXPECT_GT(middle[0], 2 * bottom[0]);
   EXPECT_LT(bottom[0], 0.1 * top[0]);
 }
 
@@ -184,6 +203,9 @@ TEST(CellVariables, OfABeamAreThoseOfItsSection) {
   EXPECT_NEAR(moment[0], young / 2.6 * torsion * curving * step, 0.01 * moment[0]);
   EXPECT_NEAR(moment[1], young * second_moment * curving * step, 0.01 * moment[1]);
   EXPECT_NEAR(moment[2], 0, 1e-9 * moment[1]);
+  // Over one unit of length.
+  const auto twist = after_a_step(beam_deck(), "beam_twist", 0, turn, at_rest, step);
+  EXPECT_NEAR(twist[0], curving * step, 1e-6 * twist[0]);
 }
 
 // A field of shells is not a number in solids, and results hold it all the same; a field that all have must
@@ -216,6 +238,104 @@ TEST(CellVariables, AreNotANumberWhereThereIsNoSuchThing) {
   EXPECT_EQ(what_results_cannot_hold(snapshot), "");
   snapshot.cell_fields.back().values[1] = std::nan("");
   EXPECT_EQ(what_results_cannot_hold(snapshot), "a value of 'von_mises'");
+}
+
+JohnsonCook hot_metal() {
+  JohnsonCook law{.density = 1000, .youngs_modulus = young, .poissons_ratio = 0.3, .yield_stress = 1e7};
+  law.thermal =
+      ThermalSoftening{.specific_heat = 400, .melting_temperature = 1000, .reference_temperature = 293};
+  return law;
+}
+
+// Of a cube that is sheared without hardening all but the heat fraction of the work stays: what is not
+// elastic energy, tau^2 / 2 G, is plastic work.
+TEST(CellVariables, TemperatureOfAdiabaticShearIsThePlasticWork) {
+  Deck deck;
+  deck.materials = {{"hot", hot_metal()}};
+  deck.parts = {box("cube", {1, 1, 1}, {1, 1, 1}, {0, 0, 0}, inviscid_hex8(), "hot")};
+  deck.time.end = 1;
+  deck.time.step_bound = StepBound::elements;
+  Model model = build_model(deck);
+  for (NodeRecord& node : model.nodes.record) {
+    node.velocity[0] = node.position[1];
+    node.inverse_mass = 0;  // it goes on so
+  }
+  const std::vector<std::string> wanted{"temperature", "internal_energy_density", "von_mises"};
+  FieldObserver observer(model, wanted);
+  ThreadTeam team(1);
+  make_steps(model, 4000, 1e9, team);
+  const Snapshot& snapshot = observer.observe(model);
+  const auto value = [&](std::size_t field) { return snapshot.cell_fields[2 + field].values[0]; };
+  const double elastic_energy = value(2) * value(2) / 6 / (young / 2.6);
+  const double rise = 0.9 * (value(1) - elastic_energy) / (1000 * 400);
+  EXPECT_GT(rise, 5);
+  EXPECT_NEAR(value(0) - 293, rise, 1e-5 * rise);
+}
+
+// One part of each kind: what tells thickness, radius, density or temperature is where the others are not a
+// number; plastic strain is 0 where nothing is plastic.
+TEST(CellVariables, OfOtherKindsAndMaterialsAreNotANumber) {
+  Deck deck = shell_deck(3);
+  deck.materials.emplace_back("hot", hot_metal());
+  deck.parts.push_back(box("cube", {1, 1, 1}, {1, 1, 1}, {0, 0, 5}, hex8(), "hot"));
+  deck.parts.push_back(beam_deck().parts[0]);
+  deck.parts.back().placement.translate = {0, 0, 9};
+  const Model model = build_model(deck);
+  const std::vector<std::string> wanted{"default", "temperature", "hourglass_energy_density", "beam_twist"};
+  FieldObserver observer(model, wanted);
+  const Snapshot& snapshot = observer.observe(model);
+  const double none = std::nan("");
+  const std::map<std::string, std::array<double, 3>> expected{
+      {"thickness", {thickness, none, none}},
+      {"radius", {none, none, std::sqrt(0.02 * 0.05 / std::numbers::pi)}},
+      {"temperature", {none, 293, none}},
+      {"equivalent_plastic_strain", {0, 0, 0}},
+      {"hourglass_energy_density", {0, 0, none}},
+      {"beam_twist", {none, none, 0}}};
+  std::size_t found = 0;
+  for (const FieldArray& field : snapshot.cell_fields) {
+    const auto values = expected.find(field.name);
+    if (values == expected.end()) continue;
+    ++found;
+    for (std::size_t part = 0; part < 3; ++part)
+      if (std::isnan(values->second[part])) {
+        EXPECT_TRUE(std::isnan(field.values[part])) << field.name << " of part " << part;
+      } else {
+        EXPECT_NEAR(field.values[part], values->second[part], 1e-12) << field.name << " of part " << part;
+      }
+  }
+  EXPECT_EQ(found, expected.size());
+  EXPECT_EQ(what_results_cannot_hold(snapshot), "");
+}
+
+std::vector<double> field_of(const Model& model, const std::string& name) {
+  FieldObserver observer(model);
+  const Snapshot& snapshot = observer.observe(model);
+  for (const auto* list : {&snapshot.point_fields, &snapshot.cell_fields})
+    for (const FieldArray& field : *list)
+      if (field.name == name) return field.values;
+  return {};
+}
+
+// Those of a file stay, and generated ones go on behind the largest of any file.
+TEST(CellVariables, NumbersAreUniqueOverTheScene) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  deck.parts = {box("first", {1, 1, 1}, {1, 1, 2}, {0, 0, 0}, hex8()),
+                box("file", {1, 1, 1}, {1, 1, 1}, {3, 0, 0}, hex8()),
+                box("rigid", {1, 1, 1}, {1, 1, 1}, {6, 0, 0}, Rigid{})};
+  deck.time.end = 1;
+  std::vector<Mesh> meshes;
+  for (const Part& part : deck.parts) meshes.push_back(generate_mesh(part.mesh, part.placement));
+  EXPECT_EQ(field_of(build(deck, meshes), "element_id"), (std::vector<double>{0, 1, 2, 3}));
+  meshes[1].element_id = {70};
+  for (std::int64_t node = 0; node < 8; ++node) meshes[1].node_id.push_back(100 - node);
+  const Model model = build(deck, meshes);
+  EXPECT_EQ(field_of(model, "element_id"), (std::vector<double>{71, 72, 70, 73}));
+  std::vector<double> nodes = field_of(model, "node_id");
+  EXPECT_EQ(nodes[12], 100);
+  std::ranges::sort(nodes);
+  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_EQ(nodes[i], 93 + static_cast<double>(i));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Logarithmic strain of elements against closed forms.
+// Logarithmic strain and rate of deformation of elements against closed forms.
 
 #include <gtest/gtest.h>
 
@@ -37,6 +37,24 @@ std::vector<double> strain_after(const Deck& deck, const Matrix3d& deformation) 
   }
   const FieldArray& field = observer.observe(model).cell_fields.back();
   EXPECT_EQ(field.name, "strain");
+  return field.values;
+}
+
+/// Rates of all cells where nodes are where the matrix takes them, with the velocities of a gradient.
+std::vector<double> strain_rate(const Deck& deck, const Matrix3d& deformation, const Matrix3d& gradient,
+                                double step = 0) {
+  Model model = build_model(deck);
+  const std::vector<std::string> wanted{"strain_rate"};
+  FieldObserver observer(model, wanted);
+  model.times.next = step;
+  for (NodeRecord& node : model.nodes.record) {
+    const Vector3d x = deformation * Vector3d(node.position), v = gradient * x;
+    std::copy_n(x.data(), 3, node.position);
+    std::copy_n(v.data(), 3, node.velocity);
+  }
+  const FieldArray& field = observer.observe(model).cell_fields.back();
+  EXPECT_EQ(field.name, "strain_rate");
+  EXPECT_TRUE(field.is_partial);
   return field.values;
 }
 
@@ -110,7 +128,7 @@ TEST(Strain, OfSimpleShear) {
   }
 }
 
-TEST(Strain, IsNotANumberInBeamsAndParticles) {
+TEST(Strain, IsNotANumberInBeamsAndRigidParts) {
   Deck deck = brick_deck();
   Beam2 beam;
   beam.section = RectangleSection{0.02, 0.05};
@@ -120,9 +138,85 @@ TEST(Strain, IsNotANumberInBeamsAndParticles) {
   mesh.end = {-4, 0, 0};
   mesh.elements = 1;
   deck.parts.push_back({"beam", mesh, {}, beam, "material"});
-  const std::vector<double> strain = strain_after(deck, Matrix3d::Identity());
-  ASSERT_EQ(strain.size(), 18U);
-  for (std::size_t i = 0; i < 18; ++i) EXPECT_EQ(std::isnan(strain[i]), i >= 12) << i;
+  deck.parts.push_back(box("rigid", {1, 1, 1}, {1, 1, 1}, {-9, 0, 0}, Rigid{}));
+  for (const std::vector<double>& values : {strain_after(deck, Matrix3d::Identity()),
+                                            strain_rate(deck, Matrix3d::Identity(), Matrix3d::Zero())}) {
+    ASSERT_EQ(values.size(), 24U);
+    for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(std::isnan(values[i]), i >= 12) << i;
+  }
+}
+
+// ---- rate
+
+// D of a velocity gradient is its symmetric part, whatever the shape by then.
+TEST(StrainRate, OfSimpleShearAndStretching) {
+  Matrix3d shape = Vector3d(1.3, 0.7, 1.1).asDiagonal(), shear = Matrix3d::Zero();
+  shape(0, 2) = 0.4;
+  shear(0, 1) = 300;
+  const Matrix3d stretching = Vector3d(50, -20, 7).asDiagonal();
+  for (const Matrix3d& gradient : {shear, stretching, Matrix3d(shear + stretching)}) {
+    const std::vector<double> rate = strain_rate(brick_deck(), shape, gradient);
+    ASSERT_EQ(rate.size(), 12U);
+    for (const std::size_t cell : {0U, 6U})
+      EXPECT_LT((to_matrix(rate, cell) - 0.5 * (gradient + gradient.transpose())).cwiseAbs().maxCoeff(),
+                1e-12 * 300);
+  }
+}
+
+// In the plane of a plate that was turned; its normal turns with it and is not stretched.
+TEST(StrainRate, OfAShellIsThatOfItsMiddleSurface) {
+  const Matrix3d turned = rotation(1, {3, -1, 2});
+  Matrix3d within = Vector3d(50, -20, 0).asDiagonal(), across = Matrix3d::Zero(), thinning = across;
+  within(0, 1) = within(1, 0) = 30;
+  across(2, 0) = 70, across(0, 2) = -11;
+  thinning(2, 2) = -90;
+  const std::vector<double> rate =
+      strain_rate(plate_deck(), turned, turned * (within + across + thinning) * turned.transpose());
+  EXPECT_LT((to_matrix(rate) - turned * within * turned.transpose()).cwiseAbs().maxCoeff(), 1e-12 * 100);
+}
+
+TEST(StrainRate, IsNoneOfARotation) {
+  Matrix3d spin;
+  spin << 0, -300, 200, 300, 0, -100, -200, 100, 0;
+  for (const Deck& deck : {brick_deck(), plate_deck()}) {
+    for (const double component : strain_rate(deck, rotation(2, {1, 2, 3}), spin))
+      EXPECT_NEAR(component, 0, 1e-12 * 300);
+    // Nor of one by a step of any size: half a radian in 1e-3.
+    const Matrix3d secant = (rotation(0.5, {1, 2, 3}) - Matrix3d::Identity()) / 1e-3;
+    for (const double component : strain_rate(deck, Matrix3d::Identity(), secant, 1e-3))
+      EXPECT_NEAR(component, 0, 1e-12 * 500);
+  }
+}
+
+// Of a bar whose ends part at a constant velocity v: v / l in the middle of each step, and the sum of rates
+// times steps is the logarithmic strain.
+TEST(StrainRate, AddsUpToTheLogarithmicStrain) {
+  constexpr double rate = 10;
+  Deck deck;
+  deck.materials = {{"material", elastic(0)}};
+  deck.parts = {box("bar", {1, 0.2, 0.2}, {1, 1, 1}, {0.5, 0, 0}, inviscid_hex8())};
+  PrescribedMotion pull;
+  pull.where.set = "bar.xmax";
+  pull.components = {{0, Curve{{{0, rate}}}}};
+  deck.boundary_conditions = {fix("bar.xmin", {0}), pull};
+  deck.time.end = 1;
+  Model model = build_model(deck);
+  for (NodeRecord& node : model.nodes.record) node.velocity[0] = rate * node.position[0];
+  const std::vector<std::string> wanted{"strain", "strain_rate"};
+  FieldObserver observer(model, wanted);
+  ThreadTeam team(1);
+  double sum = 0;
+  look_at_steps(model, 100, 1e9, team, [&](int) {
+    const Snapshot& now = observer.observe(model);
+    const std::vector<double>& strain = (now.cell_fields.end() - 2)->values;
+    const std::vector<double>& strain_rate = now.cell_fields.back().values;
+    EXPECT_NEAR(sum, strain[0], 1e-6 * strain[0]);
+    EXPECT_NEAR(strain[0], std::log1p(rate * model.times.time), 1e-12);
+    const double length = 1 + rate * (model.times.time + 0.5 * model.times.next);
+    EXPECT_NEAR(strain_rate[0], rate / length, 1e-12 * rate);
+    sum += strain_rate[0] * model.times.next;
+  });
+  EXPECT_GT(sum, 0.05);
 }
 
 }  // namespace

@@ -165,6 +165,31 @@ TEST(ResultInfo, TellsWhatIsInAResult) {
   }
 }
 
+// Ranges are of the elements that have a field.
+TEST(ResultInfo, LeavesOutWhatIsNotANumber) {
+  const Folder folder;
+  ResultWriter writer(folder.path(), "scene", {"A title", "can.yaml", "title: A title\n", {}, "0.1.0", 2},
+                      {"time"});
+  Snapshot snapshot = mixed_snapshot(0, 0);
+  for (double& value : snapshot.cell_fields[0].values) value = std::nan("");
+  std::vector<double>& damage = snapshot.cell_fields[1].values;
+  damage.assign(damage.size(), std::nan(""));
+  damage[1] = 0.25, damage[3] = -2;
+  writer.write(snapshot);
+  std::size_t found = 0;
+  for (const FieldInfo& field : read_info(folder.path()).fields) {
+    if (field.name == "stress") {
+      EXPECT_TRUE(std::isnan(field.min) && std::isnan(field.max));
+      ++found;
+    } else if (field.name == "damage") {
+      EXPECT_EQ(field.min, -2);
+      EXPECT_EQ(field.max, 0.25);
+      ++found;
+    }
+  }
+  EXPECT_EQ(found, 2u);
+}
+
 TEST(ResultInfo, OfARunningJobHasNoEndState) {
   const Folder folder;
   const ResultWriter writer = small_result(folder);

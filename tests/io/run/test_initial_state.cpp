@@ -105,6 +105,23 @@ TEST_F(InitialState, KeepsTheMassAndTakesTheDumpThatIsNamed) {
   EXPECT_GT(largest_difference(positions, reader.field("position", 2).values), 1e-6);
 }
 
+// Wherever it stands in either deck: numbers of generated elements go on from part to part.
+TEST_F(InitialState, APartIsFoundBehindOthers) {
+  const std::string other =
+      "\nparts:\n  other: {mesh: {box: {size: [1, 1, 1], elements: [3, 1, 1]}}, "
+      "placement: {translate: [5, 0, 0]}, element: hex8, material: steel}\n";
+  const auto behind = [&](const std::string& text) {
+    return with(with(with_damping(text), "ELEMENT", "hex8"), "\nparts:\n", other);
+  };
+  run("pressing", behind(pressing));
+  EXPECT_EQ(field("pressing", "element_id").values.back(), 3 + 6 * 4 * 4 - 1);
+  run("held", with(held, "ELEMENT", "hex8"));
+  EXPECT_LE(largest(field("held", "displacement").values), 1e-15);
+  EXPECT_GT(largest(field("held", "stress").values), 2e8);
+  run("held", behind(held));
+  EXPECT_LE(largest(field("held", "displacement").values), 1e-15);
+}
+
 TEST_F(InitialState, ADeckWithoutItHasNoneOfIt) {
   const Model model = build("pressing", with(pressing, "ELEMENT", "hex8"));
   EXPECT_EQ(model.energy.internal, 0);

@@ -1,9 +1,13 @@
+#include <algorithm>
+
 #include "src/build/build.hpp"
 
 namespace brio {
 
-void prepare_history(const Deck& deck, Model& model) {
+void prepare_output(const Deck& deck, Model& model) {
   const HistoryOutput& history = deck.output.history;
+  if (std::ranges::count(deck.output.fields_.variables, rotation_field) > 0 && model.nodes.has_rotations())
+    model.rotations = start_rotations(model.blocks, model.nodes);
   model.probes = place_probes(deck, model.parts, model.nodes);
   model.tells_rigid_bodies = history.rigid_bodies;
   if (model.tells_rigid_bodies && model.rigid.empty())

@@ -17,7 +17,7 @@ namespace {
 using namespace test;
 using Eigen::Vector3d;
 
-constexpr double rate = 1e3, length = 0.5;
+constexpr double twist_rate = 1e3, beam_length = 0.5;
 
 PrescribedMotion turning(std::string set, double angular_velocity) {
   PrescribedMotion motion;
@@ -32,10 +32,10 @@ Deck twisted_beam() {
   deck.materials = {{"material", elastic(0.3)}};
   Beam2 beam;
   beam.section = CircleSection{.radius = 0.02};
-  deck.parts = {{"beam", LineMesh{{0, 0, 0}, {length, 0, 0}, 1}, {}, beam, "material"},
+  deck.parts = {{"beam", LineMesh{{0, 0, 0}, {beam_length, 0, 0}, 1}, {}, beam, "material"},
                 box("cube", {1, 1, 1}, {1, 1, 1}, {0, 0, 5}, hex8())};
-  deck.boundary_conditions = {fix("beam.start", {0, 1, 2}), turning("beam.start", 0.9 * rate),
-                              turning("beam.end", rate)};
+  deck.boundary_conditions = {fix("beam.start", {0, 1, 2}), turning("beam.start", 0.9 * twist_rate),
+                              turning("beam.end", twist_rate)};
   deck.time.end = 1;
   deck.output.fields_.variables = {"default", "rotation", "beam_twist"};
   return deck;
@@ -60,10 +60,10 @@ TEST(RotationField, OfATwistedBeamIsTheAngleOfItsEnds) {
   double largest = 0;
   look_at_steps(model, 60, 1e9, team, [&](int) {
     const Snapshot& now = observer.observe(model);
-    const double angle = rate * model.times.time;
+    const double angle = twist_rate * model.times.time;
     EXPECT_LT((vector_at(now, 0) - about_x(0.9 * angle)).norm(), 1e-12) << model.step;
     EXPECT_LT((vector_at(now, 1) - about_x(angle)).norm(), 1e-12) << model.step;
-    EXPECT_NEAR(now.cell_fields.back().values[0], 0.1 * angle / length, 1e-12) << model.step;
+    EXPECT_NEAR(now.cell_fields.back().values[0], 0.1 * angle / beam_length, 1e-12) << model.step;
     for (std::size_t point = 2; point < 10; ++point)
       EXPECT_TRUE(std::isnan(vector_at(now, point).x())) << "of a solid";
     largest = angle;

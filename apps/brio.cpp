@@ -200,7 +200,8 @@ void add_plot_command(CLI::App& program) {
       ->add_option("words", arguments->words,
                    "result folders or .vtkhdf files, and columns; without columns: the energies")
       ->required();
-  command->add_option("--against", options.against, "column of the other axis; default time");
+  command->add_option("--against", options.against,
+                      "column of the other axis, as --against=-NAME of the other sign; default time");
   command->add_option("--scale", options.scale, "factor on the columns, such as -1");
   command
       ->add_option("--filter", options.filter,

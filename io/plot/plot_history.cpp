@@ -61,6 +61,15 @@ void filter(const std::vector<double>& times, double channel_class, const std::f
   curve.x = resampled(times, curve.x, count);
 }
 
+// With a minus before its name of the other sign: shortening in place of a displacement.
+std::vector<double> other_axis(const std::string& name, const ReadHistory& history,
+                               const std::filesystem::path& file) {
+  if (!name.starts_with('-')) return history.column(name, file);
+  std::vector<double> values = history.column(name.substr(1), file);
+  for (double& value : values) value = -value;
+  return values;
+}
+
 void add_curves(const PlotOptions& options, const std::filesystem::path& result,
                 std::vector<HistoryCurve>& curves) {
   const std::filesystem::path file = file_of(result);
@@ -69,7 +78,7 @@ void add_curves(const PlotOptions& options, const std::filesystem::path& result,
   for (const std::string& name : columns_of(options, history, file)) {
     HistoryCurve& curve = curves.emplace_back();
     curve.title = options.results.size() > 1 ? file.stem().string() + ": " + name : name;
-    curve.x = history.column(options.against, file);
+    curve.x = other_axis(options.against, history, file);
     curve.y = history.column(name, file);
     for (double& value : curve.y) value *= options.scale;
     if (options.filter) filter(times, *options.filter, file, curve);

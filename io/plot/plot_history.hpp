@@ -11,10 +11,10 @@ namespace brio {
 struct PlotOptions {
   std::vector<std::filesystem::path> results;  ///< folders or .vtkhdf files
   std::vector<std::string> columns;            ///< empty: the energies of the balance that are not zero
-  std::string against = "time";                ///< column of the other axis
-  double scale = 1;                            ///< of the columns
-  std::optional<double> filter;                ///< channel frequency class of SAE J211, Hz; times are seconds
-  std::filesystem::path output;                ///< .svg; empty: NAME.plot.svg here
+  std::string against = "time";  ///< column of the other axis; with a minus before it of the other sign
+  double scale = 1;              ///< of the columns
+  std::optional<double> filter;  ///< channel frequency class of SAE J211, Hz; times are seconds
+  std::filesystem::path output;  ///< .svg; empty: NAME.plot.svg here
 };
 
 /// What gnuplot is told. \throws FileError naming the columns that there are

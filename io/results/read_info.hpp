@@ -17,7 +17,7 @@ struct FieldInfo {
   std::string where;  ///< "point", "cell" or "global"
   std::string name;
   int components = 1;
-  double min = 0, max = 0;  ///< over what is a number in any row and component; neither is where nothing is one
+  double min = 0, max = 0;  ///< over rows and components that are numbers; NaN without any
 };
 
 struct ResultInfo {

@@ -29,6 +29,10 @@ TEST_F(ProgramPlot, DrawsEnergiesOrTheColumnsThatAreNamed) {
   for (std::string line; std::getline(commands, line) && line != "EOD";) std::istringstream(line) >> x >> y;
   EXPECT_NEAR(x, row.at("bar.velocity_x"), 1e-8 * std::abs(x));
   EXPECT_NEAR(y, -2 * row.at("support_impulse_x"), 1e-8 * std::abs(y));
+  ASSERT_EQ(brio("plot bar.results kinetic --against=-bar.velocity_x --output turned.svg").exit_code, 0);
+  const std::string turned = read("turned.gp");
+  const std::size_t end = turned.rfind('\n', turned.find("\nEOD") - 1);
+  EXPECT_NEAR(std::stod(turned.substr(end)), -row.at("bar.velocity_x"), 1e-8 * std::abs(x));
 }
 
 TEST_F(ProgramPlot, DrawsSeveralResultsInOneAndFiltersThem) {

@@ -291,10 +291,19 @@ RunOutcome run_deck(const RunOptions& options) {
   const auto published = [&options, log = outcome.folder / (name + ".log")](bool goes_on) {
     if (options.published) options.published(log, goes_on);
   };
-  const ResultSettings settings{.sync = deck.output.sync,
-                                .overwrite = options.overwrite,
-                                .moved_aside = options.moved_aside,
-                                .published = [published] { published(false); }};
+  // Told by this thread, whichever writes.
+  std::vector<std::function<void()>> news;
+  const auto tell = [&news] {
+    for (const std::function<void()>& one : news) one();
+    news.clear();
+  };
+  const auto moved_aside = [&](const std::filesystem::path& to, bool lost) {
+    if (options.moved_aside) news.emplace_back([&options, to, lost] { options.moved_aside(to, lost); });
+  };
+  const ResultSettings settings{
+      .sync = deck.output.sync, .overwrite = options.overwrite, .moved_aside = moved_aside, .published = [&] {
+        news.emplace_back([published] { published(false); });
+      }};
   const std::filesystem::path results = outcome.folder / (name + ".vtkhdf");
   const bool continues_results = restart && is_same_folder(restart->path.parent_path(), outcome.folder) &&
                                  std::filesystem::exists(results);
@@ -309,7 +318,7 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.xdmf = writer.xdmf();
   outcome.summary_file = writer.summary();
   outcome.initial_overlaps = model.initial_overlaps;
-  RunOutput output(deck, model, writer);
+  RunOutput output(deck, model, writer, tell);
   Run run(deck, options, model, output, team, start);
   run.folder = outcome.folder;
   run.record = record;
@@ -333,6 +342,7 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.summary.element_updates_per_s =
       static_cast<double>(model.element_updates) / outcome.summary.wall_s.total;
   writer.write(outcome.summary);
+  tell();
   return outcome;
 }
 

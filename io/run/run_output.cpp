@@ -19,9 +19,10 @@ OutputSchedule restart_schedule(const Deck& deck) {
 
 }  // namespace
 
-RunOutput::RunOutput(const Deck& deck, Model& model, ResultWriter& writer)
+RunOutput::RunOutput(const Deck& deck, Model& model, ResultWriter& writer, std::function<void()> after_write)
     : model_(model),
       writer_(writer),
+      after_write_(std::move(after_write)),
       observer_(model, deck.output.fields_.variables),
       history_(history_columns(model)),
       written_(history_.columns()),
@@ -42,7 +43,7 @@ void RunOutput::keep(const Snapshot& state, bool has_dump) {
 }
 
 void RunOutput::begin_writing(const Snapshot* fields) {
-  writing_.finish();
+  finish_writing();
   std::swap(history_, written_);
   writing_.start([this, fields] {
     if (fields != nullptr)
@@ -50,17 +51,20 @@ void RunOutput::begin_writing(const Snapshot* fields) {
     else
       writer_.write(written_);
   });
-  if (!has_begun_) writing_.finish();  // the first names the files, and calls back
-  has_begun_ = true;
+}
+
+void RunOutput::finish_writing() {
+  writing_.finish();
+  after_write_();
 }
 
 void RunOutput::write_now(const Snapshot* fields) {
   begin_writing(fields);
-  writing_.finish();
+  finish_writing();
 }
 
 void RunOutput::write_what_is_due(ThreadTeam& team) {
-  if (writing_.has_ended()) writing_.finish();  // a disk that is full ends the run now, not at the next dump
+  if (writing_.has_ended()) finish_writing();  // a disk that is full ends the run now, not at the next dump
   const std::optional<double> fields = field_schedule_.due_within(model_.times.time, model_.times.next);
   write(history_schedule_.due(model_.times.time), fields, team);
 }
@@ -81,7 +85,7 @@ void RunOutput::write(bool row, std::optional<double> fields, ThreadTeam& team) 
   if (fields) watch(model_);
   observe_history(model_, row_);
   if (fields || keeps) {
-    writing_.finish();
+    finish_writing();
     state_ = nullptr;  // the one before is written over
     const Snapshot& state = observer_.observe(model_, fields.value_or(model_.times.time));
     if (const std::string fault = what_results_cannot_hold(state); !fault.empty())
@@ -150,7 +154,7 @@ double RunOutput::restore(const RestartFile& restart, bool continues_results) {
 
 void RunOutput::write_last_good_state() {
   const StageTimer timer(model_.stages, Stage::output);
-  writing_.finish();
+  finish_writing();
   model_.energy = good_.energy;
   model_.momentum = good_.momentum;
   model_.times = good_.times;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +22,9 @@ namespace brio {
 
 class RunOutput {
  public:
-  /// \param model as built: its positions are the reference of displacements
-  RunOutput(const Deck& deck, Model& model, ResultWriter& writer);
+  /// \param model as built: its positions are the reference of displacements \param after_write called by the
+  /// thread of the run when a write has ended
+  RunOutput(const Deck& deck, Model& model, ResultWriter& writer, std::function<void()> after_write);
 
   /// Of a state that is good. \throws Breakdown where results cannot hold it
   void write_what_is_due(ThreadTeam& team);
@@ -46,6 +48,8 @@ class RunOutput {
  private:
   /// Begin to write rows, and fields unless null. \throws FileError of the write before
   void begin_writing(const Snapshot* fields);
+  /// \throws FileError
+  void finish_writing();
   /// Write rows, and fields unless null. \throws FileError
   void write_now(const Snapshot* fields);
   /// \param fields the time of them, if they are due
@@ -71,6 +75,7 @@ class RunOutput {
 
   Model& model_;
   ResultWriter& writer_;
+  std::function<void()> after_write_;
   FieldObserver observer_;
   History history_, written_;  ///< rows that wait; those that are being written
   std::vector<double> row_;
@@ -79,8 +84,7 @@ class RunOutput {
   const Snapshot* state_ = nullptr;
   GoodState good_;
   std::int64_t next_kept_ = 0;
-  bool has_begun_ = false;  ///< to write
-  BackgroundJob writing_;   ///< reads the state and rows above: ends before them
+  BackgroundJob writing_;  ///< reads the state and rows above: ends before them
 };
 
 }  // namespace brio

@@ -18,7 +18,7 @@ writes PREFIX_0.png, PREFIX_1.png, ... one for each time, and prints what it dre
   --clip X Y Z         cut the scene open through its middle, normal to this direction
   --box X0 X1 Y0 Y1 Z0 Z1  what to frame; default all that occurs and is drawn, debris too
   --hide-edges         surface without the edges of elements
-  --thicken            beams as tubes and particles as spheres of their radius
+  --thicken            shells with their thickness, beams as tubes and particles as spheres of their radius
   --size WIDTH HEIGHT  default 800 600
   --largest BYTES      fewer colours, then fewer pixels, until a picture has no more
 """
@@ -32,6 +32,7 @@ from paraview import simple
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from render_deck import Deck, ranges  # noqa: E402
 from render_files import drawn, save_animation, save_picture  # noqa: E402
+from thicken import thick_shapes  # noqa: E402
 
 PART_COLOURS = [(0.55, 0.63, 0.80), (0.99, 0.70, 0.38), (0.55, 0.80, 0.60), (0.90, 0.54, 0.76), (0.80, 0.75, 0.45),
                 (0.60, 0.85, 0.88), (0.77, 0.60, 0.52), (0.70, 0.70, 0.70)]
@@ -187,25 +188,6 @@ def place_camera(view, box, direction, zoom, aspect):
     view.CameraViewUp = list(up)
 
 
-def thick_shapes(source, time):
-    """Tubes, and spheres of their radius at all nodes: particles, and joints that leave no gap where beams meet."""
-    if "radius" not in source.CellData.keys():
-        return []
-    with_radius = simple.Threshold(Input=source, Scalars=["CELLS", "radius"])
-    with_radius.ThresholdMethod, with_radius.UpperThreshold = "Above Upper Threshold", 1e-30
-    on_points = simple.CellDatatoPointData(Input=with_radius, PassCellData=1)
-    surface = simple.ExtractSurface(Input=on_points)
-    tubes = simple.Tube(Input=surface, Scalars=["POINTS", "radius"], VaryRadius="By Absolute Scalar", NumberofSides=12)
-    tubes.UpdatePipeline(time)
-    shapes = [tubes] if tubes.GetDataInformation().GetNumberOfPoints() > 0 else []  # ParaView cannot show what is empty
-    apart = simple.Shrink(Input=with_radius, ShrinkFactor=1.0)  # each cell with nodes of its own, which have its values
-    ends = simple.CellDatatoPointData(Input=apart)
-    spheres = simple.Glyph(Input=ends, GlyphType="Sphere", ScaleArray=["POINTS", "radius"], ScaleFactor=2.0,
-                           GlyphMode="All Points")
-    spheres.GlyphType.ThetaResolution = spheres.GlyphType.PhiResolution = 12
-    return shapes + [spheres]
-
-
 class Scene:
     """What is drawn of a result."""
 
@@ -249,7 +231,7 @@ class Scene:
         displays = []
         solid = self.clipped(self.solid)
         solid.UpdatePipeline(self.times[0])
-        thick = thick_shapes(solid, self.times[0]) if self.options.thicken else []
+        thick = list(thick_shapes(solid, self.times[0]).values()) if self.options.thicken else []
         for shape in [solid] + thick + [self.clipped(faded) for faded in self.faded]:
             display = simple.Show(shape, view)
             is_faded = len(displays) > len(thick)

@@ -65,7 +65,8 @@ struct BlockKernel {
   /// Reference state and lumped masses, added to nodes.mass (and nodes.rotational_inertia).
   /// Throws std::invalid_argument naming the element where the geometry is not valid.
   void (*initialize)(Block&, Nodes&);
-  ElementSample (*sample)(const Block&, const Nodes&, std::size_t element);
+  /// \param in_full with what fields beyond the default ask for
+  ElementSample (*sample)(const Block&, const Nodes&, std::size_t element, bool in_full);
   double (*mass)(const Block&, std::size_t element);
   /// Rotational inertia of a node over its mass, of the element's share of both; 0 where nodes do not turn.
   double (*gyration)(const Block&, std::size_t element);

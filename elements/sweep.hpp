@@ -230,21 +230,26 @@ void copy_lane(const std::byte* pack, int lane, Scalar* out) {
   }
 }
 
+/// One element as plain doubles; positions and velocities are relative to its first node.
+template <class Kind, class Law>
+struct ElementCopy {
+  typename Kind::template Header<double, Law> header;
+  std::array<typename Kind::template Point<double, Law>, Kind::most_points> points;
+  NodalMotionOf<Kind, double> motion;
+};
+
 template <class Kind, class Law, Floating Real>
-ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t e) {
+void copy_element(const Block& block, const Nodes& nodes, std::size_t e, std::size_t points,
+                  ElementCopy<Kind, Law>& copy) {
   using Layout = PackLayout<Kind, Law, Real>;
   constexpr int width = lane_count<Real>;
-  const Kind kind = kernel_of<Kind>(block.element);
   const std::byte* pack = block.state.data() + (e / width) * block.pack_bytes;
   const int lane = static_cast<int>(e % width);
-  typename Kind::template Header<double, Law> header;
-  copy_lane<decltype(header), Real>(pack, lane, &header);
-  std::array<typename Kind::template Point<double, Law>, Kind::most_points> points;
-  const auto count = static_cast<std::size_t>(kind.points());
-  for (std::size_t p = 0; p < count; ++p)
+  copy_lane<decltype(copy.header), Real>(pack, lane, &copy.header);
+  for (std::size_t p = 0; p < points; ++p)
     copy_lane<typename Kind::template Point<double, Law>, Real>(
-        pack + sizeof(typename Layout::Header) + p * sizeof(typename Layout::Point), lane, &points[p]);
-  NodalMotionOf<Kind, double> motion;
+        pack + sizeof(typename Layout::Header) + p * sizeof(typename Layout::Point), lane, &copy.points[p]);
+  NodalMotionOf<Kind, double>& motion = copy.motion;
   const NodeRecord& first = nodes.record[static_cast<std::size_t>(block.node(e, 0))];
   for (int corner = 0; corner < Kind::nodes; ++corner) {
     const auto node = static_cast<std::size_t>(block.node(e, corner));
@@ -255,18 +260,29 @@ ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t
         motion.angular_velocity[i][corner] = nodes.angular_velocity[node].component[i];
     }
   }
+}
+
+/// \param in_full with what fields beyond the default ask for
+template <class Kind, class Law, Floating Real>
+ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t e, bool in_full) {
+  const Kind kind = kernel_of<Kind>(block.element);
+  const auto count = static_cast<std::size_t>(kind.points());
+  ElementCopy<Kind, Law> copy;
+  copy_element<Kind, Law, Real>(block, nodes, e, count, copy);
   const Law law = law_of<Law>(block.material);
-  ElementSample sample = kind.sample(motion, law, header, points.data());
+  ElementSample sample = kind.sample(copy.motion, law, copy.header, copy.points.data());
+  if constexpr (Kind::kernel_traits.completes_samples)
+    if (in_full) kind.complete(copy.motion, copy.header, copy.points.data(), sample);
   static_assert(history_names<Law>.size() <= ElementSample::most_named);
   sample.history_names = history_names<Law>;
   if constexpr (Law::traits.named_history) {
     std::size_t next = 0;
     Law::named_history()([&](const auto& row) {
-      sample.history[next++] = history_value(law, row, points.data(), count);
+      sample.history[next++] = history_value(law, row, copy.points.data(), count);
       if (row.name != "equivalent_plastic_strain" || !Kind::Settings::traits.has_thickness) return;
       for (ElementSample::Layer* layer : {&sample.top, &sample.middle, &sample.bottom})
         if (layer->point != ElementSample::Layer::none)
-          layer->plastic_strain = history_value(law, row, &points[layer->point], 1);
+          layer->plastic_strain = history_value(law, row, &copy.points[layer->point], 1);
     });
   }
   return sample;

@@ -139,7 +139,7 @@ double plastic_share(const Scene& scene) {
   const Block& block = scene.blocks[0];
   std::size_t count = 0;
   for (std::size_t e = 0; e < block.element_count; ++e)
-    count += block.kernel.sample(block, scene.nodes, e).named("equivalent_plastic_strain") > 0;
+    count += block.kernel.sample(block, scene.nodes, e, false).named("equivalent_plastic_strain") > 0;
   return static_cast<double>(count) / static_cast<double>(block.element_count);
 }
 

@@ -88,6 +88,8 @@ struct KernelTraits {
   /// undamped(), start_unstressed(now, header, point): its elastic stiffness can be multiplied with
   /// displacements (elements/stiffness_product.hpp).
   bool tangent = false;
+  /// complete(motion, header, point, sample): what fields beyond the default ask of a sample.
+  bool completes_samples = false;
   /// What is wrong with an element without mass.
   std::string_view shape_rule = "has no positive volume";
 };
@@ -140,6 +142,14 @@ concept HasGyration = !Kernel::rotations ||
 template <class Kernel>
 inline constexpr bool announces_its_stations = Kernel::kernel_traits.stations == HasStations<Kernel>;
 
+template <class Kernel, class Law>
+concept HasComplete = requires(const Kernel& kernel, const NodalMotionOf<Kernel, double>& motion,
+                               const typename Kernel::template Header<double, Law>& header,
+                               const typename Kernel::template Point<double, Law>* point,
+                               ElementSample& sample) {
+  kernel.complete(motion, header, point, sample);
+};
+
 /// The contract of a kernel with a law.
 template <class Kernel, class Law>
 concept ElementKernel = MaterialLaw<Law> && HasKernelMembers<Kernel, Law> && HasGyration<Kernel, Law> &&
@@ -155,6 +165,8 @@ constexpr void check_kernel() {
       "mass, Point with history, initialize(), force() and sample() (elements/base/element_kind.hpp)");
   static_assert(HasGyration<Kernel, Law>, "a kernel whose nodes turn needs gyration_of(header)");
   static_assert(announces_its_stations<Kernel>, "kernel_traits.stations and stations() disagree");
+  static_assert(Kernel::kernel_traits.completes_samples == HasComplete<Kernel, Law>,
+                "kernel_traits.completes_samples and complete() disagree");
 }
 
 /// Settings of a kind that a deck can name.

@@ -22,7 +22,8 @@ namespace brio {
 
 struct Shell4Kernel : Shell4 {
   using Settings = Shell4;
-  static constexpr KernelTraits kernel_traits{.fetches_points_ahead = true, .tangent = true};
+  static constexpr KernelTraits kernel_traits{
+      .fetches_points_ahead = true, .tangent = true, .completes_samples = true};
   static constexpr int most_points = most_thickness_points;
   int points() const { return thickness_points; }
   double point_size(double volume) const { return std::sqrt(volume / thickness); }
@@ -139,28 +140,34 @@ struct Shell4Kernel : Shell4 {
   template <class Law>
   ElementSample sample(const RotatingNodalMotion<double, 4>& motion, const Law&,
                        const Header<double, Law>& header, const Point<double, Law>* point) const {
-    const ShellGeometry<double> g = shell_geometry(motion.position, header.reference);
     ElementSample out;
-    ShellTensor<double> mean{}, first_moment{};
+    ShellTensor<double> mean{};
+    for (int p = 0; p < thickness_points; ++p)
+      mean = mean + rule().weight[static_cast<std::size_t>(p)] * point[p].stress;
+    out.stress = on_global_axes(shell_geometry(motion.position, header.reference), mean);
+    out.internal_energy = header.internal_energy;
+    out.thickness = header.thickness;
+    return out;
+  }
+  template <class Law>
+  void complete(const RotatingNodalMotion<double, 4>& motion, const Header<double, Law>& header,
+                const Point<double, Law>* point, ElementSample& sample) const {
+    const ShellGeometry<double> g = shell_geometry(motion.position, header.reference);
+    ShellTensor<double> first_moment{};
     for (int p = 0; p < thickness_points; ++p) {
       const auto k = static_cast<std::size_t>(p);
-      mean = mean + rule().weight[k] * point[p].stress;
-      first_moment = first_moment + rule().weight[k] * rule().place[k] * point[p].stress;
-      if (rule().place[k] == 0) out.middle.point = k;
+      first_moment = first_moment + (rule().weight[k] * rule().place[k]) * point[p].stress;
+      if (rule().place[k] == 0) sample.middle.point = k;
     }
     // Rules go from the bottom to the top.
-    out.bottom.point = 0;
-    out.top.point = static_cast<std::size_t>(thickness_points - 1);
-    out.stress = on_global_axes(g, mean);
-    out.bending_moment = on_global_axes(g, header.thickness * header.thickness * first_moment);
-    for (ElementSample::Layer* layer : {&out.top, &out.middle, &out.bottom})
+    sample.bottom.point = 0;
+    sample.top.point = static_cast<std::size_t>(thickness_points - 1);
+    sample.bending_moment = on_global_axes(g, header.thickness * header.thickness * first_moment);
+    for (ElementSample::Layer* layer : {&sample.top, &sample.middle, &sample.bottom})
       if (layer->point != ElementSample::Layer::none)
         layer->stress = on_global_axes(g, point[layer->point].stress);
-    out.internal_energy = header.internal_energy;
-    out.hourglass_energy = stored_hourglass_energy(header);
-    out.thickness = header.thickness;
-    out.volume = g.area * header.thickness;
-    return out;
+    sample.hourglass_energy = stored_hourglass_energy(header);
+    sample.volume = g.area * header.thickness;
   }
 
  private:

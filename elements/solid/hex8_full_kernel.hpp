@@ -73,7 +73,7 @@ template <ObjectiveRate rate>
 struct Hex8FullKernel : Hex8Full {
   using Settings = Hex8Full;
   static constexpr KernelTraits kernel_traits{
-      .uses_differences = true, .fetches_points_ahead = true, .tangent = true};
+      .uses_differences = true, .fetches_points_ahead = true, .tangent = true, .completes_samples = true};
   static constexpr int most_points = hexahedron_points;
   static constexpr int points() { return hexahedron_points; }
   static double point_size(double volume) { return std::cbrt(volume / hexahedron_points); }
@@ -195,14 +195,18 @@ struct Hex8FullKernel : Hex8Full {
   }
 
   template <class Law>
-  ElementSample sample(const NodalMotion<double, 8>& motion, const Law&, const Header<double, Law>& header,
+  ElementSample sample(const NodalMotion<double, 8>&, const Law&, const Header<double, Law>& header,
                        const Point<double, Law>* point) const {
-    ElementSample result{.internal_energy = header.internal_energy,
-                         .volume = mean_gradient(modes(motion.position)).volume};
+    ElementSample result{.internal_energy = header.internal_energy};
     result.stress = isotropic(0.0);
     for (int p = 0; p < hexahedron_points; ++p)
       result.stress = result.stress + (1.0 / hexahedron_points) * fixed_stress(point[p]);
     return result;
+  }
+  template <class Law>
+  void complete(const NodalMotion<double, 8>& motion, const Header<double, Law>&, const Point<double, Law>*,
+                ElementSample& sample) const {
+    sample.volume = mean_gradient(modes(motion.position)).volume;
   }
 
  private:

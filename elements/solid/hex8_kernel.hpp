@@ -18,7 +18,8 @@ namespace brio {
 template <ObjectiveRate rate>
 struct Hex8Kernel : Hex8 {
   using Settings = Hex8;
-  static constexpr KernelTraits kernel_traits{.uses_differences = true, .tangent = true};
+  static constexpr KernelTraits kernel_traits{
+      .uses_differences = true, .tangent = true, .completes_samples = true};
   static constexpr int most_points = 1;
   static constexpr int points() { return 1; }
   static double point_size(double volume) { return std::cbrt(volume); }
@@ -185,12 +186,15 @@ struct Hex8Kernel : Hex8 {
   }
 
   template <class Law>
-  ElementSample sample(const NodalMotion<double, 8>& motion, const Law&, const Header<double, Law>& header,
+  ElementSample sample(const NodalMotion<double, 8>&, const Law&, const Header<double, Law>& header,
                        const Point<double, Law>* point) const {
-    return {.stress = fixed_stress(*point),
-            .internal_energy = header.internal_energy,
-            .hourglass_energy = stored_energy(header.hourglass),
-            .volume = mean_gradient(modes(motion.position)).volume};
+    return {.stress = fixed_stress(*point), .internal_energy = header.internal_energy};
+  }
+  template <class Law>
+  void complete(const NodalMotion<double, 8>& motion, const Header<double, Law>& header,
+                const Point<double, Law>*, ElementSample& sample) const {
+    sample.hourglass_energy = stored_energy(header.hourglass);
+    sample.volume = mean_gradient(modes(motion.position)).volume;
   }
 };
 

@@ -17,7 +17,7 @@ void put(const std::array<double, 3>& values, double* place) {
 }
 
 double energy_of(const Block& block, const Nodes& nodes, std::size_t element) {
-  return block.kernel.sample(block, nodes, element).internal_energy;
+  return block.kernel.sample(block, nodes, element, false).internal_energy;
 }
 
 void set_state(const PartState& state, std::size_t of_mesh, std::size_t slot, Block& block) {

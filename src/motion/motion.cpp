@@ -1,23 +1,16 @@
 #include "src/motion/motion.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "src/base/gather.hpp"
+#include "src/base/lanes.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
 namespace {
 
 constexpr Row4 first_three{1, 1, 1, 0};
-
-// Of the first three.
-Row4 cross(Row4 a, Row4 b) {
-  const auto next = [](Row4 row) { return __builtin_shufflevector(row, row, 1, 2, 0, 3); };
-  const auto last = [](Row4 row) { return __builtin_shufflevector(row, row, 2, 0, 1, 3); };
-  return next(a) * last(b) - last(a) * next(b);
-}
 
 double sum3(Row4 row) { return row[0] + row[1] + row[2]; }
 
@@ -113,36 +106,47 @@ void move(Nodes& nodes, double step, ThreadTeam& team) {
   });
 }
 
-Momentum momentum(const Nodes& nodes) {
-  Momentum sum;
-  Row4 linear{}, angular{};
-  constexpr std::size_t most = 256;  // nodes at a time: roots are taken in lanes
-  std::array<double, most> linear_size, angular_size;
-  for (std::size_t begin = 0; begin < nodes.size(); begin += most) {
-    const std::size_t count = std::min(most, nodes.size() - begin);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = begin + k;
-      const Row4 x = load_row(nodes.record[i].position),
-                 p = nodes.mass[i] * load_row(nodes.record[i].velocity);
-      linear += p;
-      angular += cross(x, p);
-      linear_size[k] = sum3(p * p);
-      angular_size[k] = linear_size[k] * sum3(x * x);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      linear_size[k] = std::sqrt(linear_size[k]);
-      angular_size[k] = std::sqrt(angular_size[k]);
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      sum.linear_size += linear_size[k];
-      sum.angular_size += angular_size[k];
-    }
-  }
-  if (nodes.has_rotations())
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      angular += nodes.rotational_inertia[i] * load_row(nodes.angular_velocity[i].component);
-  sum.total = {{linear[0], linear[1], linear[2]}, {angular[0], angular[1], angular[2]}};
+namespace {
+
+using Eight = Lanes<double>;
+
+double sum_of(Eight lanes) {
+  double sum = 0;
+  for (int lane = 0; lane < 8; ++lane) sum += lanes[lane];
   return sum;
+}
+Vector sum_of(const Vector3<Eight>& lanes) { return {sum_of(lanes.x), sum_of(lanes.y), sum_of(lanes.z)}; }
+
+// Of rows of 4 numbers.
+Vector3<Eight> in_lanes(const Row4 (&rows)[8]) {
+  Row8 x, y, z;
+  transpose_rows(rows, x, y, z);
+  return {Eight(x), Eight(y), Eight(z)};
+}
+
+}  // namespace
+
+Momentum momentum(const Nodes& nodes) {
+  Vector3<Eight> linear{0.0, 0.0, 0.0}, angular{0.0, 0.0, 0.0}, spin{0.0, 0.0, 0.0};
+  Eight linear_size(0.0), angular_size(0.0);
+  for (std::size_t begin = 0; begin < nodes.size(); begin += 8) {
+    Row4 position[8]{}, impulse[8]{}, turning[8]{};
+    for (std::size_t k = 0; k < std::min<std::size_t>(8, nodes.size() - begin); ++k) {
+      const std::size_t i = begin + k;
+      position[k] = load_row(nodes.record[i].position);
+      impulse[k] = nodes.mass[i] * load_row(nodes.record[i].velocity);
+      if (nodes.has_rotations())
+        turning[k] = nodes.rotational_inertia[i] * load_row(nodes.angular_velocity[i].component);
+    }
+    const Vector3<Eight> x = in_lanes(position), p = in_lanes(impulse);
+    linear = linear + p;
+    angular = angular + cross(x, p);
+    if (nodes.has_rotations()) spin = spin + in_lanes(turning);
+    const Eight size = sqrt(dot(p, p));
+    linear_size += size;
+    angular_size += size * sqrt(dot(x, x));
+  }
+  return {{sum_of(linear), sum_of(angular + spin)}, sum_of(linear_size), sum_of(angular_size)};
 }
 
 }  // namespace brio

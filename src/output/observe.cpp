@@ -25,7 +25,7 @@ bool any_has(const Model& model, bool ElementTraits::*trait) {
 }
 
 // Nothing is strained in a rigid part.
-ElementSample sample_of(const Model& model, const PartInModel& part, std::size_t element) {
+ElementSample sample_of(const Model& model, const PartInModel& part, std::size_t element, bool in_full) {
   if (part.rigid >= 0) {
     ElementSample sample{};
     const double thickness = model.rigid.body[static_cast<std::size_t>(part.rigid)].thickness;
@@ -33,7 +33,8 @@ ElementSample sample_of(const Model& model, const PartInModel& part, std::size_t
     return sample;
   }
   const Block& block = model.blocks[part.block];
-  return block.kernel.sample(block, model.nodes, static_cast<std::size_t>(part.element_slot[element]));
+  return block.kernel.sample(block, model.nodes, static_cast<std::size_t>(part.element_slot[element]),
+                             in_full);
 }
 
 bool is_of_points(std::string_view name) {
@@ -149,10 +150,12 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
   }
   for (const std::string& name : variables) {
     if (name == default_group || name == state_variable || is_of_points(name)) continue;
-    if (std::ranges::find(chosen_variables(), name, &CellVariable::name) != chosen_variables().end())
+    if (std::ranges::find(chosen_variables(), name, &CellVariable::name) != chosen_variables().end()) {
       add_variable(name);
-    else
+      in_full_ = true;
+    } else {
       add_cell_field(name, {Kind::history});
+    }
   }
 }
 
@@ -251,7 +254,7 @@ void FieldObserver::note_thickness(const Model& model) {
     std::vector<double>& of_part = thickness_.emplace_back();
     if (part.rigid >= 0 || !traits_of(model.blocks[part.block].element).has_thickness) continue;
     for (std::size_t e = 0; e < part.element_slot.size(); ++e)
-      of_part.push_back(sample_of(model, part, e).thickness);
+      of_part.push_back(sample_of(model, part, e, false).thickness);
   }
 }
 
@@ -341,7 +344,7 @@ void FieldObserver::fill_cells(const Model& model) {
     const PartInModel& part = model.parts[p];
     for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
       if (part.element_slot[e] < 0 && part.rigid < 0) continue;
-      const ElementSample sample = sample_of(model, part, e);
+      const ElementSample sample = sample_of(model, part, e, in_full_);
       for (std::size_t k = 0; k < cell_source_.size(); ++k)
         fill_cell(model, cell_source_[k], sample, {p, e, part.number_of_element(e), cell},
                   snapshot_.cell_fields[k]);

@@ -90,7 +90,8 @@ class FieldObserver {
   std::vector<double> reference_;
   std::vector<double> point_number_;            ///< of each point, with mesh files
   std::vector<std::vector<double>> thickness_;  ///< at the start, by part and element, for strains of shells
-  std::size_t state_field_ = none;              ///< among those of cells
+  bool in_full_ = false;            ///< whether a field asks for more of elements than the default
+  std::size_t state_field_ = none;  ///< among those of cells
 };
 
 /// Names of the history's columns: time, step, energies, momenta, and the mean velocity of every part (of the

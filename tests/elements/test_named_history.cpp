@@ -36,7 +36,7 @@ ElementSample sample_at_start(const Element& element, const Material& material) 
   }
   Block block = make_block("part", element, material, Precision::double_precision, connectivity);
   block.kernel.initialize(block, nodes);
-  return block.kernel.sample(block, nodes, 0);
+  return block.kernel.sample(block, nodes, 0, true);
 }
 
 std::vector<Element> elements() {

@@ -98,7 +98,7 @@ std::vector<double> forces_of_block(const ElasticPlastic& material) {
   }
   for (const NodeVector& force : nodes.force)
     forces.insert(forces.end(), force.component, force.component + 3);
-  forces.push_back(block.kernel.sample(block, nodes, 0).named("equivalent_plastic_strain"));
+  forces.push_back(block.kernel.sample(block, nodes, 0, true).named("equivalent_plastic_strain"));
   return forces;
 }
 

@@ -44,7 +44,7 @@ struct HeldCube {
     for (NodeRecord& record : nodes.record) record.velocity[0] = 0;
   }
   SweepResult sweep() { return block.kernel.sweep(block, {0, 1, 1}, nodes, step); }
-  ElementSample sample() const { return block.kernel.sample(block, nodes, 0); }
+  ElementSample sample() const { return block.kernel.sample(block, nodes, 0, true); }
 };
 
 TEST(ToyLaw, IsOneOfTheList) {

@@ -47,7 +47,7 @@ Collision collide(const Deck& deck) {
     for (std::size_t e = 0; e < block.element_count; ++e) {
       const double x = m.nodes.record[static_cast<std::size_t>(block.node(e, 0))].position[0];
       if (x < -0.56 || x > -0.49) continue;
-      result.stress -= block.kernel.sample(block, m.nodes, e).stress.xx;
+      result.stress -= block.kernel.sample(block, m.nodes, e, true).stress.xx;
       ++samples;
     }
   });

@@ -24,7 +24,7 @@ double total_of(Model& model, const std::string& density) {
     for (const int slot : part.element_slot) {
       const Block& block = model.blocks[part.block];
       sum += field.values[cell++] *
-             block.kernel.sample(block, model.nodes, static_cast<std::size_t>(slot)).volume;
+             block.kernel.sample(block, model.nodes, static_cast<std::size_t>(slot), true).volume;
     }
   return sum;
 }

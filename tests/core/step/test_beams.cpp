@@ -51,7 +51,7 @@ const NodeRecord& node_of(const Model& model, int node) {
 }
 ElementSample sample_of(const Model& model, int element) {
   const auto slot = static_cast<std::size_t>(model.parts[0].element_slot[static_cast<std::size_t>(element)]);
-  return model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot);
+  return model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot, true);
 }
 
 TEST(Beams, StepLoadRunsAlongABarAtTheWaveSpeed) {

@@ -63,7 +63,7 @@ TEST(ElasticPlasticWave, PrecursorStressAndBothSpeedsAreThoseOfUniaxialStrain) {
   std::vector<double> stress(count);
   for (std::size_t e = 0; e < stress.size(); ++e) {
     const auto slot = static_cast<std::size_t>(model.parts[0].element_slot[e]);
-    stress[e] = -model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot).stress.xx;
+    stress[e] = -model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot, true).stress.xx;
   }
   const double time = deck.time.end;
   const double elastic_front = front_at(stress, 0.5 * precursor);

@@ -63,9 +63,9 @@ Shape taylor_bar(const Rod& rod, const Element& element) {
   shape.length = highest - lowest;
   const Block& block = model.blocks[0];
   for (const int slot : model.parts[0].element_slot)
-    shape.plastic_strain =
-        std::max(shape.plastic_strain, block.kernel.sample(block, model.nodes, static_cast<std::size_t>(slot))
-                                           .named("equivalent_plastic_strain"));
+    shape.plastic_strain = std::max(
+        shape.plastic_strain, block.kernel.sample(block, model.nodes, static_cast<std::size_t>(slot), true)
+                                  .named("equivalent_plastic_strain"));
   shape.start_energy = model.energy.kinetic_start;
   shape.energy_error = model.energy.error_max;
   shape.hourglass_share = model.energy.hourglass / model.energy.internal;

@@ -37,8 +37,9 @@ void expect_same_elements(const Model& model, const Model& before) {
     ASSERT_EQ(part.element_order[place], static_cast<int>(e));
     for (int corner = 0; corner < 8; ++corner)
       ASSERT_EQ(model.blocks[0].node(place, corner), before.blocks[0].node(old_place, corner));
-    const ElementSample now = model.blocks[0].kernel.sample(model.blocks[0], model.nodes, place);
-    const ElementSample then = before.blocks[0].kernel.sample(before.blocks[0], before.nodes, old_place);
+    const ElementSample now = model.blocks[0].kernel.sample(model.blocks[0], model.nodes, place, true);
+    const ElementSample then =
+        before.blocks[0].kernel.sample(before.blocks[0], before.nodes, old_place, true);
     ASSERT_EQ(now.stress.xx, then.stress.xx);
     ASSERT_EQ(now.internal_energy, then.internal_energy);
     ASSERT_EQ(held_energy(model.blocks[0], place).internal,

@@ -33,7 +33,7 @@ TEST(Erosion, ElementGoesWhenItsDamageHasReachedTheBound) {
       return;
     }
     if (m.erosion->total_deleted() > 0) return;
-    damage = m.blocks[0].kernel.sample(m.blocks[0], m.nodes, 0).named("damage");
+    damage = m.blocks[0].kernel.sample(m.blocks[0], m.nodes, 0, true).named("damage");
     internal = m.energy.internal;
     const double strain = std::log(1 + m.times.time);
     ASSERT_NEAR(damage, std::max(strain - start, 0.0) / opening, 1e-3);
@@ -58,8 +58,9 @@ TEST(Erosion, NothingGoesInCompression) {
   Model model = build_model(deck);
   const Outcome outcome = run_all(model, deck);
   EXPECT_TRUE(outcome.deaths.empty());
-  EXPECT_GT(model.blocks[0].kernel.sample(model.blocks[0], model.nodes, 0).named("equivalent_plastic_strain"),
-            0.1);
+  EXPECT_GT(
+      model.blocks[0].kernel.sample(model.blocks[0], model.nodes, 0, true).named("equivalent_plastic_strain"),
+      0.1);
 }
 
 // Half of the last step's work no longer acts and is subtracted: it is 0.6 % of the energy of the element.

@@ -46,7 +46,7 @@ class ShellModel {
   Eigen::Vector3d force(int n) const { return Eigen::Vector3d(nodes.force[at(n)].component); }
   Eigen::Vector3d moment(int n) const { return Eigen::Vector3d(nodes.moment[at(n)].component); }
   double stable_step() const { return last.stable_step; }
-  ElementSample sample(int e) const { return block.kernel.sample(block, nodes, at(e)); }
+  ElementSample sample(int e) const { return block.kernel.sample(block, nodes, at(e), true); }
 
   void sweep(double step) {
     for (std::size_t n = 0; n < nodes.size(); ++n) nodes.force[n] = nodes.moment[n] = {};

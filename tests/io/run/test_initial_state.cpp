@@ -47,7 +47,7 @@ TEST_F(InitialState, OfStressAndPlasticStrainIsThatOfTheResult) {
   double elastic_energy = 0;
   for (std::size_t e = 0; e < strain.size(); ++e) {
     const auto slot = static_cast<std::size_t>(model.parts[0].element_slot[e]);
-    const ElementSample sample = model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot);
+    const ElementSample sample = model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot, true);
     EXPECT_EQ(sample.stress.xx, stress[6 * e]);
     EXPECT_EQ(sample.stress.xz, stress[6 * e + 5]);
     EXPECT_EQ(sample.named("equivalent_plastic_strain"), strain[e]);

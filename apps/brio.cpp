@@ -80,7 +80,7 @@ void add_threads(CLI::App* command, int& threads, bool& by_size) {
             threads = number;
             by_size = false;
           },
-          "number of threads; default all processors, but at most one for each thousand elements")
+          "number of threads; default all processors, but at most one for each thousand nodes")
       ->check(CLI::Range(1, 1024));
   threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   by_size = true;

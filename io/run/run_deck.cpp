@@ -259,10 +259,9 @@ void make_first_step(const Deck& deck, Model& model, ThreadTeam& team) {
 }
 
 int threads_of(const Model& model, int threads, bool by_size) {
-  constexpr std::size_t elements_a_thread = 1000;
-  std::size_t elements = 0;
-  for (const Block& block : model.blocks) elements += block.element_count;
-  return by_size ? std::clamp(static_cast<int>(elements / elements_a_thread), 1, threads) : threads;
+  constexpr std::size_t nodes_a_thread = 1000;  // those of rigid parts too: they are in contact
+  const std::size_t wanted = std::max<std::size_t>(model.nodes.size() / nodes_a_thread, 1);
+  return by_size && wanted < static_cast<std::size_t>(threads) ? static_cast<int>(wanted) : threads;
 }
 
 RunOutcome run_deck(const RunOptions& options) {

@@ -31,7 +31,7 @@ struct Progress {
   double remaining_s = 0;  ///< if the rest goes on like the last part
 };
 
-/// With fewer elements than a thousand a thread, threads cost more than they gain. \param by_size whether a
+/// With fewer nodes than a thousand a thread, threads cost more than they gain. \param by_size whether a
 /// small scene has fewer than `threads`
 int threads_of(const Model& model, int threads, bool by_size);
 

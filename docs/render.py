@@ -32,7 +32,7 @@ from paraview import simple
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
 from render_deck import Deck, ranges  # noqa: E402
 from render_files import drawn, save_animation, save_picture  # noqa: E402
-from thicken import thick_shapes  # noqa: E402
+from thicken import one_grid, place_of, thick_shapes  # noqa: E402
 
 PART_COLOURS = [(0.55, 0.63, 0.80), (0.99, 0.70, 0.38), (0.55, 0.80, 0.60), (0.90, 0.54, 0.76), (0.80, 0.75, 0.45),
                 (0.60, 0.85, 0.88), (0.77, 0.60, 0.52), (0.70, 0.70, 0.70)]
@@ -89,13 +89,6 @@ def von_mises(source):
                              Function=expression)
 
 
-def one_grid(source):
-    """What the reader shows as a block a part."""
-    if not source.GetDataInformation().IsCompositeDataSet():
-        return source
-    return simple.MergeBlocks(Input=source, MergePoints=0)
-
-
 def only_parts(source, numbers):
     """The cells of some parts."""
     found = []
@@ -106,18 +99,13 @@ def only_parts(source, numbers):
     return found[0] if len(found) == 1 else simple.AppendDatasets(Input=found)
 
 
-def place_in(display, place):
-    """Where a shape has a field: spheres have at their points what cells had."""
-    return "POINTS" if "Glyph" in str(display.Input.SMProxy.GetXMLName()) else place
-
-
-def colour_by(displays, place, name, components, limits, unit, view):
+def colour_by(displays, name, components, limits, unit, view):
     table = simple.GetColorTransferFunction(name)
     table.ApplyPreset("Viridis (matplotlib)", True)
     table.NanColor = [0.75, 0.75, 0.75]  # what does not have the field
     table.AutomaticRescaleRangeMode = "Never"
     for display in displays:
-        own_place = place_in(display, place)
+        own_place = place_of(name, display.Input)
         simple.ColorBy(display, (own_place, name) if components == 1 else (own_place, name, "Magnitude"))
     table.RescaleTransferFunction(*limits)
     bar = simple.GetScalarBar(table, view)
@@ -141,7 +129,7 @@ def colour_by_part(displays, deck, shown, view):
     table.Annotations = [text for i, part in enumerate(deck.parts) for text in (str(i), part)]
     table.IndexedColors = [c for i in range(len(deck.parts)) for c in PART_COLOURS[i % len(PART_COLOURS)]]
     for display in displays:
-        simple.ColorBy(display, (place_in(display, "CELLS"), "part"))
+        simple.ColorBy(display, (place_of("part", display.Input), "part"))
     if len(shown) > 12:
         return
     bar = simple.GetScalarBar(table, view)
@@ -248,7 +236,7 @@ class Scene:
         if name == "part":
             colour_by_part(solid_displays, self.deck, self.shown, view)
         elif self.colour:
-            colour_by(solid_displays, self.colour[0], name, self.colour[1], self.limits, self.deck.unit(name), view)
+            colour_by(solid_displays, name, self.colour[1], self.limits, self.deck.unit(name), view)
 
     def cells_at(self, time):
         self.reader.UpdatePipeline(time)

@@ -12,6 +12,18 @@ def is_there(shape, time):
     return shape.GetDataInformation().GetNumberOfPoints() > 0
 
 
+def one_grid(source):
+    """What the reader shows as a block a part."""
+    if not source.GetDataInformation().IsCompositeDataSet():
+        return source
+    return simple.MergeBlocks(Input=source, MergePoints=0)
+
+
+def place_of(field, shape):
+    """Where a shape has a field: spheres have at their points what cells had."""
+    return "CELLS" if field in shape.CellData.keys() else "POINTS"
+
+
 def cells_with(source, size):
     chosen = simple.Threshold(Input=source, Scalars=["CELLS", size])
     chosen.ThresholdMethod, chosen.UpperThreshold = "Above Upper Threshold", 1e-30  # NaN where there is none
@@ -57,12 +69,12 @@ def show_in_active_view():
     result, view = simple.GetActiveSource(), simple.GetActiveViewOrCreate("RenderView")
     if result is None:
         raise RuntimeError("select a result in the pipeline browser first")
-    name = simple.GetDisplayProperties(result, view).ColorArrayName[1]
-    for name, shape in thick_shapes(simple.MergeBlocks(Input=result), view.ViewTime).items():
+    field = simple.GetDisplayProperties(result, view).ColorArrayName[1]
+    for name, shape in thick_shapes(one_grid(result), view.ViewTime).items():
         simple.RenameSource(name, shape)
         shown = simple.Show(shape, view)
-        if name:  # spheres have at their points what cells had
-            simple.ColorBy(shown, ("CELLS" if name in shape.CellData.keys() else "POINTS", name))
+        if field:
+            simple.ColorBy(shown, (place_of(field, shape), field))
     simple.Render(view)
 
 

@@ -141,9 +141,10 @@ struct Shell4Kernel : Shell4 {
   ElementSample sample(const RotatingNodalMotion<double, 4>& motion, const Law&,
                        const Header<double, Law>& header, const Point<double, Law>* point) const {
     ElementSample out;
+    const ThicknessRule& points = rule();
     ShellTensor<double> mean{};
     for (int p = 0; p < thickness_points; ++p)
-      mean = mean + rule().weight[static_cast<std::size_t>(p)] * point[p].stress;
+      mean = mean + points.weight[static_cast<std::size_t>(p)] * point[p].stress;
     out.stress = on_global_axes(shell_geometry(motion.position, header.reference), mean);
     out.internal_energy = header.internal_energy;
     out.thickness = header.thickness;

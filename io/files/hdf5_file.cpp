@@ -101,6 +101,8 @@ Hdf5File::~Hdf5File() {
   if (file_.id() >= 0) transaction_discard(file_.id());
 }
 
+bool Hdf5File::is_at_path() const { return transaction_is_at(file_.id(), path_.c_str()); }
+
 void Hdf5File::commit() {
   const herr_t result = H5Fflush(file_.id(), H5F_SCOPE_GLOBAL);
   const int error = transaction_error(file_.id());
@@ -110,6 +112,7 @@ void Hdf5File::commit() {
 
 void Hdf5File::close() {
   commit();
+  grown_.clear();
   check(file_.reset(), "close the file");
 }
 
@@ -161,6 +164,11 @@ Hdf5Handle Hdf5File::open_dataset(const string& dataset) const {
   return checked(H5Dopen2(file_.id(), dataset.c_str(), H5P_DEFAULT), H5Dclose, "open " + dataset);
 }
 
+const Hdf5Handle& Hdf5File::table_to_append(const string& table) {
+  const auto known = grown_.find(table);
+  return known != grown_.end() ? known->second : grown_.emplace(table, open_dataset(table)).first->second;
+}
+
 hsize_t Hdf5File::first_free_row(const Hdf5Handle& dataset, hsize_t rows) const {
   const string doing = "read the layout of a table";
   const Hdf5Handle properties = checked(H5Dget_create_plist(dataset.id()), H5Pclose, doing);
@@ -171,7 +179,7 @@ hsize_t Hdf5File::first_free_row(const Hdf5Handle& dataset, hsize_t rows) const 
 }
 
 std::int64_t Hdf5File::append_rows(const string& table, hsize_t rows, hid_t memory_type, const void* data) {
-  const Hdf5Handle dataset = open_dataset(table);
+  const Hdf5Handle& dataset = table_to_append(table);
   const string doing = "append to " + table;
   std::array<hsize_t, 2> size{};
   Hdf5Handle space = checked(H5Dget_space(dataset.id()), H5Sclose, doing);

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,6 +75,8 @@ class Hdf5File {
   Hdf5File& operator=(Hdf5File&&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// Of a file that was opened to append: whether its path still leads to it.
+  bool is_at_path() const;
   hid_t id() const { return file_.id(); }
 
   /// Make everything so far part of the file. After a failure the file is as of the last commit.
@@ -91,8 +94,8 @@ class Hdf5File {
   /// stays unused. \param data rows x columns values of `memory_type`. \return the row at which they now
   /// begin.
   std::int64_t append_rows(const std::string& table, hsize_t rows, hid_t memory_type, const void* data);
-  /// What was appended to tables since the file was opened.
-  const std::vector<AppendedRows>& appended() const { return appended_; }
+  /// What was appended to tables since the file was opened, or since the last call.
+  std::vector<AppendedRows> take_appended() { return std::exchange(appended_, {}); }
   /// Of rows of a table as they are stored. \throws FileError where it is no table of numbers as they are
   /// written here.
   std::uint64_t checksum_of_rows(const std::string& table, std::int64_t first, std::int64_t rows) const;
@@ -132,6 +135,7 @@ class Hdf5File {
   Hdf5File(std::filesystem::path path, Hdf5Handle file) : path_(std::move(path)), file_(std::move(file)) {}
 
   Hdf5Handle open_dataset(const std::string& dataset) const;
+  const Hdf5Handle& table_to_append(const std::string& table);
   hsize_t first_free_row(const Hdf5Handle& dataset, hsize_t rows) const;
   Hdf5Handle open_attribute(const std::string& object, const std::string& name) const;
   void read_table(const std::string& table, std::int64_t first, std::int64_t rows, hid_t memory_type,
@@ -148,6 +152,7 @@ class Hdf5File {
   std::filesystem::path path_;
   Hdf5Handle file_;
   std::vector<AppendedRows> appended_;
+  std::map<std::string, Hdf5Handle> grown_;  ///< tables that stay open, since they grow with each dump
 };
 
 }  // namespace brio

@@ -214,6 +214,7 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, size_t size, void*
 
 herr_t write(H5FD_t* base, H5FD_mem_t kind, hid_t, haddr_t address, size_t size, const void* buffer) {
   TransactionFile& file = self(base);
+  if (file.discarded && file.error == 0) file.error = EBADF;  // known to whoever else has it open
   if (file.lost()) return 0;
   file.changed = true;
   const auto* const bytes = static_cast<const unsigned char*>(buffer);
@@ -284,6 +285,13 @@ int transaction_error(hid_t file) {
 
 void transaction_sync(hid_t file) {
   if (TransactionFile* const found = transaction(file)) found->synchronous = true;
+}
+
+bool transaction_is_at(hid_t file, const char* path) {
+  const TransactionFile* const found = transaction(file);
+  struct stat status {};
+  return found != nullptr && lstat(path, &status) == 0 && status.st_dev == found->device &&
+         status.st_ino == found->inode;
 }
 
 void transaction_discard(hid_t file) {

@@ -35,6 +35,9 @@ int transaction_error(hid_t file);
 /// Force every commit to the disk from now on.
 void transaction_sync(hid_t file);
 
+/// Whether `path` still names the file that is open.
+bool transaction_is_at(hid_t file, const char* path);
+
 /// Do not write anything any more; on closing, return to the last committed state.
 void transaction_discard(hid_t file);
 

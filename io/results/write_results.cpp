@@ -50,6 +50,7 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const std::string& name
 
 void ResultWriter::note_position() {
   lock_->check();
+  close();
   if (xdmf_.is_behind()) xdmf_.write(xdmf(), sync_each_time());
   for (const std::filesystem::path& file : {vtkhdf(), history_csv()}) sync_to_disk(file);
   const Hdf5File file = Hdf5File::open_to_read(vtkhdf());
@@ -121,9 +122,21 @@ void ResultWriter::publish() {
   if (sync_each_time()) sync_to_disk(folder_);
 }
 
-Hdf5File ResultWriter::open() const {
+// After a failure the file is closed, which takes it back to its last commit.
+template <class Append>
+void ResultWriter::transact(const Append& append) {
   lock_->check();
-  return Hdf5File::open_to_append(current(".vtkhdf"), sync_each_time());
+  const std::filesystem::path path = current(".vtkhdf");
+  std::shared_ptr<Hdf5File> file = std::exchange(file_.file, nullptr);
+  if (file && (file->path() != path || !file->is_at_path())) file.reset();
+  if (!file) file = std::make_shared<Hdf5File>(Hdf5File::open_to_append(path, sync_each_time()));
+  append(*file);
+  file->commit();
+  file_.file = std::move(file);
+}
+
+void ResultWriter::close() {
+  if (const std::shared_ptr<Hdf5File> file = std::exchange(file_.file, nullptr)) file->close();
 }
 
 void ResultWriter::append(Hdf5File& file, const Snapshot& snapshot) {
@@ -141,27 +154,24 @@ void ResultWriter::append(Hdf5File& file, History& history) {
 }
 
 void ResultWriter::write(const Snapshot& snapshot) {
-  Hdf5File file = open();
-  append(file, snapshot);
-  file.close();
+  transact([&](Hdf5File& file) { append(file, snapshot); });
 }
 
 void ResultWriter::write(History& history) {
   if (history.pending_rows() == 0) return;
-  Hdf5File file = open();
-  append(file, history);
-  file.close();
+  transact([&](Hdf5File& file) { append(file, history); });
 }
 
 void ResultWriter::write(const Snapshot& snapshot, History& history) {
-  Hdf5File file = open();
-  append(file, snapshot);
-  if (history.pending_rows() > 0) append(file, history);
-  file.close();
+  transact([&](Hdf5File& file) {
+    append(file, snapshot);
+    if (history.pending_rows() > 0) append(file, history);
+  });
 }
 
 void ResultWriter::write(const Summary& end_state) {
   lock_->check();
+  close();
   if (!published_) publish();  // a run that failed before its first dump has ended as well
   const bool sync = settings_.sync != Sync::never;
   if (xdmf_.is_behind()) xdmf_.write(xdmf(), sync_each_time());

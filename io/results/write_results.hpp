@@ -8,7 +8,7 @@
 ///   NAME.summary.json  the end state
 ///   NAME.log           what the program said, written by whoever runs it
 ///
-/// Every call opens, appends and closes, so that a running job can be looked at; a process that is killed at
+/// Every call leaves complete files, so that a running job can be looked at; a process that is killed at
 /// any moment leaves files that read up to the last complete dump, and a full disk takes back only the dump
 /// that did not fit. The results of an earlier run under the same name stay until the first dump of the new
 /// run is complete, and are then moved to the folder NAME.previous beside this one, or removed if that was
@@ -89,7 +89,22 @@ class ResultWriter {
   std::filesystem::path path(const char* ending) const { return folder_ / (name_ + ending); }
   /// Where the file grows at present.
   std::filesystem::path current(const char* ending) const;
-  Hdf5File open() const;
+  /// The result file while it is open to append: HDF5 would read what it knows of it again for each dump.
+  /// Copies open their own.
+  struct OpenFile {
+    OpenFile() = default;
+    OpenFile(const OpenFile& /*other*/) {}
+    OpenFile& operator=(const OpenFile& /*other*/) {
+      file.reset();
+      return *this;
+    }
+    ~OpenFile() = default;
+    std::shared_ptr<Hdf5File> file;
+  };
+
+  template <class Append>
+  void transact(const Append& append);
+  void close();
   void append(Hdf5File& file, const Snapshot& snapshot);
   void append(Hdf5File& file, History& history);
   void publish();
@@ -101,6 +116,7 @@ class ResultWriter {
   std::string name_;
   ResultSettings settings_;
   std::shared_ptr<const FolderLock> lock_;
+  OpenFile file_;
   bool published_ = false;
   VtkhdfWriter dumps_;
   XdmfWriter xdmf_;

@@ -255,6 +255,7 @@ StoredDump VtkhdfWriter::append(Hdf5File& file, const Snapshot& snapshot) {
   const Topology vertex = single_vertex();
   const Topology& topology = nothing_left ? vertex : snapshot.topology;
   Progress next = progress_;
+  file.take_appended();  // rows of the history
   if (next.steps == 0) create_layout(file, snapshot, topology);
 
   const auto points = static_cast<std::int64_t>(snapshot.points.size() / 3);
@@ -292,7 +293,7 @@ StoredDump VtkhdfWriter::append(Hdf5File& file, const Snapshot& snapshot) {
   append_number(file, steps + "/PointOffsets", point_row);
   append_number(file, steps + "/CellOffsets", next.cell_row);
   append_number(file, steps + "/ConnectivityIdOffsets", next.connectivity_row);
-  std::vector<AppendedRows> rows = file.appended();
+  std::vector<AppendedRows> rows = file.take_appended();
   rows.push_back({steps + "/Values", next.steps, 1, checksum(&snapshot.time, sizeof snapshot.time)});
   append_dump_checksums(file, next.steps, rows);
   file.commit();

@@ -87,7 +87,7 @@ void RunOutput::write(bool row, std::optional<double> fields, ThreadTeam& team) 
   if (fields || keeps) {
     finish_writing();
     state_ = nullptr;  // the one before is written over
-    const Snapshot& state = observer_.observe(model_, fields.value_or(model_.times.time));
+    const Snapshot& state = observer_.observe(model_, fields.value_or(model_.times.time), team);
     if (const std::string fault = what_results_cannot_hold(state); !fault.empty())
       throw Breakdown(fault + " at time " + written(model_.times.time) +
                       " is too large for the results or not a number; check units and velocities of the "

@@ -113,4 +113,49 @@ void ThreadTeam::work() {
   }
 }
 
+BackgroundJob::~BackgroundJob() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void BackgroundJob::start(std::function<void()> job) {
+  assert(ended_);
+  if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
+  {
+    const std::lock_guard lock(mutex_);
+    job_ = std::move(job);
+    ended_ = false;
+  }
+  changed_.notify_all();
+}
+
+void BackgroundJob::finish() {
+  {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return ended_.load(); });
+  }
+  if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
+}
+
+void BackgroundJob::work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return !ended_ || stop_; });
+    if (ended_) return;
+    lock.unlock();
+    try {
+      job_();
+    } catch (...) {
+      fault_ = std::current_exception();
+    }
+    lock.lock();
+    ended_ = true;
+    changed_.notify_all();
+  }
+}
+
 }  // namespace brio

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <type_traits>
@@ -73,43 +74,32 @@ class ThreadTeam {
   std::atomic<std::size_t> count_{0};
 };
 
-/// One job at a time on a thread of its own, while the caller goes on.
+/// One job at a time on a thread of its own, while the caller goes on. The thread starts with the first job
+/// and sleeps between jobs: one that has slept is given a busy processor sooner than a new one.
 class BackgroundJob {
  public:
   BackgroundJob() = default;
-  ~BackgroundJob() { await(); }
+  ~BackgroundJob();
   BackgroundJob(const BackgroundJob&) = delete;
   BackgroundJob& operator=(const BackgroundJob&) = delete;
 
   /// \pre no job runs \throws std::system_error if the system gives no thread
-  template <class Job>
-  void start(Job job) {
-    ended_ = false;
-    thread_ = std::thread([this, run = std::move(job)] {
-      try {
-        run();
-      } catch (...) {
-        fault_ = std::current_exception();
-      }
-      ended_ = true;
-    });
-  }
+  void start(std::function<void()> job);
   /// Whether no job runs.
   bool has_ended() const { return ended_; }
   /// Wait until no job runs. \throws what it has thrown
-  void finish() {
-    await();
-    if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
-  }
+  void finish();
 
  private:
-  void await() {
-    if (thread_.joinable()) thread_.join();
-  }
+  void work();
 
   std::thread thread_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::function<void()> job_;
   std::exception_ptr fault_;
-  std::atomic<bool> ended_{true};
+  std::atomic<bool> ended_{true};  ///< written under the mutex
+  bool stop_ = false;
 };
 
 }  // namespace brio

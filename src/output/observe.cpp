@@ -12,6 +12,8 @@ namespace brio {
 
 namespace {
 
+constexpr std::size_t points_per_range = 2048, elements_per_range = 256;
+
 FieldArray field(std::string name, int components, std::size_t count,
                  Storage storage = Storage::single_precision, bool fixed = false) {
   return {std::move(name), components, std::vector<double>(static_cast<std::size_t>(components) * count),
@@ -62,13 +64,17 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> va
   add_cell_fields(model, variables);
   note_parts(model);
   take_topology(model);
-  take_positions(model);
+  take_positions(model, 0, node_of_point_.size(), 0);
   reference_ = snapshot_.points;
 }
 
-void FieldObserver::add_point_field(FieldArray field, PointValues values) {
+template <class Value>
+void FieldObserver::add_point_field(FieldArray field, Value value) {
+  const auto components = static_cast<std::size_t>(field.components);
   snapshot_.point_fields.push_back(std::move(field));
-  point_values_.push_back(std::move(values));
+  point_values_.push_back([=](const Model& model, std::size_t begin, std::size_t end, double* values) {
+    for (std::size_t point = begin; point < end; ++point) value(model, point, values + components * point);
+  });
 }
 
 void FieldObserver::add_point_variable(const PointVariable& variable) {
@@ -185,6 +191,7 @@ void FieldObserver::note_parts(const Model& model) {
 void FieldObserver::take_topology(const Model& model) {
   Topology& topology = snapshot_.topology;
   topology = {};
+  range_.clear();
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const PartInModel& part = model.parts[p];
     const std::size_t first_cell = topology.cell_type.size();
@@ -194,6 +201,9 @@ void FieldObserver::take_topology(const Model& model) {
     const int corners = rigid != nullptr ? rigid->nodes_per_element : nodes_per_element(block.element);
     const CellType cell = rigid != nullptr ? cell_with(corners) : traits_of(block.element).cell;
     for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
+      if (e % elements_per_range == 0)
+        range_.push_back(
+            {p, e, std::min(e + elements_per_range, part.element_slot.size()), topology.cell_type.size()});
       if (part.element_slot[e] < 0 && rigid == nullptr) continue;
       topology.cell_type.push_back(cell);
       topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
@@ -212,6 +222,7 @@ void FieldObserver::take_topology(const Model& model) {
   for (FieldArray& cell_field : snapshot_.cell_fields)
     cell_field.values.resize(static_cast<std::size_t>(cell_field.components) * topology.cell_type.size());
   deleted_ = deleted_so_far(model);
+  is_topology_new_ = true;
 }
 
 void FieldObserver::follow(const Model& model) {
@@ -220,8 +231,8 @@ void FieldObserver::follow(const Model& model) {
   deleted_ = deleted_then;
 }
 
-void FieldObserver::take_positions(const Model& model, double after) {
-  for (std::size_t p = 0; p < node_of_point_.size(); ++p) {
+void FieldObserver::take_positions(const Model& model, std::size_t begin, std::size_t end, double after) {
+  for (std::size_t p = begin; p < end; ++p) {
     const NodeRecord& record = model.nodes.record[static_cast<std::size_t>(node_of_point_[p])];
     for (std::size_t i = 0; i < 3; ++i)
       snapshot_.points[3 * p + i] = record.position[i] + after * record.velocity[i];
@@ -240,13 +251,9 @@ void FieldObserver::number_points(const Model& model) {
     }
 }
 
-void FieldObserver::fill_points(const Model& model) {
-  for (std::size_t f = 0; f < point_values_.size(); ++f) {
-    FieldArray& field = snapshot_.point_fields[f];
-    const auto components = static_cast<std::size_t>(field.components);
-    for (std::size_t p = 0; p < node_of_point_.size(); ++p)
-      point_values_[f](model, p, &field.values[components * p]);
-  }
+void FieldObserver::fill_points(const Model& model, std::size_t begin, std::size_t end) {
+  for (std::size_t f = 0; f < point_values_.size(); ++f)
+    point_values_[f](model, begin, end, snapshot_.point_fields[f].values.data());
 }
 
 void FieldObserver::note_thickness(const Model& model) {
@@ -338,32 +345,36 @@ void FieldObserver::fill_state(const Model& model, const PartInModel& part, std:
     read_state(block, static_cast<std::size_t>(part.element_slot[element]), row);
 }
 
-void FieldObserver::fill_cells(const Model& model) {
-  std::size_t cell = 0;
-  for (std::size_t p = 0; p < model.parts.size(); ++p) {
-    const PartInModel& part = model.parts[p];
-    for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
-      if (part.element_slot[e] < 0 && part.rigid < 0) continue;
-      const ElementSample sample = sample_of(model, part, e, in_full_);
-      for (std::size_t k = 0; k < cell_source_.size(); ++k)
-        fill_cell(model, cell_source_[k], sample, {p, e, part.number_of_element(e), cell},
-                  snapshot_.cell_fields[k]);
-      if (state_field_ != none) fill_state(model, part, e, cell);
-      ++cell;
+void FieldObserver::fill_cells(const Model& model, const ElementRange& range) {
+  const PartInModel& part = model.parts[range.part];
+  std::size_t cell = range.first_cell;
+  for (std::size_t e = range.begin; e < range.end; ++e) {
+    if (part.element_slot[e] < 0 && part.rigid < 0) continue;
+    const ElementSample sample = sample_of(model, part, e, in_full_);
+    for (std::size_t k = 0; k < cell_source_.size(); ++k) {
+      FieldArray& field = snapshot_.cell_fields[k];
+      if (is_topology_new_ || !field.fixed_by_topology)
+        fill_cell(model, cell_source_[k], sample, {range.part, e, part.number_of_element(e), cell}, field);
     }
+    if (state_field_ != none) fill_state(model, part, e, cell);
+    ++cell;
   }
 }
 
-const Snapshot& FieldObserver::observe(const Model& model, double time) {
+const Snapshot& FieldObserver::observe(const Model& model, double time, ThreadTeam& team) {
   snapshot_.time = state_field_ == none ? time : model.times.time;
   snapshot_.step = model.step;
   if (deleted_so_far(model) != deleted_) {
     take_topology(model);
     ++snapshot_.topology_version;
   }
-  take_positions(model, snapshot_.time - model.times.time);
-  fill_points(model);
-  fill_cells(model);
+  const double after = snapshot_.time - model.times.time;
+  team.for_ranges(node_of_point_.size(), points_per_range, [&](std::size_t begin, std::size_t end) {
+    take_positions(model, begin, end, after);
+    fill_points(model, begin, end);
+  });
+  team.for_each(range_.size(), [&](std::size_t i) { fill_cells(model, range_[i]); });
+  is_topology_new_ = false;
   return snapshot_;
 }
 

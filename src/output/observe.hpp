@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/parallel.hpp"
 #include "src/fields/cell_variables.hpp"
 #include "src/fields/contact_fields.hpp"
 #include "src/fields/rotation.hpp"
@@ -31,7 +32,11 @@ class FieldObserver {
   /// Fields at the time of the step; call between update_velocities and update_positions. \param time in the
   /// step that begins: positions are those of that time, along which nodes move evenly. With `state` it is
   /// that of the step, from which other runs can start.
-  const Snapshot& observe(const Model& model, double time);
+  const Snapshot& observe(const Model& model, double time, ThreadTeam& team);
+  const Snapshot& observe(const Model& model, double time) {
+    ThreadTeam alone;
+    return observe(model, time, alone);
+  }
   const Snapshot& observe(const Model& model) { return observe(model, model.times.time); }
 
   /// Saved and restored (src/base/state_archive.hpp): which topology the last snapshot had.
@@ -51,8 +56,8 @@ class FieldObserver {
     Kind kind;
     const CellVariable* variable = nullptr;
   };
-  /// What fills a field of points.
-  using PointValues = std::function<void(const Model&, std::size_t point, double* out)>;
+  /// What fills points [begin, end) of a field, whose values are given.
+  using PointValues = std::function<void(const Model&, std::size_t begin, std::size_t end, double* values)>;
 
   /// Of which part, the place among its elements, and which of all cells.
   struct Cell {
@@ -60,11 +65,17 @@ class FieldObserver {
     std::int64_t element;  ///< its number in the mesh
     std::size_t number;
   };
+  /// Elements of a part that one task fills, and the first cell of them.
+  struct ElementRange {
+    std::size_t part, begin, end, first_cell;
+  };
 
   void fill_cell(const Model& model, const CellSource& source, const ElementSample& sample, const Cell& at,
                  FieldArray& field) const;
   void add_point_fields(const Model& model, std::span<const std::string> variables);
-  void add_point_field(FieldArray field, PointValues values);
+  /// \param value (model, point, its values)
+  template <class Value>
+  void add_point_field(FieldArray field, Value value);
   void add_point_variable(const PointVariable& variable);
   void note_thickness(const Model& model);
   std::span<const std::int64_t> strained_corners(const Model& model, const Cell& at) const;
@@ -75,16 +86,18 @@ class FieldObserver {
   void add_state(const Model& model);
   void note_parts(const Model& model);
   void take_topology(const Model& model);
-  void take_positions(const Model& model, double after = 0);
+  void take_positions(const Model& model, std::size_t begin, std::size_t end, double after);
   void number_points(const Model& model);
-  void fill_points(const Model& model);
-  void fill_cells(const Model& model);
+  void fill_points(const Model& model, std::size_t begin, std::size_t end);
+  void fill_cells(const Model& model, const ElementRange& range);
   void fill_state(const Model& model, const PartInModel& part, std::size_t element, std::size_t cell);
 
   Snapshot snapshot_;
   std::vector<int> node_of_point_;
   std::vector<std::int64_t> point_of_node_;
   std::int64_t deleted_ = 0;               ///< elements, when the topology was taken
+  std::vector<ElementRange> range_;        ///< of all elements
+  bool is_topology_new_ = true;            ///< what it fixes is not filled yet
   std::vector<CellSource> cell_source_;    ///< of each cell field
   std::vector<PointValues> point_values_;  ///< of each point field
   std::vector<double> reference_;

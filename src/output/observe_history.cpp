@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include "src/output/observe.hpp"
 #include "src/output/part_energy_columns.hpp"
@@ -19,16 +20,19 @@ Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBod
     const Eigen::Vector3d& v = rigid.motion[static_cast<std::size_t>(part.rigid)].velocity;
     return {v[0], v[1], v[2]};
   }
-  Vector sum{};
-  double mass = 0;
-  for (int entry : part.node) {
-    const auto node = static_cast<std::size_t>(entry);
+  constexpr std::size_t sums = 4;  // that do not wait for each other
+  std::array<Row4, sums> momentum{};
+  std::array<double, sums> mass{};
+  for (std::size_t i = 0; i < part.node.size(); ++i) {
+    const auto node = static_cast<std::size_t>(part.node[i]);
     const double own = nodes.mass[node] + (moved_mass.empty() ? 0 : moved_mass[node]);
-    mass += own;
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += own * nodes.record[node].velocity[i];
+    mass[i % sums] += own;
+    momentum[i % sums] += own * load_row(nodes.record[node].velocity);
   }
-  for (double& component : sum) component = mass > 0 ? component / mass : 0;
-  return sum;
+  const double of_part = (mass[0] + mass[1]) + (mass[2] + mass[3]);
+  const Row4 sum = (momentum[0] + momentum[1]) + (momentum[2] + momentum[3]);
+  if (of_part <= 0) return {};
+  return {sum[0] / of_part, sum[1] / of_part, sum[2] / of_part};
 }
 
 // Of a vector one for each axis.

@@ -59,5 +59,24 @@ TEST(ThreadTeam, ExceptionOfATaskReachesTheCallerAndTheTeamGoesOn) {
   }
 }
 
+TEST(BackgroundJob, RunsEachJobOnceAndTellsWhatItThrew) {
+  int runs = 0;
+  {
+    BackgroundJob job;
+    job.finish();  // of none
+    for (int repeat = 1; repeat <= 1000; ++repeat) {
+      job.start([&] { ++runs; });
+      job.finish();
+      ASSERT_TRUE(job.has_ended());
+      ASSERT_EQ(runs, repeat);
+      if (repeat % 100 != 0) continue;
+      job.start([] { throw std::bad_alloc(); });
+      EXPECT_THROW(job.finish(), std::bad_alloc);
+    }
+    job.start([&] { ++runs; });
+  }
+  EXPECT_EQ(runs, 1001) << "a job that runs is awaited";
+}
+
 }  // namespace
 }  // namespace brio

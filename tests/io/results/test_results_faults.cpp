@@ -108,13 +108,16 @@ int verified_rows(const std::filesystem::path& path) {
   return static_cast<int>(rows);
 }
 
-/// Runs `work` in a process of its own under a fault. \return whether the process lived to the end.
-template <class Work>
-bool lives_through(Fault fault, int at, Work work) {
+constexpr auto nothing = [] {};
+
+/// Runs `before`, then `work` under a fault, in a process of its own. \return whether it lived to the end.
+template <class Work, class Before = decltype(nothing)>
+bool lives_through(Fault fault, int at, Work work, Before before = {}) {
   const pid_t child = fork();
   if (child == 0) {
-    plan_fault(fault, at);
     try {
+      before();
+      plan_fault(fault, at);
       work();
     } catch (...) {
       _exit(3);
@@ -144,39 +147,54 @@ struct Running {
   }
   void restore() { copy(backup.path(), folder.path()); }
 
-  /// All but the lock, which a writer holds.
+  /// All but the lock, which a writer holds. A file that is there stays the same one, which a writer may have
+  /// open.
   static void copy(const std::filesystem::path& from, const std::filesystem::path& to) {
     const auto is_lock = [](const auto& entry) { return entry.path().filename() == ".brio.lock"; };
     for (const auto& old : std::filesystem::directory_iterator(to))
-      if (!is_lock(old)) std::filesystem::remove(old.path());
+      if (!is_lock(old) && !std::filesystem::exists(from / old.path().filename()))
+        std::filesystem::remove(old.path());
     for (const auto& entry : std::filesystem::directory_iterator(from))
-      if (!is_lock(entry)) std::filesystem::copy(entry.path(), to / entry.path().filename());
+      if (!is_lock(entry))
+        std::filesystem::copy_file(entry.path(), to / entry.path().filename(),
+                                   std::filesystem::copy_options::overwrite_existing);
   }
 };
 
 /// Kill the process in place of every single operation of a dump. 64 chunks fill an index node: the next one
 /// splits.
-TEST(KilledWriterSlow, LeavesTheDumpsBeforeWhereverItDies) {
-  for (const int before : {1, 64, 65}) {
-    Running run(before);
-    int at = 0;
-    int reached = before;
-    for (bool alive = false; !alive; ++at) {
-      SCOPED_TRACE(testing::Message() << "killed at operation " << at << " of dump " << before);
-      run.restore();
-      alive = lives_through(Fault::kill, at, [&] { run.write_dump(before); });
-      const int dumps = verified_dumps(run.writer.vtkhdf());
-      EXPECT_GE(dumps, reached);  // once the new dump is there, it stays
-      EXPECT_LE(dumps, before + 1);
-      reached = dumps;
-      verify_xdmf(run.writer.xdmf(), dumps);
-      const int rows = verified_rows(run.writer.vtkhdf());
-      EXPECT_TRUE(rows == 3 * before || rows == 3 * before + 3);
-      if (HasFatalFailure() || HasNonfatalFailure()) return;
-    }
-    EXPECT_GT(at, 20);
-    EXPECT_EQ(reached, before + 1);
+void kill_at_each_operation_of_dump(int before, bool is_file_open) {
+  Running run(is_file_open ? before - 1 : before);
+  run.writer.note_position();  // closes the file
+  const auto open_file = [&] {
+    if (is_file_open) run.write_dump(before - 1);
+  };
+  int at = 0;
+  int reached = before;
+  for (bool alive = false; !alive; ++at) {
+    SCOPED_TRACE(testing::Message() << "killed at operation " << at << " of dump " << before);
+    run.restore();
+    alive = lives_through(
+        Fault::kill, at, [&] { run.write_dump(before); }, open_file);
+    const int dumps = verified_dumps(run.writer.vtkhdf());
+    EXPECT_GE(dumps, reached);  // once the new dump is there, it stays
+    EXPECT_LE(dumps, before + 1);
+    reached = dumps;
+    verify_xdmf(run.writer.xdmf(), dumps);
+    const int rows = verified_rows(run.writer.vtkhdf());
+    EXPECT_TRUE(rows == 3 * before || rows == 3 * before + 3);
+    if (testing::Test::HasFailure()) return;
   }
+  EXPECT_GT(at, 20);
+  EXPECT_EQ(reached, before + 1);
+}
+
+TEST(KilledWriterSlow, LeavesTheDumpsBeforeWhereverItDies) {
+  for (const int before : {2, 64, 65}) kill_at_each_operation_of_dump(before, true);
+}
+
+TEST(KilledWriterSlow, LeavesTheDumpsBeforeAFileThatItOpens) {
+  for (const int before : {1, 64}) kill_at_each_operation_of_dump(before, false);
 }
 
 /// A compressed chunk that is written again may move; so none is.
@@ -185,6 +203,7 @@ TEST(KilledWriter, LeavesCompressedDumpsWhereverItDies) {
   constexpr int before = 3;
   ResultWriter writer(folder.path(), "scene", {}, two_columns, {.compression = 6});
   for (int dump = 0; dump < before; ++dump) writer.write(test::mixed_snapshot(dump, 0));
+  writer.note_position();  // closes the file
   Running::copy(folder.path(), backup.path());
   int at = 0;
   for (bool alive = false; !alive; ++at) {
@@ -262,15 +281,13 @@ TEST(KilledWriter, LeavesTheDumpsBeforeAtRandomMoments) {
 
 TEST(FullDisk, TakesBackOnlyTheDumpThatDidNotFit) {
   for (const int before : {1, 64}) {
-    Running run(before);
     int at = 0;
     for (bool failed = true; failed; at += 3) {
       SCOPED_TRACE(testing::Message() << "full at operation " << at << " of dump " << before);
-      run.restore();
-      ResultWriter writer = run.writer;
+      Running run(before);
       plan_fault(Fault::no_space, at);
       try {
-        writer.write(cloud(before));
+        run.writer.write(cloud(before));
         failed = false;
       } catch (const FileError& error) {
         EXPECT_NE(std::string(error.what()).find("No space left on device"), std::string::npos)
@@ -397,6 +414,15 @@ TEST(ResultFolder, TakenAwayDuringTheRunIsAnError) {
   std::filesystem::remove_all(run.folder.path());
   const std::string message = message_of_file_error([&] { run.writer.write(cloud(1)); });
   EXPECT_NE(message.find("the folder was moved, removed or taken"), std::string::npos) << message;
+}
+
+/// Not to the file that was open, which nobody sees any more.
+TEST(ResultFolder, ResultFileTakenAwayDuringTheRunIsAnError) {
+  Running run(1);
+  std::filesystem::rename(run.writer.vtkhdf(), run.folder / "moved");
+  const std::string message = message_of_file_error([&] { run.writer.write(cloud(1)); });
+  EXPECT_NE(message.find("scene.vtkhdf: cannot open the file: No such file"), std::string::npos) << message;
+  EXPECT_EQ(verified_dumps(run.folder / "moved"), 1);
 }
 
 /// One row a chunk, so that index nodes of one and two levels split (the first at row 64, the second near row

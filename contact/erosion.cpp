@@ -1,6 +1,7 @@
 #include "contact/erosion.hpp"
 
 #include "contact/scene.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -20,9 +21,8 @@ void change_features(ContactScene& scene, const std::vector<int>& affected) {
   const SurfaceTopology& topology = scene.erosion->topology;
   const SurfaceChange& change = scene.erosion->change;
   for (int slave : change.debris)
-    if (const int node = surface.node[static_cast<std::size_t>(slave)]; node >= 0)
-      surface.radius[static_cast<std::size_t>(slave)] =
-          topology.debris[static_cast<std::size_t>(node)].radius;
+    if (const int node = surface.node[index(slave)]; node >= 0)
+      surface.radius[index(slave)] = topology.debris[index(node)].radius;
   std::vector<int> edges, nodes = affected, faces = change.dead_face;
   update(scene.features, surface, scene.options, change, edges);
   nodes.insert(nodes.end(), change.dead_slave.begin(), change.dead_slave.end());
@@ -47,7 +47,7 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted) {
   delete_elements(surface, erosion.topology, deleted, erosion.change);
   if (erosion.change.split)
     for (Contact& contact : scene.contacts)
-      if (!contact.of_edges()) contact.body = surface.face[static_cast<std::size_t>(contact.face)].body;
+      if (!contact.of_edges()) contact.body = surface.face[index(contact.face)].body;
   const std::vector<int>& affected =
       erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
   scene.velocity.resize(surface.slaves(), Vector3d::Zero());
@@ -58,8 +58,8 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted) {
   scene.friction_impulse.resize(surface.slaves(), Vector3d::Zero());
   for (const auto* slaves : {&erosion.change.new_slave, &erosion.change.dead_slave})
     for (int slave : *slaves) {
-      scene.normal_impulse[static_cast<std::size_t>(slave)].setZero();
-      scene.friction_impulse[static_cast<std::size_t>(slave)].setZero();
+      scene.normal_impulse[index(slave)].setZero();
+      scene.friction_impulse[index(slave)].setZero();
     }
   change_features(scene, affected);
 }

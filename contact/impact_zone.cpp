@@ -7,6 +7,7 @@
 
 #include "contact/scene.hpp"
 #include "contact/ties/ties.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -68,7 +69,7 @@ class RigidFit {
     one.impulse = one.mass * (velocity - one.velocity);
     one.moment = one.inertia * (turning - one.angular_velocity);
     for (int c = 0; c < 6; ++c)
-      if (one.prescribed[static_cast<std::size_t>(c)])
+      if (one.prescribed[index(c)])
         (c < 3 ? one.impulse : one.moment) -= scaled(one, c).dot(support_) * one.axes.col(c % 3);
   }
 
@@ -93,7 +94,7 @@ class RigidFit {
     Vector6d missing = Vector6d::Zero();
     for (const ZoneMember& one : members)
       for (int c = 0; c < 6; ++c)
-        if (one.prescribed[static_cast<std::size_t>(c)]) {
+        if (one.prescribed[index(c)]) {
           const Vector6d row = scaled(one, c);
           normal += row * row.transpose();
           missing += row * (velocity(one, c) - derivative(one, c).dot(motion_));
@@ -135,7 +136,7 @@ class Zones {
     for (const Hit& hit : scene_.guard.hits) {
       const int count = hit.kind == PairKind::node_face ? 5 : 4;
       const auto nodes = nodes_of(hit);
-      for (int k = 0; k < count; ++k) join_node(unit(nodes[0]), nodes[static_cast<std::size_t>(k)]);
+      for (int k = 0; k < count; ++k) join_node(unit(nodes[0]), nodes[index(k)]);
     }
     std::vector<std::pair<int, int>> members;  // (zone, unit)
     for (int u = 0; u < static_cast<int>(scene_.zone_of.size()); ++u)
@@ -159,48 +160,44 @@ class Zones {
   std::array<int, 5> nodes_of(const Hit& hit) const {
     const FeaturePairs& pairs = scene_.pairs;
     if (hit.kind == PairKind::node_face) {
-      const Face& face = scene_.surface.face[static_cast<std::size_t>(pairs.node_face.second(hit.pair))];
+      const Face& face = scene_.surface.face[index(pairs.node_face.second(hit.pair))];
       std::array<int, 5> nodes{pairs.node_face.first(hit.pair)};
       for (std::size_t k = 0; k < 4; ++k) nodes[k + 1] = scene_.surface.slave(face.node[k]);
       return nodes;
     }
-    const auto& a = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.first(hit.pair))];
-    const auto& b = scene_.features.edge[static_cast<std::size_t>(pairs.edge_edge.second(hit.pair))];
+    const auto& a = scene_.features.edge[index(pairs.edge_edge.first(hit.pair))];
+    const auto& b = scene_.features.edge[index(pairs.edge_edge.second(hit.pair))];
     return {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
   }
 
   int unit(int slave) const {
-    const int body = bodies_.empty()
-                         ? -1
-                         : scene_.surface.rigid_body(scene_.surface.node[static_cast<std::size_t>(slave)]);
+    const int body = bodies_.empty() ? -1 : scene_.surface.rigid_body(scene_.surface.node[index(slave)]);
     return body < 0 ? slave : slaves_ + body;
   }
   int find(int u) {
-    int& zone = scene_.zone_of[static_cast<std::size_t>(u)];
+    int& zone = scene_.zone_of[index(u)];
     if (zone != u) zone = find(zone);
     return zone;
   }
   void join(int a, int b) {
     a = find(a);
     b = find(b);
-    if (a != b) scene_.zone_of[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    if (a != b) scene_.zone_of[index(std::max(a, b))] = std::min(a, b);
   }
 
   // With the corners of its main face.
   void join_node(int u, int slave) {
     join(u, unit(slave));
-    const int node = scene_.surface.node[static_cast<std::size_t>(slave)];
+    const int node = scene_.surface.node[index(slave)];
     if (!ties_.is_tied(node)) return;
-    const Tie& tie = ties_.node[static_cast<std::size_t>(ties_.of_node[static_cast<std::size_t>(node)])].tie;
+    const Tie& tie = ties_.node[index(ties_.of_node[index(node)])].tie;
     for (int corner : tie.corner)
       if (const int other = scene_.surface.slave(corner); other >= 0) join_node(u, other);
   }
 
   bool is_body(int u) const { return u >= slaves_; }
-  RigidMotion& body(int u) const { return bodies_[static_cast<std::size_t>(u - slaves_)]; }
-  std::size_t global(int u) const {
-    return static_cast<std::size_t>(scene_.surface.node[static_cast<std::size_t>(u)]);
-  }
+  RigidMotion& body(int u) const { return bodies_[index(u - slaves_)]; }
+  std::size_t global(int u) const { return index(scene_.surface.node[index(u)]); }
   bool has_mass(int u) const { return is_body(u) || nodes_.record[global(u)].inverse_mass > 0; }
   ZoneMember member(int u) const {
     ZoneMember one;
@@ -208,8 +205,8 @@ class Zones {
       const RigidMotion& motion = body(u);
       one = {motion.mass, motion.centre, motion.velocity, motion.inertia, motion.angular_velocity};
       for (int axis = 0; axis < 3; ++axis) {
-        one.prescribed[static_cast<std::size_t>(axis)] = motion.translation_is_given(axis);
-        one.prescribed[static_cast<std::size_t>(axis + 3)] = motion.rotation_is_given(axis);
+        one.prescribed[index(axis)] = motion.translation_is_given(axis);
+        one.prescribed[index(axis + 3)] = motion.rotation_is_given(axis);
       }
       one.axes = motion.axes.transpose();
       return one;
@@ -241,8 +238,8 @@ class Zones {
     std::map<int, Vector3d> impulse_of_part;
     for (std::size_t i = 0; i < units.size(); ++i) {
       const int u = units[i];
-      const int part = is_body(u) ? scene_.log->part_of_body[static_cast<std::size_t>(u - slaves_)]
-                                  : scene_.log->part_of_node[global(u)];
+      const int part =
+          is_body(u) ? scene_.log->part_of_body[index(u - slaves_)] : scene_.log->part_of_node[global(u)];
       impulse_of_part.try_emplace(part, Vector3d::Zero()).first->second += members[i].impulse;
     }
     scene_.log->add(impulse_of_part);
@@ -257,7 +254,7 @@ class Zones {
       motion.angular_velocity += motion.inverse_inertia * one.moment;
       return;
     }
-    const auto s = static_cast<std::size_t>(u);
+    const auto s = index(u);
     double* velocity = nodes_.record[global(u)].velocity;
     const Vector3<double> change =
         nodes_.free_inverse_mass(global(u)) * Vector3<double>{one.impulse[0], one.impulse[1], one.impulse[2]};

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/scene.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -17,7 +18,7 @@ void ImpulseLog::add(int first, int second, const Vector3d& of_second) {
   const std::array<int, 2> pair{std::min(first, second), std::max(first, second)};
   const auto at = std::lower_bound(wanted.begin(), wanted.end(), pair);
   if (at == wanted.end() || *at != pair) return;
-  Vector3d& sum = impulse[static_cast<std::size_t>(at - wanted.begin())];
+  Vector3d& sum = impulse[index(at - wanted.begin())];
   if (first == second) {
     sum += of_second.cwiseAbs();
   } else {
@@ -35,8 +36,8 @@ void ImpulseLog::add(const std::map<int, Vector3d>& impulse_of_part) {
 int ImpulseLog::part_of(const ContactScene& scene, std::span<const int> slaves) const {
   int part = -1;
   for (const int slave : slaves)
-    if (const int node = scene.surface.node[static_cast<std::size_t>(slave)]; node >= 0)
-      part = std::max(part, part_of_node[static_cast<std::size_t>(node)]);
+    if (const int node = scene.surface.node[index(slave)]; node >= 0)
+      part = std::max(part, part_of_node[index(node)]);
   return part;
 }
 
@@ -44,7 +45,7 @@ void log_contacts(ContactScene& scene) {
   ImpulseLog& log = *scene.log;
   for (const Contact& contact : scene.contacts) {
     if (contact.impulse == 0) continue;
-    const auto own = static_cast<std::size_t>(contact.own);
+    const auto own = index(contact.own);
     const std::span<const int> nodes(contact.node);
     log.add(log.part_of(scene, nodes.first(own)), log.part_of(scene, nodes.subspan(own)),
             contact.impulse * contact.normal + contact.friction);

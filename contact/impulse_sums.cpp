@@ -2,6 +2,7 @@
 
 #include "contact/geometry/eigen_vector.hpp"
 #include "contact/scene.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -11,19 +12,19 @@ void ImpulseSums::add(const ContactScene& scene, std::size_t nodes, double step)
   scene.pushed.for_each([&](std::size_t s) {
     const int node = scene.surface.node[s];
     if (node < 0) return;
-    int& place = place_[static_cast<std::size_t>(node)];
+    int& place = place_[index(node)];
     if (place < 0) {
       place = static_cast<int>(sum_.size());
       sum_.push_back({.node = node});
     }
-    OfNode& sum = sum_[static_cast<std::size_t>(place)];
+    OfNode& sum = sum_[index(place)];
     sum.normal = sum.normal + components(scene.normal_impulse[s]);
     sum.friction = sum.friction + components(scene.friction_impulse[s]);
   });
 }
 
 void ImpulseSums::begin_interval() {
-  for (const OfNode& one : sum_) place_[static_cast<std::size_t>(one.node)] = -1;
+  for (const OfNode& one : sum_) place_[index(one.node)] = -1;
   sum_.clear();
   duration_ = 0;
 }

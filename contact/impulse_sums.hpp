@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/base/tensor.hpp"
 
 namespace brio {
@@ -27,8 +28,8 @@ class ImpulseSums {
   double duration() const { return duration_; }
   /// Null: contact has not pushed the node.
   const OfNode* of(int node) const {
-    const auto n = static_cast<std::size_t>(node);
-    return n < place_.size() && place_[n] >= 0 ? &sum_[static_cast<std::size_t>(place_[n])] : nullptr;
+    const auto n = index(node);
+    return n < place_.size() && place_[n] >= 0 ? &sum_[index(place_[n])] : nullptr;
   }
 
   /// Saved and restored (src/base/state_archive.hpp).

@@ -10,6 +10,7 @@
 #include "contact/impact_zone.hpp"
 #include "contact/scene.hpp"
 #include "contact/step_totals.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -21,7 +22,6 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 void set(double* components, const Vector3<double>& a) {
   components[0] = a.x;
   components[1] = a.y;
@@ -154,9 +154,8 @@ class Resolution {
   // Friction at the sliding velocity with which the time step begins.
   void slow_friction(ConstraintRow& row) const {
     if (row.friction_coefficient == 0) return;
-    const Vector3<double> velocity = RowMap(rows_.rows, row).velocity([&](int block) {
-      return rows_.before[static_cast<std::size_t>(block)];
-    });
+    const Vector3<double> velocity =
+        RowMap(rows_.rows, row).velocity([&](int block) { return rows_.before[index(block)]; });
     const Vector3<double> sliding = velocity - dot(row.normal, velocity) * row.normal;
     const double speed = std::sqrt(dot(sliding, sliding));
     row.friction_coefficient *= scene_.options.kinetic_friction->share(scene_.options.friction, speed);

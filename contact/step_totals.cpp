@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/scene.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -15,7 +16,7 @@ void sum_impulses(ContactScene& scene) {
   for (const Contact& contact : scene.contacts) {
     if (contact.impulse == 0) continue;
     for (std::size_t k = 0; k < 5; ++k) {
-      const auto s = static_cast<std::size_t>(contact.node[k]);
+      const auto s = index(contact.node[k]);
       scene.pushed.insert(contact.node[k]);
       scene.normal_impulse[s] += contact.weight[k] * contact.impulse * contact.normal;
       scene.friction_impulse[s] += contact.weight[k] * contact.friction;

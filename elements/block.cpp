@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 bool accepts(const Element& element, const Material& material) {
@@ -39,8 +41,8 @@ Block make_block(std::string part, const Element& element, const Material& mater
   block.precision = precision_of(element, precision);
   block.deletion = deletion.value_or(Deletion{});
   block.lanes = block.precision == Precision::double_precision ? lane_count<double> : lane_count<float>;
-  const auto corners = static_cast<std::size_t>(nodes_per_element(element));
-  const auto width = static_cast<std::size_t>(block.lanes);
+  const auto corners = index(nodes_per_element(element));
+  const auto width = index(block.lanes);
   block.element_count = connectivity.size() / corners;
   block.pack_count = (block.element_count + width - 1) / width;
   block.connectivity = AlignedBuffer<int>(block.pack_count * corners * width);
@@ -61,13 +63,13 @@ Block make_block(std::string part, const Element& element, const Material& mater
 
 void scale_to(double stable_step, Block& block) {
   block.scaled_step = stable_step;
-  const std::size_t places = block.pack_count * static_cast<std::size_t>(block.lanes);
+  const std::size_t places = block.pack_count * index(block.lanes);
   block.scaled = AlignedBuffer<int>(places);
   block.mass_gain = AlignedBuffer<double>(places);
 }
 
 HeldEnergy held_energy(const Block& block, std::size_t element) {
-  const auto width = static_cast<std::size_t>(block.lanes);
+  const auto width = index(block.lanes);
   const double* pack = block.held.data() + element / width * 2 * width;
   return {pack[element % width], pack[width + element % width]};
 }
@@ -86,9 +88,8 @@ void copy_place(Item* array, std::size_t components, std::size_t width, std::siz
 }  // namespace
 
 void copy_element(Block& block, std::size_t from, std::size_t to) {
-  const auto width = static_cast<std::size_t>(block.lanes);
-  copy_place(block.connectivity.data(), static_cast<std::size_t>(nodes_per_element(block.element)), width,
-             from, to);
+  const auto width = index(block.lanes);
+  copy_place(block.connectivity.data(), index(nodes_per_element(block.element)), width, from, to);
   copy_place(block.held.data(), 2, width, from, to);
   if (block.precision == Precision::double_precision) {
     copy_place(reinterpret_cast<double*>(block.state.data()), block.pack_bytes / (sizeof(double) * width),

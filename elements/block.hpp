@@ -15,6 +15,7 @@
 #include "elements/particle/particle_cloud.hpp"
 #include "materials/material.hpp"
 #include "src/base/aligned.hpp"
+#include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {
@@ -110,9 +111,9 @@ struct Block {
   AlignedBuffer<double> mass_gain;  ///< [place]: mass that the last sweep gave the listed
 
   int node(std::size_t e, int corner) const {
-    const auto width = static_cast<std::size_t>(lanes);
-    const auto corners = static_cast<std::size_t>(nodes_per_element(element));
-    return connectivity[((e / width) * corners + static_cast<std::size_t>(corner)) * width + e % width];
+    const auto width = index(lanes);
+    const auto corners = index(nodes_per_element(element));
+    return connectivity[((e / width) * corners + index(corner)) * width + e % width];
   }
 
   /// Saved and restored (src/base/state_archive.hpp).

@@ -7,6 +7,7 @@
 #include "elements/solid/hex8_kernel.hpp"
 #include "materials/elastic.hpp"
 #include "materials/failing.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -17,7 +18,7 @@ std::size_t number_size(const Block& block) {
 }
 
 std::byte* place_of(Block& block, std::size_t element, std::size_t component) {
-  const auto width = static_cast<std::size_t>(block.lanes);
+  const auto width = index(block.lanes);
   return block.state.data() + element / width * block.pack_bytes +
          (component * width + element % width) * number_size(block);
 }
@@ -88,8 +89,7 @@ std::size_t history_components(const Law& law) {
 }  // namespace
 
 std::size_t state_components(const Block& block) {
-  return block.lanes == 0 ? 0
-                          : block.pack_bytes / (number_size(block) * static_cast<std::size_t>(block.lanes));
+  return block.lanes == 0 ? 0 : block.pack_bytes / (number_size(block) * index(block.lanes));
 }
 
 void read_state(const Block& block, std::size_t element, double* row) {
@@ -133,7 +133,7 @@ void write_plastic_strain(double strain, std::size_t element, Block& block) {
 }
 
 void hold_energy(double internal, std::size_t element, Block& block) {
-  const auto width = static_cast<std::size_t>(block.lanes);
+  const auto width = index(block.lanes);
   block.held[element / width * 2 * width + element % width] = internal;
 }
 

@@ -15,6 +15,7 @@
 #include "elements/solid/mean_gradient.hpp"
 #include "materials/failing.hpp"
 #include "src/base/gather.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -105,7 +106,7 @@ void list_lost(const LostLanes<Real>& lost, int count, std::size_t first_of_chun
     DeletionCause cause = DeletionCause::distortion;
     if (lost.by_plastic_strain.v[lane] != 0) cause = DeletionCause::plastic_strain;
     if (lost.by_damage.v[lane] != 0) cause = DeletionCause::damage;
-    ++result.lost_by[static_cast<std::size_t>(cause)];
+    ++result.lost_by[index(cause)];
   }
 }
 

@@ -4,6 +4,7 @@
 #include "elements/base/element_kind.hpp"
 #include "elements/block.hpp"
 #include "src/base/gather.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -82,7 +83,7 @@ BRIO_CALLED void scatter_first(const NodalRows& sum, const int* connectivity, in
                                const ForcesOf<Kind, Lanes<Real>>& forces) {
   for (int corner = 0; corner < Kind::nodes; ++corner)
     for (int lane = 0; lane < count; ++lane) {
-      const auto node = static_cast<std::size_t>(connectivity[corner * lane_count<Real> + lane]);
+      const auto node = index(connectivity[corner * lane_count<Real> + lane]);
       for (int i = 0; i < 3; ++i) {
         sum.linear[node].component[i] -= static_cast<double>(forces.force[i][corner][lane]);
         if constexpr (Kind::rotations)

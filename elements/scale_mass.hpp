@@ -3,6 +3,7 @@
 
 #include "elements/base/motion.hpp"
 #include "elements/block.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -25,7 +26,7 @@ void scale_mass(Block& block, Chunk chunk, std::size_t pack, int count, Header& 
   constexpr std::size_t width = lane_count<Real>;
   for (int lane = 0; lane < count; ++lane) {
     if (is_short.v[lane] == 0) continue;
-    const std::size_t place = pack * width + static_cast<std::size_t>(lane);
+    const std::size_t place = pack * width + index(lane);
     block.mass_gain[place] = static_cast<double>(header.mass[lane]) - static_cast<double>(before[lane]);
     block.scaled[chunk.first_pack * width + result.scaled++] = static_cast<int>(place);
   }

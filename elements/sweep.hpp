@@ -17,6 +17,7 @@
 #include "elements/scale_mass.hpp"
 #include "elements/stiffness_product.hpp"
 #include "src/base/fetch_ahead.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -47,9 +48,7 @@ struct PackLayout {
   using Point = typename Kind::template Point<Number, Law>;
   static_assert(sizeof(Header) % sizeof(Number) == 0 && sizeof(Point) % sizeof(Number) == 0);
 
-  static std::size_t bytes(const Kind& kind) {
-    return sizeof(Header) + static_cast<std::size_t>(kind.points()) * sizeof(Point);
-  }
+  static std::size_t bytes(const Kind& kind) { return sizeof(Header) + index(kind.points()) * sizeof(Point); }
   static Header& header(Block& block, std::size_t pack) {
     return *reinterpret_cast<Header*>(block.state.data() + pack * block.pack_bytes);
   }
@@ -106,7 +105,7 @@ BRIO_INLINE void note_stable_step(Lanes<Real> stable_step, std::size_t pack, int
     const double candidate = static_cast<double>(stable_step[lane]);
     if (candidate >= result.stable_step || result.stable_step <= 0) continue;
     result.stable_step = std::isnan(candidate) ? -1.0 : candidate;
-    result.critical_element = pack * lane_count<Real> + static_cast<std::size_t>(lane);
+    result.critical_element = pack * lane_count<Real> + index(lane);
   }
 }
 
@@ -125,8 +124,7 @@ SweepResult sweep_chunk(Block& block, Chunk chunk, Nodes& nodes, double step) {
   T damping(0.0), strain_rate_squared(0.0);
   for (std::size_t done = 0; done < chunk.element_count; done += width) {
     const std::size_t pack = chunk.first_pack + done / width;
-    const int* connectivity =
-        block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
+    const int* connectivity = block.connectivity.data() + pack * index(Kind::nodes * width);
     const int count = static_cast<int>(std::min<std::size_t>(width, chunk.element_count - done));
     MotionOf<Kind, T> motion;
     exchange.gather(connectivity, count, motion);
@@ -190,19 +188,16 @@ void initialize_block(Block& block, Nodes& nodes) {
   const Law law = law_of<Law>(block.material);
   NodeExchange<Kind, Real> exchange(block, nodes, 0);
   for (std::size_t pack = 0; pack < block.pack_count; ++pack) {
-    const int* connectivity =
-        block.connectivity.data() + pack * static_cast<std::size_t>(Kind::nodes * width);
+    const int* connectivity = block.connectivity.data() + pack * index(Kind::nodes * width);
     MotionOf<Kind, T> motion;
     exchange.gather_start(connectivity, motion);
     const NodalMass<T> share =
         kind.initialize(motion, law, Layout::header(block, pack), Layout::points(block, pack));
-    for (int lane = 0; lane < width && pack * width + static_cast<std::size_t>(lane) < block.element_count;
-         ++lane) {
+    for (int lane = 0; lane < width && pack * width + index(lane) < block.element_count; ++lane) {
       if (!(share.mass[lane] > 0))
-        throw BadElement(pack * width + static_cast<std::size_t>(lane),
-                         std::string(Kind::kernel_traits.shape_rule));
+        throw BadElement(pack * width + index(lane), std::string(Kind::kernel_traits.shape_rule));
       for (int corner = 0; corner < Kind::nodes; ++corner) {
-        const auto node = static_cast<std::size_t>(connectivity[corner * width + lane]);
+        const auto node = index(connectivity[corner * width + lane]);
         nodes.mass[node] += static_cast<double>(share.mass[lane]);
         if constexpr (Kind::rotations)
           nodes.rotational_inertia[node] += static_cast<double>(share.rotational_inertia[lane]);
@@ -223,8 +218,7 @@ void copy_lane(const std::byte* pack, int lane, Scalar* out) {
   static_assert(std::is_trivially_copyable_v<Scalar>);
   for (std::size_t component = 0; component < sizeof(Scalar) / sizeof(double); ++component) {
     Real value;
-    std::memcpy(&value, pack + (component * lane_count<Real> + static_cast<std::size_t>(lane)) * sizeof(Real),
-                sizeof value);
+    std::memcpy(&value, pack + (component * lane_count<Real> + index(lane)) * sizeof(Real), sizeof value);
     const auto widened = static_cast<double>(value);
     std::memcpy(reinterpret_cast<std::byte*>(out) + component * sizeof(double), &widened, sizeof widened);
   }
@@ -250,9 +244,9 @@ void copy_element(const Block& block, const Nodes& nodes, std::size_t e, std::si
     copy_lane<typename Kind::template Point<double, Law>, Real>(
         pack + sizeof(typename Layout::Header) + p * sizeof(typename Layout::Point), lane, &copy.points[p]);
   NodalMotionOf<Kind, double>& motion = copy.motion;
-  const NodeRecord& first = nodes.record[static_cast<std::size_t>(block.node(e, 0))];
+  const NodeRecord& first = nodes.record[index(block.node(e, 0))];
   for (int corner = 0; corner < Kind::nodes; ++corner) {
-    const auto node = static_cast<std::size_t>(block.node(e, corner));
+    const auto node = index(block.node(e, corner));
     for (int i = 0; i < 3; ++i) {
       motion.position[i][corner] = nodes.record[node].position[i] - first.position[i];
       motion.velocity[i][corner] = nodes.record[node].velocity[i] - first.velocity[i];
@@ -266,7 +260,7 @@ void copy_element(const Block& block, const Nodes& nodes, std::size_t e, std::si
 template <class Kind, class Law, Floating Real>
 ElementSample sample_element(const Block& block, const Nodes& nodes, std::size_t e, bool in_full) {
   const Kind kind = kernel_of<Kind>(block.element);
-  const auto count = static_cast<std::size_t>(kind.points());
+  const auto count = index(kind.points());
   ElementCopy<Kind, Law> copy;
   copy_element<Kind, Law, Real>(block, nodes, e, count, copy);
   const Law law = law_of<Law>(block.material);

@@ -21,6 +21,7 @@
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/geometry/separation.hpp"
 #include "contact/pairs/gather.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -37,7 +38,7 @@ class Sheet {
   explicit Sheet(bool is_ordered) : node_(columns * rows), end_(columns * rows) {
     for (int j = 0; j < rows; ++j) {
       for (int i = 0; i < columns; ++i) {
-        const auto node = static_cast<std::size_t>(j * columns + i);
+        const auto node = index(j * columns + i);
         const Eigen::Vector3d place = Eigen::Vector3d(i, j, 0) + vector(0.2);
         for (int k = 0; k < 3; ++k) {
           node_[node].position[k] = place[k];
@@ -55,7 +56,7 @@ class Sheet {
   // Five nodes of eight pairs each: node and face; the first four are also those of two edges.
   const int* pack(std::size_t k) const { return &index_[40 * k]; }
   Eigen::Vector3d position(int node) const {
-    const double* p = node_[static_cast<std::size_t>(node)].position;
+    const double* p = node_[index(node)].position;
     return {p[0], p[1], p[2]};
   }
 

@@ -14,6 +14,7 @@
 #include <random>
 #include <string_view>
 
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/step/advance.hpp"
 #include "src/step/sweep_stage.hpp"
@@ -77,7 +78,7 @@ void give_up(Model& model, const std::vector<std::size_t>& places) {
     model.sweep_results[t].lost = 0;
     if (task.block != 0) continue;
     Block& block = model.blocks[0];
-    const std::size_t first = task.chunk.first_pack * static_cast<std::size_t>(block.lanes);
+    const std::size_t first = task.chunk.first_pack * index(block.lanes);
     const auto begin = std::lower_bound(places.begin(), places.end(), first);
     const auto end = std::lower_bound(begin, places.end(), first + task.chunk.element_count);
     for (auto place = begin; place != end; ++place)
@@ -93,7 +94,7 @@ struct Sums {
 void print(const Sums& sums, const Model& model) {
   std::size_t lanes = 0;
   for (const SweepTask& task : model.schedule.tasks) {
-    const auto width = static_cast<std::size_t>(model.blocks[task.block].lanes);
+    const auto width = index(model.blocks[task.block].lanes);
     lanes += (task.chunk.element_count + width - 1) / width * width;
   }
   const double per_step = 1e3 / sums.steps;
@@ -107,7 +108,7 @@ void print(const Sums& sums, const Model& model) {
 
 int main(int argc, char** argv) {
   const int cells = argc > 1 ? std::atoi(argv[1]) : 100;
-  const std::size_t at_once = argc > 2 ? static_cast<std::size_t>(std::atoi(argv[2])) : 100;
+  const std::size_t at_once = argc > 2 ? index(std::atoi(argv[2])) : 100;
   const int steps = argc > 3 ? std::atoi(argv[3]) : 60;
   const bool random = argc <= 4 || std::string_view(argv[4]) == "random";
   Model model = block_on_plate(cells);
@@ -123,8 +124,7 @@ int main(int argc, char** argv) {
   for (int step = 0; step < steps; ++step) {
     places.clear();
     for (std::size_t k = 0; k < at_once && !order.empty(); ++k, order.pop_back())
-      places.push_back(
-          static_cast<std::size_t>(model.parts[0].element_slot[static_cast<std::size_t>(order.back())]));
+      places.push_back(index(model.parts[0].element_slot[index(order.back())]));
     std::sort(places.begin(), places.end());
     const double elements = stage(Stage::elements);
     const double contact = stage(Stage::contact) + stage(Stage::contact_search);

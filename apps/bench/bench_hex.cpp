@@ -16,6 +16,7 @@
 
 #include "apps/bench/wanted.hpp"
 #include "elements/block.hpp"
+#include "src/base/index.hpp"
 #include "src/motion/motion.hpp"
 #include "src/sweep/schedule.hpp"
 
@@ -79,7 +80,7 @@ Grid ordered(const Grid& grid) {
   std::vector<int> new_number(grid.position.size(), -1);
   for (const int e : locality_order(grid.position, grid.connectivity, 8))
     for (std::size_t corner = 0; corner < 8; ++corner) {
-      const auto node = static_cast<std::size_t>(grid.connectivity[static_cast<std::size_t>(e) * 8 + corner]);
+      const auto node = index(grid.connectivity[index(e) * 8 + corner]);
       if (new_number[node] < 0) {
         new_number[node] = static_cast<int>(result.position.size());
         result.position.push_back(grid.position[node]);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "materials/material.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -54,7 +55,7 @@ __attribute__((noinline)) void run_steps(const Law& given, std::vector<State>& s
   const Law law = given;
   for (int step = 0; step < steps; ++step)
     for (int pack = 0; pack < packs; ++pack)
-      states[static_cast<std::size_t>(pack)].update(law, size * (1 + pack * (0.3 / packs)));
+      states[index(pack)].update(law, size * (1 + pack * (0.3 / packs)));
 }
 
 template <class Law, class State>

@@ -15,6 +15,7 @@
 
 #include "io/mesh_file/part_mesh.hpp"
 #include "io/mesh_format/read_mesh_file.hpp"
+#include "src/base/index.hpp"
 
 namespace {
 
@@ -69,7 +70,7 @@ void write_binary_gmsh(int n, const std::string& path) {
   put(one, elements, one, elements, 3, 1, 5, elements);
   for (std::size_t e = 0; e < elements; ++e) {
     put(e + 1);
-    for (const int corner : cube.corners[e]) put(static_cast<std::size_t>(corner));
+    for (const int corner : cube.corners[e]) put(index(corner));
   }
   out << "\n$EndElements\n";
 }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "contact/search/global_search.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -119,9 +120,7 @@ std::vector<CaptureBox> capture_boxes(const FacedSurface& surface, double reach)
   std::vector<CaptureBox> boxes;
   boxes.reserve(surface.face.size());
   for (const auto& face : surface.face) {
-    const auto corner = [&](int k) {
-      return surface.node[static_cast<std::size_t>(face[static_cast<std::size_t>(k)])];
-    };
+    const auto corner = [&](int k) { return surface.node[index(face[index(k)])]; };
     CaptureBox box{{corner(0).x, corner(0).y, corner(0).z}, {corner(0).x, corner(0).y, corner(0).z}};
     for (int k = 1; k < 4; ++k) {
       const double x[3] = {corner(k).x, corner(k).y, corner(k).z};

@@ -19,6 +19,7 @@
 
 #include "apps/bench/wanted.hpp"
 #include "elements/block.hpp"
+#include "src/base/index.hpp"
 #include "src/motion/motion.hpp"
 #include "src/sweep/schedule.hpp"
 
@@ -84,11 +85,10 @@ Scene sheet(int n, double speed, const Shell4& shell, const Material& material, 
       for (const int node : {j * m + i, j * m + i + 1, (j + 1) * m + i + 1, (j + 1) * m + i})
         connectivity.push_back(node);
   Scene scene;
-  scene.nodes = Nodes(static_cast<std::size_t>(m) * static_cast<std::size_t>(m), true);
+  scene.nodes = Nodes(index(m) * index(m), true);
   for (int j = 0; j < m; ++j)
     for (int i = 0; i < m; ++i) {
-      NodeRecord& node = scene.nodes.record[static_cast<std::size_t>(j) * static_cast<std::size_t>(m) +
-                                            static_cast<std::size_t>(i)];
+      NodeRecord& node = scene.nodes.record[index(j) * index(m) + index(i)];
       const double x = side * (i + distortion * noise(generator));
       const double y = side * (j + distortion * noise(generator));
       node.position[0] = x;
@@ -153,7 +153,7 @@ void measure(const Settings& settings, double speed, const Shell4& shell, const 
   ThreadTeam team(threads);
   seconds_per_step(scene, team);
   std::vector<double> seconds;
-  seconds.reserve(static_cast<std::size_t>(settings.repeats));
+  seconds.reserve(index(settings.repeats));
   for (int repeat = 0; repeat < settings.repeats; ++repeat) seconds.push_back(seconds_per_step(scene, team));
   std::sort(seconds.begin(), seconds.end());
   const double million = static_cast<double>(scene.blocks[0].element_count) * 1e-6;

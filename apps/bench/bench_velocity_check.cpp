@@ -17,6 +17,7 @@
 #include "contact/geometry/edge_check.hpp"
 #include "contact/geometry/edges_apart.hpp"
 #include "contact/geometry/velocity_check.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -139,7 +140,7 @@ void put(Vector3<Lanes<Real>>& to, int lane, const Vector3d& from) {
 
 template <Floating Real>
 std::vector<MovingEdgePair<Lanes<Real>>> packed(const std::vector<Edges>& pairs) {
-  constexpr auto width = static_cast<std::size_t>(lane_count<Real>);
+  constexpr auto width = index(lane_count<Real>);
   std::vector<MovingEdgePair<Lanes<Real>>> packs(pairs.size() / width);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     MovingEdgePair<Lanes<Real>>& pack = packs[k / width];
@@ -156,7 +157,7 @@ std::vector<MovingEdgePair<Lanes<Real>>> packed(const std::vector<Edges>& pairs)
 
 template <Floating Real>
 std::vector<MovingPair<Lanes<Real>>> packed(const std::vector<Pair>& pairs) {
-  constexpr auto width = static_cast<std::size_t>(lane_count<Real>);
+  constexpr auto width = index(lane_count<Real>);
   std::vector<MovingPair<Lanes<Real>>> packs(pairs.size() / width);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     MovingPair<Lanes<Real>>& pack = packs[k / width];

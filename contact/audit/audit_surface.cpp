@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -17,7 +19,7 @@ constexpr double rounding_ratio = 64 * std::numeric_limits<double>::epsilon();
 constexpr double cosine_of_continuing = 0.93969262078590843;
 
 int root_of(std::vector<int>& parent, int number) {
-  const auto up = [&](int i) -> int& { return parent[static_cast<std::size_t>(i)]; };
+  const auto up = [&](int i) -> int& { return parent[index(i)]; };
   while (up(number) != number) number = up(number) = up(up(number));
   return number;
 }
@@ -25,7 +27,7 @@ int root_of(std::vector<int>& parent, int number) {
 void join(std::vector<int>& parent, int a, int b) {
   a = root_of(parent, a);
   b = root_of(parent, b);
-  parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  parent[index(std::max(a, b))] = std::min(a, b);
 }
 
 Vector3d unit_normal(const AuditedFace& face) {
@@ -57,7 +59,7 @@ void AuditedSurface::find_pieces() {
   piece.resize(parent.size());
   for (std::size_t s = 0; s < parent.size(); ++s) {
     const int root = root_of(parent, static_cast<int>(s));
-    piece[s] = root == static_cast<int>(s) ? pieces++ : piece[static_cast<std::size_t>(root)];
+    piece[s] = root == static_cast<int>(s) ? pieces++ : piece[index(root)];
   }
 }
 
@@ -73,14 +75,14 @@ void AuditedSurface::collect_faces() {
   std::vector<BoundingBox> sorted(box.size());
   face.reserve(box.size());
   for (int i : morton_order(box)) {
-    sorted[face.size()] = box[static_cast<std::size_t>(i)];
-    add_face(alive[static_cast<std::size_t>(i)]);
+    sorted[face.size()] = box[index(i)];
+    add_face(alive[index(i)]);
   }
   tree = BoxTree(std::move(sorted));
 }
 
 void AuditedSurface::add_face(int number) {
-  const Face& known = surface.face[static_cast<std::size_t>(number)];
+  const Face& known = surface.face[index(number)];
   AuditedFace& own = face.emplace_back();
   own.node = known.node;
   own.shell = known.shell;
@@ -89,7 +91,7 @@ void AuditedSurface::add_face(int number) {
   own.piece = piece_of_node(known.node[0]);
   own.rigid = surface.rigid_body_of_all(known.node);
   for (std::size_t k = 0; k < 4; ++k) own.x[k] = position(known.node[k]);
-  const auto corners = static_cast<std::size_t>(own.corners);
+  const auto corners = index(own.corners);
   double shortest = HUGE_VAL;
   for (std::size_t k = 0; k < corners; ++k)
     shortest = std::min(shortest, (own.x[(k + 1) % corners] - own.x[k]).squaredNorm());
@@ -101,16 +103,15 @@ void AuditedSurface::find_continuation() {
   std::vector<Vector3d> normal(surface.face.size(), Vector3d::Zero());
   std::vector<std::uint8_t> ends_at(
       surface.slaves());  // of each slave node: 1 where a sharp or free edge ends
-  for (const AuditedFace& f : face) normal[static_cast<std::size_t>(f.face)] = unit_normal(f);
-  const auto slave = [&](int node) { return static_cast<std::size_t>(surface.slave(node)); };
+  for (const AuditedFace& f : face) normal[index(f.face)] = unit_normal(f);
+  const auto slave = [&](int node) { return index(surface.slave(node)); };
   for (AuditedFace& f : face)
-    for (std::size_t k = 0; k < static_cast<std::size_t>(f.corners); ++k) {
-      const auto own = static_cast<std::size_t>(f.face);
+    for (std::size_t k = 0; k < index(f.corners); ++k) {
+      const auto own = index(f.face);
       const int across = surface.neighbor[own][k];
-      f.edge_continues[k] =
-          across >= 0 && normal[own].dot(normal[static_cast<std::size_t>(across)]) > cosine_of_continuing;
+      f.edge_continues[k] = across >= 0 && normal[own].dot(normal[index(across)]) > cosine_of_continuing;
       if (!f.edge_continues[k])
-        ends_at[slave(f.node[k])] = ends_at[slave(f.node[(k + 1) % static_cast<std::size_t>(f.corners)])] = 1;
+        ends_at[slave(f.node[k])] = ends_at[slave(f.node[(k + 1) % index(f.corners)])] = 1;
     }
   for (AuditedFace& f : face)
     for (std::size_t k = 0; k < 4; ++k) f.corner_continues[k] = ends_at[slave(f.node[k])] == 0;

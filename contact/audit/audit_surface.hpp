@@ -8,6 +8,7 @@
 #include "contact/audit/box_tree.hpp"
 #include "contact/audit/segment_triangle.hpp"
 #include "contact/surface/surface.hpp"
+#include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {
@@ -53,12 +54,10 @@ struct AuditedSurface {
   double tolerance = 0;  ///< a depth that rounding of positions explains
 
   Eigen::Vector3d position(int global_node) const {
-    const double* x = nodes.record[static_cast<std::size_t>(global_node)].position;
+    const double* x = nodes.record[index(global_node)].position;
     return {x[0], x[1], x[2]};
   }
-  int piece_of_node(int global_node) const {
-    return piece[static_cast<std::size_t>(surface.slave(global_node))];
-  }
+  int piece_of_node(int global_node) const { return piece[index(surface.slave(global_node))]; }
 
  private:
   void find_pieces();

@@ -10,6 +10,8 @@
 
 #if defined(__AVX__)
 #include <immintrin.h>
+
+#include "src/base/index.hpp"
 #endif
 
 namespace brio {
@@ -50,7 +52,7 @@ class BoxTree {
   BoxTree() = default;
   explicit BoxTree(std::vector<BoundingBox> boxes);
 
-  const BoundingBox& box(int item) const { return box_[static_cast<std::size_t>(item)]; }
+  const BoundingBox& box(int item) const { return box_[index(item)]; }
   int size() const { return static_cast<int>(box_.size()); }
 
   /// `visit(item)` for every item from `first` on, ascending, whose box overlaps `box` but for rounding to
@@ -95,8 +97,7 @@ class BoxTree {
   void descend(std::size_t level, int branch, const Bounds& bounds, int first, const Visit& visit) const {
     // Items below a child: eight to the power of the level.
     const int shift = bits_of_width * static_cast<int>(level);
-    for (unsigned bits = overlapping(level_[level][static_cast<std::size_t>(branch)], bounds); bits != 0;
-         bits &= bits - 1) {
+    for (unsigned bits = overlapping(level_[level][index(branch)], bounds); bits != 0; bits &= bits - 1) {
       const int child = width * branch + std::countr_zero(bits);
       if (((child + 1) << shift) <= first) continue;
       if (level == 0) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -68,10 +70,8 @@ class CrossingSearch {
   }
 
  private:
-  const AuditedFace& face(int i) const { return audited_.face[static_cast<std::size_t>(i)]; }
-  const Face& known(const AuditedFace& own) const {
-    return surface_.face[static_cast<std::size_t>(own.face)];
-  }
+  const AuditedFace& face(int i) const { return audited_.face[index(i)]; }
+  const Face& known(const AuditedFace& own) const { return surface_.face[index(own.face)]; }
 
   CrossingElement element(const AuditedFace& own) const {
     return {.x = own.x.data(),
@@ -89,8 +89,7 @@ class CrossingSearch {
     for (int t = 0; t < other.triangles(); ++t) {
       const SurfaceTriangle triangle = other.triangle(t);
       std::array<SurfaceTriangle::Volume, 4> volume;
-      for (std::size_t c = 0; c < static_cast<std::size_t>(own.corners); ++c)
-        volume[c] = triangle.volume(own.x[c]);
+      for (std::size_t c = 0; c < index(own.corners); ++c) volume[c] = triangle.volume(own.x[c]);
       const double touch = audited_.tolerance * triangle.twice_area;
       for (unsigned bits = near; bits != 0; bits &= bits - 1) {
         const auto& [a, b] = segment_end[std::countr_zero(bits)];

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/audit/distance.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -58,18 +59,18 @@ class Enclosure {
   }
 
  private:
-  const Piece& piece(int number) const { return piece_[static_cast<std::size_t>(number)]; }
+  const Piece& piece(int number) const { return piece_[index(number)]; }
 
   void describe_pieces() {
-    piece_.resize(static_cast<std::size_t>(audited_.pieces));
+    piece_.resize(index(audited_.pieces));
     for (std::size_t i = 0; i < audited_.face.size(); ++i) {
       const AuditedFace& face = audited_.face[i];
-      Piece& own = piece_[static_cast<std::size_t>(face.piece)];
+      Piece& own = piece_[index(face.piece)];
       own.box.add(audited_.tree.box(static_cast<int>(i)));
       if (own.face >= 0 && (own.solid || face.shell)) continue;
       own.face = static_cast<int>(i);
       own.node = face.node[0];
-      own.part = surface_.face[static_cast<std::size_t>(face.face)].part;
+      own.part = surface_.face[index(face.face)].part;
       own.point = centroid(face, 0);
       own.solid = !face.shell;
     }
@@ -81,7 +82,7 @@ class Enclosure {
   }
 
   void add_node(int node, int part) {
-    Piece& own = piece_[static_cast<std::size_t>(audited_.piece_of_node(node))];
+    Piece& own = piece_[index(audited_.piece_of_node(node))];
     own.box.add(audited_.position(node));
     if (own.node >= 0) return;
     own.node = node;
@@ -99,8 +100,8 @@ class Enclosure {
     }
     std::vector<BoundingBox> sorted;
     for (int i : morton_order(box)) {
-      solid_.push_back(unsorted[static_cast<std::size_t>(i)]);
-      sorted.push_back(box[static_cast<std::size_t>(i)]);
+      solid_.push_back(unsorted[index(i)]);
+      sorted.push_back(box[index(i)]);
     }
     solids_ = BoxTree(std::move(sorted));
   }
@@ -110,7 +111,7 @@ class Enclosure {
     for (int p = 0; p < audited_.pieces; ++p) {
       if (piece(p).node < 0) continue;
       solids_.for_overlapping(piece(p).box, 0, [&](int i) {
-        const int other = solid_[static_cast<std::size_t>(i)];
+        const int other = solid_[index(i)];
         if (other != p && solids_.box(i).holds(piece(p).box)) add_probe(p, other, piece(p).point);
       });
     }
@@ -118,8 +119,8 @@ class Enclosure {
 
   void add_probes_of_near_faces() {
     for (const auto& [i, j] : crossings_.near_faces) {
-      const AuditedFace& first = audited_.face[static_cast<std::size_t>(i)];
-      const AuditedFace& second = audited_.face[static_cast<std::size_t>(j)];
+      const AuditedFace& first = audited_.face[index(i)];
+      const AuditedFace& second = audited_.face[index(j)];
       add_probes_of_face(first, second.piece);
       add_probes_of_face(second, first.piece);
     }
@@ -141,10 +142,8 @@ class Enclosure {
   }
 
   bool never_meet(int own, int other) const {
-    const Face& face =
-        surface_
-            .face[static_cast<std::size_t>(audited_.face[static_cast<std::size_t>(piece(other).face)].face)];
-    const auto body = [&](int node) { return surface_.body[static_cast<std::size_t>(surface_.slave(node))]; };
+    const Face& face = surface_.face[index(audited_.face[index(piece(other).face)].face)];
+    const auto body = [&](int node) { return surface_.body[index(surface_.slave(node))]; };
     if (!surface_.tied.empty() && surface_.tied.one_piece(body(piece(own).node), face.body)) return true;
     return (piece(own).part >= 0 && surface_.pairs.parts_apart(piece(own).part, face.part)) ||
            surface_.never_touch(surface_.slave(piece(own).node), face);
@@ -190,7 +189,7 @@ class Enclosure {
   template <class Visit>
   void for_faces_of(int solid, const BoundingBox& box, const Visit& visit) const {
     audited_.tree.for_overlapping(box, 0, [&](int f) {
-      const AuditedFace& face = audited_.face[static_cast<std::size_t>(f)];
+      const AuditedFace& face = audited_.face[index(f)];
       if (face.piece == solid && !face.shell) visit(face);
     });
   }

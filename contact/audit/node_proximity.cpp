@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/audit/distance.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -21,14 +22,14 @@ class NodeProximity {
   }
 
   void of_node(int slave, Audit& found) const {
-    const int node = surface_.node[static_cast<std::size_t>(slave)];
+    const int node = surface_.node[index(slave)];
     const double radius = node < 0 ? 0 : radius_of(slave);
     if (node < 0 || radius + largest_half_ <= 0) return;
     const Vector3d x = audited_.position(node);
     const BoundingBox box = BoundingBox{x, x}.grown(radius + largest_half_);
     AuditPlace deepest;
     audited_.tree.for_overlapping(box, 0, [&](int f) {
-      const AuditedFace& face = audited_.face[static_cast<std::size_t>(f)];
+      const AuditedFace& face = audited_.face[index(f)];
       const double depth = depth_at(slave, x, radius, face, audited_.tree.box(f));
       if (depth > deepest.depth)
         deepest = {.depth = depth, .node = node, .part = {part_of(slave), known(face).part}};
@@ -39,23 +40,19 @@ class NodeProximity {
   }
 
  private:
-  const Face& known(const AuditedFace& face) const {
-    return surface_.face[static_cast<std::size_t>(face.face)];
-  }
+  const Face& known(const AuditedFace& face) const { return surface_.face[index(face.face)]; }
   double half_thickness(const AuditedFace& face) const {
-    return 0.5 * scene_.options.shell_thickness_scale *
-           surface_.thickness[static_cast<std::size_t>(face.face)];
+    return 0.5 * scene_.options.shell_thickness_scale * surface_.thickness[index(face.face)];
   }
   double radius_of(int slave) const {
-    return std::max(scene_.options.shell_thickness_scale * surface_.radius[static_cast<std::size_t>(slave)],
+    return std::max(scene_.options.shell_thickness_scale * surface_.radius[index(slave)],
                     surface_.radius_of_rounds(slave));
   }
 
   // 0 where it does not count.
   double depth_at(int slave, const Vector3d& x, double radius, const AuditedFace& face,
                   const BoundingBox& box) const {
-    if (!face.shell && (radius <= 0 || known(face).body == surface_.body[static_cast<std::size_t>(slave)]))
-      return 0;
+    if (!face.shell && (radius <= 0 || known(face).body == surface_.body[index(slave)])) return 0;
     const double touching = half_thickness(face) + radius;
     const double least = touching - tolerated_closeness * std::min(touching, face.shortest_edge);
     if (box.squared_distance(x) >= least * least) return 0;
@@ -73,8 +70,8 @@ class NodeProximity {
 
   int part_of(int slave) const {
     const auto faces = surface_.faces_of.of(slave);
-    if (!faces.empty()) return surface_.face[static_cast<std::size_t>(faces.front())].part;
-    const int node = surface_.node[static_cast<std::size_t>(slave)];
+    if (!faces.empty()) return surface_.face[index(faces.front())].part;
+    const int node = surface_.node[index(slave)];
     for (const RoundElement& round : surface_.round)
       if (round.alive() && (round.node[0] == node || round.node[1] == node)) return round.part;
     return -1;

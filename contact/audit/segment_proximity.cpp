@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contact/audit/distance.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -57,7 +58,7 @@ class SegmentProximity {
   }
 
  private:
-  const AuditedSegment& segment(int i) const { return segment_[static_cast<std::size_t>(i)]; }
+  const AuditedSegment& segment(int i) const { return segment_[index(i)]; }
 
   void add(AuditedSegment segment) {
     if (segment.node[1] < segment.node[0]) std::swap(segment.node[0], segment.node[1]);
@@ -83,15 +84,14 @@ class SegmentProximity {
   void add_edges() {
     if (!scene_.options.edges) return;
     for (const AuditedFace& face : audited_.face) {
-      const auto f = static_cast<std::size_t>(face.face);
+      const auto f = index(face.face);
       for (int k = 0; k < face.corners; ++k) {
-        const int across = surface_.neighbor[f][static_cast<std::size_t>(k)];
+        const int across = surface_.neighbor[f][index(k)];
         if (across >= 0 && (across < face.face || (face.shell && !has_beams_))) continue;
         add({.kind = !face.shell  ? SegmentKind::solid_edge
                      : across < 0 ? SegmentKind::free_edge
                                   : SegmentKind::shell_edge,
-             .node = {face.node[static_cast<std::size_t>(k)],
-                      face.node[static_cast<std::size_t>((k + 1) % face.corners)]},
+             .node = {face.node[index(k)], face.node[index((k + 1) % face.corners)]},
              .x = {},
              .part = surface_.face[f].part,
              .body = surface_.face[f].body,
@@ -110,8 +110,8 @@ class SegmentProximity {
     std::vector<AuditedSegment> sorted;
     std::vector<BoundingBox> sorted_box;
     for (int i : morton_order(box)) {
-      sorted.push_back(segment_[static_cast<std::size_t>(i)]);
-      sorted_box.push_back(box[static_cast<std::size_t>(i)]);
+      sorted.push_back(segment_[index(i)]);
+      sorted_box.push_back(box[index(i)]);
     }
     segment_ = std::move(sorted);
     tree_ = BoxTree(std::move(sorted_box));
@@ -153,7 +153,7 @@ class SegmentProximity {
     for (int node : first.node)
       for (int f : surface_.faces_of.of(surface_.slave(node)))
         for (int other : second.node)
-          if (surface_.face[static_cast<std::size_t>(f)].has(other)) return true;
+          if (surface_.face[index(f)].has(other)) return true;
     return false;
   }
 
@@ -168,7 +168,7 @@ class SegmentProximity {
   // Within the tightest fold of beams of their radii.
   bool drawn_together(const AuditedSegment& first, const AuditedSegment& second) const {
     const auto drawn = [&](const AuditedSegment& beam) {
-      return scene_.features.drawn_beam[static_cast<std::size_t>(beam.round)];
+      return scene_.features.drawn_beam[index(beam.round)];
     };
     const double fold = 0.5 * std::numbers::pi * (first.radius + second.radius);
     return distance_of_segments(drawn(first), drawn(second)).distance < fold;
@@ -185,8 +185,7 @@ class SegmentProximity {
   bool is_excluded(const AuditedSegment& first, const AuditedSegment& second) const {
     for (int node : first.node)
       for (int f : scene_.excluded.of(surface_.slave(node)))
-        if (const Face& face = surface_.face[static_cast<std::size_t>(f)];
-            face.has(second.node[0]) && face.has(second.node[1]))
+        if (const Face& face = surface_.face[index(f)]; face.has(second.node[0]) && face.has(second.node[1]))
           return true;
     return false;
   }
@@ -194,9 +193,9 @@ class SegmentProximity {
   void collect_waiting() {
     const PairList& list = scene_.pairs.edge_edge;
     const auto segment = [&](int e) {
-      const auto& node = scene_.features.edge[static_cast<std::size_t>(e)].node;
+      const auto& node = scene_.features.edge[index(e)].node;
       AuditedSegment result;
-      for (std::size_t k = 0; k < 2; ++k) result.node[k] = surface_.node[static_cast<std::size_t>(node[k])];
+      for (std::size_t k = 0; k < 2; ++k) result.node[k] = surface_.node[index(node[k])];
       return result;
     };
     for (std::size_t p = 0; p < list.size(); ++p)

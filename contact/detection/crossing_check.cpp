@@ -7,14 +7,13 @@
 #include "contact/geometry/edge_check.hpp"
 #include "contact/geometry/hull_point.hpp"
 #include "contact/geometry/velocity_check.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double no_distance = 1e-12;  ///< of the smallest edge
 
 // The triangles of the face, the one that is met first.
 std::optional<VelocityContact> first_touch(const MovingNode& node, const FaceVertices& start,
@@ -45,8 +44,8 @@ std::optional<VelocityContact> first_touch(const MovingNode& node, const FaceVer
 std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
   const PairList& list = pairs_.node_face;
   const int s = list.first(pair), f = list.second(pair);
-  const Face& face = surface_.face[static_cast<std::size_t>(f)];
-  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+  const Face& face = surface_.face[index(f)];
+  const std::array<int, 4>& corner = features_.face_node[index(f)];
   FaceVertices start, end;
   for (std::size_t k = 0; k < 4; ++k) {
     start[k] = motion_.start(corner[k]);
@@ -64,7 +63,7 @@ std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
   contact.own = 1;
   contact.node = {s, corner[0], corner[1], corner[2], corner[3]};
   contact.friction_coefficient =
-      surface_.pairs.friction(surface_.node[static_cast<std::size_t>(s)], face.part, options_.friction);
+      surface_.pairs.friction(surface_.node[index(s)], face.part, options_.friction);
   contact.weight[0] = 1;
   const HullPoint first = closest_on_face(x, start, as_hull);
   for (std::size_t k = 0; k < 4; ++k) contact.weight[k + 1] = -first.weights[k];
@@ -76,8 +75,8 @@ std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
 
 std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   const PairList& list = pairs_.edge_edge;
-  const EdgeFeature& a = features_.edge[static_cast<std::size_t>(list.first(pair))];
-  const EdgeFeature& b = features_.edge[static_cast<std::size_t>(list.second(pair))];
+  const EdgeFeature& a = features_.edge[index(list.first(pair))];
+  const EdgeFeature& b = features_.edge[index(list.second(pair))];
   const Segment sa{motion_.start(a.node[0]), motion_.start(a.node[1])};
   const Segment sb{motion_.start(b.node[0]), motion_.start(b.node[1])};
   const Segment ea{motion_.end(a.node[0]), motion_.end(a.node[1])};

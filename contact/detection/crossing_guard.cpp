@@ -5,6 +5,7 @@
 
 #include "contact/detection/crossing_check.hpp"
 #include "contact/pairs/pair_packs.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -42,7 +43,7 @@ class Look {
     renew<false>(uncertain, range, last);
     renew<true>(uncertain, range, last);
     std::sort(left.data(), last);
-    for (const int* pair = left.data(); pair != last; ++pair) check(static_cast<std::size_t>(*pair), range);
+    for (const int* pair = left.data(); pair != last; ++pair) check(index(*pair), range);
   }
 
  private:

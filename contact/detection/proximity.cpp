@@ -7,15 +7,13 @@
 
 #include "contact/detection/proximity_filter.hpp"
 #include "contact/pairs/pair_packs.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
 using Eigen::Vector3d;
 
 namespace {
-
-/// Distances below this fraction of the smallest edge have no direction.
-constexpr double no_distance = 1e-12;
 
 // Of unit length but for rounding to single precision, or zero.
 template <class Points>
@@ -87,7 +85,7 @@ class Finder {
   }
   BRIO_INLINE void end_wait(const typename Kind::Pairs& pack, MaskOf<Pack> apart) const {
     for_lanes(lane_bits(apart) & pack.lanes(),
-              [&](int lane) { kind_.list.end_wait(static_cast<std::size_t>(pack.pair[lane])); });
+              [&](int lane) { kind_.list.end_wait(index(pack.pair[lane])); });
   }
 
   template <bool Spaced>
@@ -172,7 +170,7 @@ void list_found(Proximity& proximity, std::size_t ranges) {
     for (const FoundContact& entry : proximity.range[r].found) {
       const Contact& contact = entry.contact;
       const int feature = contact.of_edges() ? contact.slave - first_edge_slave : contact.slave;
-      int& last = proximity.last_found[static_cast<std::size_t>(feature)];
+      int& last = proximity.last_found[index(feature)];
       proximity.before.push_back(last);
       last = static_cast<int>(proximity.found.size());
       proximity.features.insert(feature);
@@ -186,9 +184,8 @@ void list_found(Proximity& proximity, std::size_t ranges) {
 void choose(Proximity& proximity, std::size_t feature, Proximity::Chosen& chosen) {
   std::vector<const FoundContact*>& found = chosen.found;
   found.clear();
-  for (int i = std::exchange(proximity.last_found[feature], -1); i >= 0;
-       i = proximity.before[static_cast<std::size_t>(i)])
-    found.push_back(proximity.found[static_cast<std::size_t>(i)]);
+  for (int i = std::exchange(proximity.last_found[feature], -1); i >= 0; i = proximity.before[index(i)])
+    found.push_back(proximity.found[index(i)]);
   std::sort(found.begin(), found.end(), [](const FoundContact* a, const FoundContact* b) {
     return std::tuple(a->support, !a->in_plane, a->contact.face, a->contact.node) <
            std::tuple(b->support, !b->in_plane, b->contact.face, b->contact.node);

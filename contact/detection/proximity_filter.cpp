@@ -7,6 +7,7 @@
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/geometry/hull_point.hpp"
 #include "contact/surface/exclusion.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -42,7 +43,7 @@ ProximityFilter::Edginess ProximityFilter::edginess(const Faces& faces, const Ve
   Vector3d first = Vector3d::Zero();
   for (int f : faces) {
     if (f < 0) continue;
-    const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+    const std::array<int, 4>& corner = features_.face_node[index(f)];
     const auto at = [&](std::size_t k) { return motion_.start(corner[k]); };
     const Vector3d normal = unit_or((at(2) - at(0)).cross(at(3) - at(1)), Vector3d::Zero());
     found.cosine = std::max(found.cosine, normal.dot(direction));
@@ -114,7 +115,7 @@ bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint&
     double thickest = 0;
     for (int f : own.face) {
       if (f < 0) continue;
-      const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+      const std::array<int, 4>& corner = features_.face_node[index(f)];
       if (std::find(corner.begin(), corner.end(), neighbour) != corner.end())
         thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, f, radii));
     }
@@ -138,7 +139,7 @@ bool ProximityFilter::is_near(const Contact& contact) const {
 bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& weights, const MovingPoint& foot,
                                          const Vector3d& normal, double slack, OtherSide other,
                                          std::array<int, 2>& support) const {
-  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+  const std::array<int, 4>& corner = features_.face_node[index(f)];
   std::array<std::size_t, 4> on{};
   std::size_t count = 0;
   const std::size_t corners = corner[3] == corner[2] ? 3 : 4;
@@ -152,17 +153,16 @@ bool ProximityFilter::is_minimum_on_face(int f, const std::array<double, 4>& wei
   if (count != 2 || (corners == 4 && on[1] == on[0] + 2)) return true;
   const std::size_t side = on[1] == on[0] + 1 ? on[0] : on[1];
   support = {std::min(corner[on[0]], corner[on[1]]), std::max(corner[on[0]], corner[on[1]])};
-  return look_away(edge(features_.edge_of_face[static_cast<std::size_t>(f)][side]).wing, foot, -normal, slack,
-                   other);
+  return look_away(edge(features_.edge_of_face[index(f)][side]).wing, foot, -normal, slack, other);
 }
 
 // Both faces at a side of a face.
 std::array<int, 2> ProximityFilter::faces_of_side(int f, const std::array<int, 2>& ends) const {
-  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+  const std::array<int, 4>& corner = features_.face_node[index(f)];
   for (std::size_t k = 0; k < 4; ++k) {
     const int from = corner[k], to = corner[(k + 1) % 4];
     if (std::min(from, to) == ends[0] && std::max(from, to) == ends[1])
-      return edge(features_.edge_of_face[static_cast<std::size_t>(f)][k]).face;
+      return edge(features_.edge_of_face[index(f)][k]).face;
   }
   return {f, -1};
 }
@@ -170,7 +170,7 @@ std::array<int, 2> ProximityFilter::faces_of_side(int f, const std::array<int, 2
 // Whether the motion of the step passes without coming nearer than `reach`: it would be stopped along the
 // direction at the start. Crossings are found by continuous collision detection.
 bool ProximityFilter::passes_by(int slave, int f, bool as_hull, double reach) const {
-  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
+  const std::array<int, 4>& corner = features_.face_node[index(f)];
   for (const double share : looked_at_shares) {
     const auto at = [&](int node) {
       return Vector3d(motion_.start(node) + share * motion_.displacement(node));
@@ -198,10 +198,9 @@ bool ProximityFilter::passes_by(const EdgeFeature& a, const EdgeFeature& b, doub
 // pressed together would otherwise stand on each other as an inverted pendulum of the length of the gap.
 // \returns whether it is so
 bool ProximityFilter::lay_in_plane(const NearPair<4>& near, double slack, Contact& contact) const {
-  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(contact.face)];
+  const std::array<int, 4>& corner = features_.face_node[index(contact.face)];
   const std::size_t corners = corner[3] == corner[2] ? 3 : 4;
-  const auto k = static_cast<std::size_t>(std::max_element(near.at.begin(), near.at.begin() + corners) -
-                                          near.at.begin());
+  const auto k = index(std::max_element(near.at.begin(), near.at.begin() + corners) - near.at.begin());
   const std::size_t next = (k + 1) % corners, previous = (k + corners - 1) % corners;
   const Vector3d along = motion_.start(corner[next]) - motion_.start(corner[k]);
   const Vector3d across = motion_.start(corner[previous]) - motion_.start(corner[k]);
@@ -237,20 +236,20 @@ bool ProximityFilter::is_kept_beside_rim(const NearPair<4>& near, const std::arr
   // that is constrained to a face: that constraint has the normal for its direction.
   if (!in_plane && support[1] < 0 && tilt_of(of_node.cosine) < slack) return false;
   const double tilt = in_plane ? 0 : tilt_of(std::max(of_face.cosine, of_node.cosine));
-  const bool skins = of_face.sharp && of_node.sharp && !surface_.face[static_cast<std::size_t>(f)].shell &&
-                     features_.node_radius[static_cast<std::size_t>(s)] <= features_.skin;
+  const bool skins = of_face.sharp && of_node.sharp && !surface_.face[index(f)].shell &&
+                     features_.node_radius[index(s)] <= features_.skin;
   if (skins) contact.gap += spared_skin(tilt);
   if (!is_near(contact)) return false;
   const double reach = near.reach - (skins ? spared_skin(tilted_angle) : 0);
-  const bool as_hull = pairs_.node_face.has_radii(static_cast<std::size_t>(near.pair));
+  const bool as_hull = pairs_.node_face.has_radii(index(near.pair));
   return contact.gap <= passing_gap(tilt) || !passes_by(s, f, as_hull, reach);
 }
 
 void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundContact>& found) const {
-  const auto pair = static_cast<std::size_t>(near.pair);
+  const auto pair = index(near.pair);
   const int s = pairs_.node_face.first(pair), f = pairs_.node_face.second(pair);
-  const std::array<int, 4>& corner = features_.face_node[static_cast<std::size_t>(f)];
-  const Face& face = surface_.face[static_cast<std::size_t>(f)];
+  const std::array<int, 4>& corner = features_.face_node[index(f)];
+  const Face& face = surface_.face[index(f)];
   Contact contact;
   contact.slave = s;
   contact.face = f;
@@ -267,7 +266,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   foot.end = foot.start;
   for (std::size_t k = 0; k < 4; ++k) foot.end += near.at[k] * motion_.displacement(corner[k]);
   const double slack = slack_of(foot.start, near.distance);
-  const bool own = face.shell && face.body == surface_.body[static_cast<std::size_t>(s)];
+  const bool own = face.shell && face.body == surface_.body[index(s)];
   const OtherSide faces_of_node = own ? OtherSide(surface_.faces_of.of(s)) : OtherSide();
   if (!is_minimum_on_face(f, near.at, foot, near.normal, slack, faces_of_node, support)) return;
   // Beside a side or a corner the direction is no normal of the face: a node that its own neighbours come
@@ -282,7 +281,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
     if (!is_kept_beside_rim(near, support, in_plane, slack, contact)) return;
   }
   contact.friction_coefficient =
-      surface_.pairs.friction(surface_.node[static_cast<std::size_t>(s)], face.part, options_.friction);
+      surface_.pairs.friction(surface_.node[index(s)], face.part, options_.friction);
   found.push_back({contact, support, in_plane});
 }
 
@@ -330,7 +329,7 @@ bool ProximityFilter::are_parallel(const EdgeFeature& a, const EdgeFeature& b, d
 }
 
 void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundContact>& found) const {
-  const auto pair = static_cast<std::size_t>(near.pair);
+  const auto pair = index(near.pair);
   const int ea = pairs_.edge_edge.first(pair), eb = pairs_.edge_edge.second(pair);
   const EdgeFeature &a = edge(ea), &b = edge(eb);
   const auto foot = [&](const EdgeFeature& own, double parameter) {

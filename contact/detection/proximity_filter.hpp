@@ -5,11 +5,10 @@
 #include <span>
 
 #include "contact/detection/proximity.hpp"
+#include "contact/geometry/closest_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
-
-/// A weight below this is rounding: the closest point does not lie on that corner's side.
-inline constexpr double no_weight = 1e-9;
 
 /// The closest points of a pair at the start of the step.
 template <std::size_t Numbers>
@@ -38,7 +37,7 @@ class ProximityFilter {
   void edge_and_edge(const NearPair<2>& near, std::vector<FoundContact>& found) const;
 
  private:
-  const EdgeFeature& edge(int e) const { return features_.edge[static_cast<std::size_t>(e)]; }
+  const EdgeFeature& edge(int e) const { return features_.edge[index(e)]; }
   /// At both ends of the step, as predicted.
   struct MovingPoint {
     Eigen::Vector3d start, end;

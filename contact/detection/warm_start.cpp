@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "contact/geometry/closest_point.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -10,8 +12,6 @@ namespace {
 
 /// Contacts whose directions differ by more than 60 degrees do not inherit from each other.
 constexpr double inherited_direction = 0.5;
-/// A weight below this is rounding: the closest point does not lie on that corner's side.
-constexpr double no_weight = 1e-9;
 
 void add(const Contact& last, double share, Contact& contact) {
   contact.impulse += share * last.impulse;

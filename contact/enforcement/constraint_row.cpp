@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Vector = Vector3<double>;
@@ -62,7 +64,7 @@ void set_gradients(FaceFoot& foot, std::span<const Vector> corner, std::span<con
                    std::span<const double> across) {
   Vector g{0, 0, 0};
   Vector h{0, 0, 0};
-  for (std::size_t k = 1; k < static_cast<std::size_t>(foot.corners); ++k) {
+  for (std::size_t k = 1; k < index(foot.corners); ++k) {
     g = g + along[k] * (corner[k] - corner[0]);
     h = h + across[k] * (corner[k] - corner[0]);
   }
@@ -72,7 +74,7 @@ void set_gradients(FaceFoot& foot, std::span<const Vector> corner, std::span<con
   foot.normal = (1 / size) * area;
   const Vector dual_g = (1 / size) * cross(h, foot.normal);
   const Vector dual_h = (1 / size) * cross(foot.normal, g);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(foot.corners); ++k)
+  for (std::size_t k = 0; k < index(foot.corners); ++k)
     foot.gradient[k] = along[k] * dual_g + across[k] * dual_h;
 }
 
@@ -213,7 +215,7 @@ void ConstraintRows::overwrite(const RowCounts& at, const ConstraintRows& other)
 double RowMap::inverse_mass(const Vector& direction, std::span<const VelocityBlock> blocks) const {
   double sum = 0;
   spread(direction, [&](int block, const Vector& impulse) {
-    sum += dot(impulse, blocks[static_cast<std::size_t>(block)].inverse_mass * impulse);
+    sum += dot(impulse, blocks[index(block)].inverse_mass * impulse);
   });
   return sum;
 }

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/base/parallel.hpp"
 #include "src/base/tensor.hpp"
 
@@ -155,7 +156,7 @@ class RowMap {
   Vector3<double> velocity(VelocityOf&& velocity_of) const;
   /// Relative velocity including the motion of the wall.
   Vector3<double> relative_velocity(std::span<const VelocityBlock> blocks) const {
-    return velocity([&](int b) { return blocks[static_cast<std::size_t>(b)].velocity; }) - row_.wall_velocity;
+    return velocity([&](int b) { return blocks[index(b)].velocity; }) - row_.wall_velocity;
   }
   /// `give(block, impulse)` for each entry: the transpose.
   template <class Give>

@@ -1,6 +1,7 @@
 #include "contact/enforcement/contact_rows.hpp"
 
 #include "contact/geometry/eigen_vector.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -10,8 +11,6 @@ namespace {
 
 constexpr std::size_t contacts_a_piece = 128;
 constexpr std::size_t blocks_a_range = 256;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// What is known of a block from its owner.
 class BlockFiller {

@@ -4,16 +4,13 @@
 #include <cmath>
 #include <type_traits>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Vector = Vector3<double>;
 
 namespace {
-
-/// Rows, packs and blocks of a task: whatever the number of threads.
-constexpr std::size_t rows_a_task = 512;
-constexpr std::uint32_t packs_a_task = 64;
-constexpr std::size_t blocks_a_task = 512;
 
 template <class Task>
 void each_of(ThreadTeam* team, std::size_t count, Task&& task) {
@@ -21,7 +18,6 @@ void each_of(ThreadTeam* team, std::size_t count, Task&& task) {
   for (std::size_t i = 0; i < count; ++i) task(i);
 }
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 Vector vector_of(const double* a) { return {a[0], a[1], a[2]}; }
 bool is_diagonal(const SymmetricTensor<double>& a) { return a.xy == 0 && a.yz == 0 && a.xz == 0; }
 
@@ -100,10 +96,11 @@ ImpulseSolver::Sums ImpulseSolver::change_packs(const ConstraintRows& rows, cons
 
 ImpulseSolver::Sums ImpulseSolver::change_impulses(const ConstraintRows& rows, const Island& island,
                                                    const Step& step, ThreadTeam* team) {
-  const std::uint32_t tasks = (island.pack_end - island.pack_begin + packs_a_task - 1) / packs_a_task;
+  constexpr std::uint32_t of_task = packs_a_task;
+  const std::uint32_t tasks = (island.pack_end - island.pack_begin + of_task - 1) / of_task;
   const auto run = [&](std::size_t task) {
-    const std::uint32_t begin = island.pack_begin + static_cast<std::uint32_t>(task) * packs_a_task;
-    return change_packs(rows, step, begin, std::min(begin + packs_a_task, island.pack_end));
+    const std::uint32_t begin = island.pack_begin + static_cast<std::uint32_t>(task) * of_task;
+    return change_packs(rows, step, begin, std::min(begin + of_task, island.pack_end));
   };
   Sums total;
   if (team == nullptr) {

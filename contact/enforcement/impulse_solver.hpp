@@ -77,6 +77,8 @@ class ImpulseSolver {
  private:
   static constexpr std::uint32_t no_row = ~std::uint32_t{0};
   static constexpr std::uint32_t lanes = lane_count<double>;
+  /// Rows, packs and blocks of a task: whatever the number of threads.
+  static constexpr std::size_t rows_a_task = 512, packs_a_task = 64, blocks_a_task = 512;
   /// How a row is worked on.
   enum Kind : std::uint8_t { normal_only, with_friction, general, kinds };
   /// Rows of about as many entries are put side by side, kind after kind.

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "contact/enforcement/impulse_solver.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
 namespace {
 
-constexpr std::size_t rows_a_task = 512;
 /// Islands of more rows are worked on by the whole team.
 constexpr std::size_t most_rows_of_small = 4096;
 
@@ -52,8 +52,7 @@ double ImpulseSolver::tolerated(const SolveOptions& options, std::size_t n) cons
 }
 
 bool ImpulseSolver::goes_on(const SolveOptions& options, std::size_t n) const {
-  return !report_[n].converged &&
-         report_[n].row_iterations < island_[n].rows * static_cast<std::size_t>(options.max_iterations);
+  return !report_[n].converged && report_[n].row_iterations < island_[n].rows * index(options.max_iterations);
 }
 
 // Until it has converged, or few rows still change.
@@ -249,7 +248,7 @@ void ImpulseSolver::Unconverged::add(const ConstraintRows& from, std::uint32_t i
     const EntryRange old = range;
     range.begin = static_cast<std::uint32_t>(to.size());
     for (std::uint32_t e = old.begin; e < old.end; ++e) {
-      const auto b = static_cast<std::size_t>(entries[e].block);
+      const auto b = index(entries[e].block);
       if (number[b] == no_row) {
         number[b] = static_cast<std::uint32_t>(blocks.size());
         const double* velocity = velocities[b].component;
@@ -271,7 +270,7 @@ void ImpulseSolver::Unconverged::add(const ConstraintRows& from, std::uint32_t i
 void ImpulseSolver::Unconverged::take_impulses_off() {
   for (const ConstraintRow& one : rows.row)
     RowMap(rows, one).spread(impulse_of(one), [&](int b, const Vector3<double>& given) {
-      VelocityBlock& to = blocks[static_cast<std::size_t>(b)];
+      VelocityBlock& to = blocks[index(b)];
       to.velocity = to.velocity - to.inverse_mass * given;
     });
 }

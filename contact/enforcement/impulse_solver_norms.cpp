@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/enforcement/impulse_solver.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -11,14 +12,9 @@ using Vector = Vector3<double>;
 
 namespace {
 
-/// Rows and blocks of a task: whatever the number of threads.
-constexpr std::size_t rows_a_task = 512;
-constexpr std::size_t blocks_a_task = 1024;
 /// A row is held where none of its blocks gives it more than this share, squared, of the motion that the
 /// block itself has: a thousandth. Such a block would be thrown a thousand times as far as the row asks for.
 constexpr double held_share = 1e-6;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 // Bound of the spectral norm: exact where it is known or the matrix is diagonal.
 double norm_bound(const VelocityBlock& block) {

@@ -3,19 +3,11 @@
 #include <utility>
 
 #include "contact/enforcement/impulse_solver.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
 using Vector = Vector3<double>;
-
-namespace {
-
-constexpr std::size_t blocks_a_task = 1024;
-constexpr std::size_t packs_a_task = 64;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 // Island after island and class after class, each kind from a full pack on, in the order of rows. Rows that
 // move nothing are an island at the end.

@@ -1,5 +1,7 @@
 #include "contact/enforcement/impulse_work.hpp"
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Vector = Vector3<double>;
@@ -7,8 +9,6 @@ using Vector = Vector3<double>;
 namespace {
 
 constexpr std::size_t rows_a_part = 512;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 Vector diagonal(const SymmetricTensor<double>& a) { return {a.xx, a.yy, a.zz}; }
 Vector where_zero(const Vector& chosen, const Vector& value) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -20,8 +22,6 @@ void each_node(const Contact& contact, Visit&& visit) {
   for (std::size_t k = 0; k < contact.node.size(); ++k)
     if (contact.weight[k] != 0) visit(contact.node[k], 0.5 * std::abs(contact.weight[k]));
 }
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include "contact/geometry/eigen_vector.hpp"
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -19,14 +20,11 @@ namespace {
 constexpr double least_share = 1e-9;
 /// Faces whose squared cosines are all below this are parallel to the normal: their tilt is negligible.
 constexpr double standing = 0.01;
-/// A weight below this is rounding: the closest point does not lie on that corner's side.
-constexpr double no_weight = 1e-9;
 /// What turns with the nodes sees at least this share of the relative velocity, squared, or is not asked.
 constexpr double least_share_left = 0.1;
 /// Of that, what is not prescribed: less is a lever (`held_share` of the solver).
 constexpr double least_share_free = 1e-6;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 Matrix3d cross_matrix(const Vector3d& a) {
   Matrix3d m;
   m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
@@ -249,7 +247,7 @@ class Builder {
 
   static int heaviest_of(const SidePoint& side) {
     const auto heaviest = std::max_element(side.weight.begin(), side.weight.end()) - side.weight.begin();
-    return side.node[static_cast<std::size_t>(heaviest)];
+    return side.node[index(heaviest)];
   }
 
   std::pair<Vector3d, Vector3d> tangents(const Face& face) const {

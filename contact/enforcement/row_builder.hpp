@@ -26,6 +26,7 @@
 #include "contact/pair.hpp"
 #include "contact/surface/surface.hpp"
 #include "contact/ties/ties.hpp"
+#include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {
@@ -56,9 +57,7 @@ class Unknowns {
   int node(int n) const { return n; }
   int body(int b) const { return nodes_ + 2 * b; }  ///< translation; the rotation follows
   int rotation(int n) const { return nodes_ + 2 * bodies_ + n; }
-  std::size_t size(bool have_rotations) const {
-    return static_cast<std::size_t>(rotation(have_rotations ? nodes_ : 0));
-  }
+  std::size_t size(bool have_rotations) const { return index(rotation(have_rotations ? nodes_ : 0)); }
   BlockOwner owner(int unknown) const {
     using Kind = BlockOwner::Kind;
     if (unknown < nodes_) return {Kind::node, unknown};

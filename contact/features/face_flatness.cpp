@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -84,7 +86,7 @@ void FaceFlatness::measure(const SurfaceFeatures& features, const FeatureMotion&
 void FaceFlatness::change(std::size_t faces, std::span<const int> changed) {
   flat_.resize(faces, Flatness::none);
   until_.resize(faces, {});
-  for (int f : changed) flat_[static_cast<std::size_t>(f)] = Flatness::none;
+  for (int f : changed) flat_[index(f)] = Flatness::none;
 }
 
 // Paths and looks ahead are of the prediction; of corners that contact has moved, where it has taken them.
@@ -98,14 +100,14 @@ bool FaceFlatness::may_reach(double path, const SurfaceFeatures& features, std::
 }
 
 bool FaceFlatness::may_bend(const SurfaceFeatures& features, int face, const FeatureMotion& motion) const {
-  const auto f = static_cast<std::size_t>(face);
+  const auto f = index(face);
   return flat_[f] != Flatness::none &&
          may_reach(std::min(until_[f].thin, until_[f].convex), features, f, motion);
 }
 
 bool FaceFlatness::bends(const SurfaceFeatures& features, int face, const FeatureMotion& motion) {
   if (!may_bend(features, face, motion)) return false;
-  const auto f = static_cast<std::size_t>(face);
+  const auto f = index(face);
   Until& until = until_[f];
   const auto may = [&](double path) { return may_reach(path, features, f, motion); };
   const double thickness = flat_thickness(features, f, flat_[f]), path = motion.of_face.path[f];

@@ -14,6 +14,7 @@
 
 #include "contact/features/feature_motion.hpp"
 #include "contact/features/features.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -55,7 +56,7 @@ class FaceFlatness {
   /// Thickness below which the hull of a face stays while its diagonals are not paired, with what keeps their
   /// radii; 0: they are.
   double thickness_of_flat(const SurfaceFeatures& features, int face, bool radii) const {
-    const auto f = static_cast<std::size_t>(face);
+    const auto f = index(face);
     return is_flat(face, radii) ? flat_thickness(features, f, flat_[f]) : 0;
   }
 
@@ -71,7 +72,7 @@ class FaceFlatness {
     double thin = 0, convex = 0;
   };
   bool is_flat(int face, bool radii) const {
-    const Flatness flatness = flat_[static_cast<std::size_t>(face)];
+    const Flatness flatness = flat_[index(face)];
     return flatness == Flatness::all || (flatness == Flatness::radii && radii);
   }
   static bool may_reach(double path, const SurfaceFeatures& features, std::size_t face,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -35,7 +37,7 @@ void spread_to(PathAndAhead& ways, const std::vector<std::array<int, Corners>>& 
                const std::vector<Way>& of_node, const MotionGroups& groups, bool with_paths,
                ThreadTeam& team) {
   const auto at = [&](int slave) {
-    const Way& way = of_node[static_cast<std::size_t>(slave)];
+    const Way& way = of_node[index(slave)];
     return Both{way.moved, way.step};
   };
   const auto between = [&](int g, int h) {
@@ -137,7 +139,7 @@ void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surfac
         way_[s] = {};
         continue;
       }
-      const double* x = nodes.record[static_cast<std::size_t>(surface.node[s])].position;
+      const double* x = nodes.record[index(surface.node[s])].position;
       way_[s].moved = follows ? length_in_frame(node[s].start, x, frame_of(s)) : 0;
       of_node.path[s] += way_[s].moved;
       std::copy(x, x + 3, node[s].start);
@@ -161,9 +163,9 @@ void FeatureMotion::end_by_velocity(const SurfaceFeatures& features, const Surfa
       const int body = bodies.empty() ? -1 : surface.rigid_body(global);
       NodeMotion64& moved = node[s];
       if (body >= 0) {
-        end_of_body_node(s, bodies[static_cast<std::size_t>(body)], dt);
+        end_of_body_node(s, bodies[index(body)], dt);
       } else {
-        const double* v = nodes.record[static_cast<std::size_t>(global)].velocity;
+        const double* v = nodes.record[index(global)].velocity;
         for (int axis = 0; axis < 3; ++axis) moved.end[axis] = moved.start[axis] + dt * v[axis];
       }
       for (int axis = 0; axis < 3; ++axis)
@@ -299,7 +301,7 @@ void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surfa
       const std::size_t s = index(driven_[i]);
       const int body = surface.rigid_body(surface.node[s]);
       if (body < 0) continue;
-      end_of_body_node(s, bodies[static_cast<std::size_t>(body)], dt);
+      end_of_body_node(s, bodies[index(body)], dt);
       sum.exceeds = raise(s) || sum.exceeds;
     }
   });

@@ -16,6 +16,7 @@
 #include "contact/features/motion_groups.hpp"
 #include "contact/features/rigid_motion.hpp"
 #include "contact/surface/slave_set.hpp"
+#include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 
@@ -119,7 +120,6 @@ class FeatureMotion {
     bool exceeds = false;
   };
 
-  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
   void end_of_body_node(std::size_t slave, const RigidMotion& body, double dt);
   const std::array<double, 3>& frame_of(std::size_t slave) const {
     return groups.group[index(groups.of_node(static_cast<int>(slave)))].step;

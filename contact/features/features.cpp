@@ -5,15 +5,11 @@
 
 #include "contact/surface/face_geometry.hpp"
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
 namespace {
-
-template <class T>
-T& at(std::vector<T>& of, int i) {
-  return of[static_cast<std::size_t>(i)];
-}
 
 bool joins(EdgeKind kind) { return kind == EdgeKind::side || kind == EdgeKind::beam; }
 
@@ -48,19 +44,18 @@ class Collector {
   }
 
   void set_node_radius(int slave) {
-    const auto s = static_cast<std::size_t>(slave);
+    const auto s = index(slave);
     features_.node_radius[s] = std::max({options_.shell_thickness_scale * surface_.radius[s],
                                          surface_.radius_of_rounds(slave), features_.skin});
   }
 
   void add_face(int f) {
-    const Face& face = surface_.face[static_cast<std::size_t>(f)];
+    const Face& face = surface_.face[index(f)];
     at(features_.face_radius, f) =
-        std::max(0.5 * options_.shell_thickness_scale * surface_.thickness[static_cast<std::size_t>(f)],
-                 features_.skin);
+        std::max(0.5 * options_.shell_thickness_scale * surface_.thickness[index(f)], features_.skin);
     std::array<int, 4>& corner = at(features_.face_node, f);
     for (std::size_t k = 0; k < 4; ++k) corner[k] = surface_.slave(face.node[k]);
-    const auto corners = static_cast<std::size_t>(face.corners());
+    const auto corners = index(face.corners());
     for (std::size_t k = 0; k < corners; ++k) {
       const int a = corner[k], b = corner[(k + 1) % corners];
       if (a == b) continue;
@@ -86,7 +81,7 @@ class Collector {
   }
 
   void add_round(int r) {
-    const RoundElement& round = surface_.round[static_cast<std::size_t>(r)];
+    const RoundElement& round = surface_.round[index(r)];
     const int a = surface_.slave(round.node[0]), b = surface_.slave(round.node[1]);
     const int e =
         new_edge(round.is_point() ? EdgeKind::particle : EdgeKind::beam, std::min(a, b), std::max(a, b));
@@ -107,8 +102,7 @@ class Collector {
   void set_point(int slave) {
     if (!has_beams_) return;
     int& e = at(features_.point_of_node, slave);
-    const bool wanted =
-        surface_.node[static_cast<std::size_t>(slave)] >= 0 && !surface_.faces_of.of(slave).empty();
+    const bool wanted = surface_.node[index(slave)] >= 0 && !surface_.faces_of.of(slave).empty();
     if (e >= 0 && !wanted) end(e);
     if (!wanted) {
       e = -1;
@@ -194,10 +188,10 @@ class Collector {
 
   // Place of the side between two slave nodes among those of a face; -1: it has none.
   int place_of_side(int f, int a, int b) const {
-    const Face& face = surface_.face[static_cast<std::size_t>(f)];
+    const Face& face = surface_.face[index(f)];
     for (int k = 0; k < face.corners(); ++k) {
-      const int from = surface_.slave(face.node[static_cast<std::size_t>(k)]);
-      const int to = surface_.slave(face.node[static_cast<std::size_t>((k + 1) % face.corners())]);
+      const int from = surface_.slave(face.node[index(k)]);
+      const int to = surface_.slave(face.node[index((k + 1) % face.corners())]);
       if ((from == a && to == b) || (from == b && to == a)) return k;
     }
     return -1;
@@ -207,12 +201,12 @@ class Collector {
   int side_between(int a, int b) {
     for (int f : surface_.faces_of.of(a))
       if (const int k = place_of_side(f, a, b); k >= 0)
-        if (const int e = at(features_.edge_of_face, f)[static_cast<std::size_t>(k)]; e >= 0) return e;
+        if (const int e = at(features_.edge_of_face, f)[index(k)]; e >= 0) return e;
     return -1;
   }
 
   void be_of(EdgeFeature& edge, int f) const {
-    const Face& face = surface_.face[static_cast<std::size_t>(f)];
+    const Face& face = surface_.face[index(f)];
     edge.face = {f, -1};
     edge.part = face.part;
     edge.body = face.body;
@@ -239,12 +233,12 @@ class Collector {
     for (int f : surface_.faces_of.of(a)) {
       const int place = place_of_side(f, a, b);
       // Another side has followed this one where all of its faces went and others came.
-      if (place < 0 || at(features_.edge_of_face, f)[static_cast<std::size_t>(place)] != e) continue;
+      if (place < 0 || at(features_.edge_of_face, f)[index(place)] != e) continue;
       if (edge.faces == 0) be_of(edge, f);
       if (edge.faces == 1) edge.face[1] = f;
       if (edge.faces < 255) ++edge.faces;
       radius = std::max(radius, at(features_.face_radius, f));
-      shell = shell || surface_.face[static_cast<std::size_t>(f)].shell;
+      shell = shell || surface_.face[index(f)].shell;
     }
     if (edge.faces == 0) {
       end(e);
@@ -261,9 +255,9 @@ class Collector {
     std::size_t count = 0;
     for (int f : edge.face) {
       if (f < 0) continue;
-      const Face& face = surface_.face[static_cast<std::size_t>(f)];
+      const Face& face = surface_.face[index(f)];
       for (int k = 0; k < face.corners(); ++k) {
-        const int corner = surface_.slave(face.node[static_cast<std::size_t>(k)]);
+        const int corner = surface_.slave(face.node[index(k)]);
         if (corner != edge.node[0] && corner != edge.node[1] && count < edge.wing.size())
           edge.wing[count++] = corner;
       }
@@ -282,9 +276,9 @@ void collect_rings(SurfaceFeatures& features, const Surface& surface) {
   ring.start_packed(surface.slaves());
   for (const EdgeFeature& edge : features.edge)
     if (joins(edge.kind))
-      for (int node : edge.node) ++ring.first[static_cast<std::size_t>(node) + 1];
+      for (int node : edge.node) ++ring.first[index(node) + 1];
   for (std::size_t s = 0; s < surface.slaves(); ++s) ring.first[s + 1] += ring.first[s];
-  ring.item.resize(static_cast<std::size_t>(ring.first.back()));
+  ring.item.resize(index(ring.first.back()));
   std::vector<int> fill(ring.first.begin(), ring.first.end() - 1);
   for (const EdgeFeature& edge : features.edge)
     if (joins(edge.kind))
@@ -307,9 +301,9 @@ void mend_rings_at_beams(SurfaceFeatures& features) {
 void follow_split(SurfaceFeatures& features, const Surface& surface) {
   for (EdgeFeature& edge : features.edge)
     if (edge.face[0] >= 0)
-      edge.body = surface.face[static_cast<std::size_t>(edge.face[0])].body;
+      edge.body = surface.face[index(edge.face[0])].body;
     else if (edge.round >= 0)
-      edge.body = surface.round[static_cast<std::size_t>(edge.round)].body;
+      edge.body = surface.round[index(edge.round)].body;
 }
 
 }  // namespace
@@ -342,9 +336,9 @@ void collect(SurfaceFeatures& features, const Surface& surface, const ContactOpt
   collector.start();
   for (int s = 0; s < static_cast<int>(surface.slaves()); ++s) collector.set_node_radius(s);
   for (int f = 0; f < static_cast<int>(surface.face.size()); ++f)
-    if (surface.face[static_cast<std::size_t>(f)].alive()) collector.add_face(f);
+    if (surface.face[index(f)].alive()) collector.add_face(f);
   for (int r = 0; r < static_cast<int>(surface.round.size()); ++r)
-    if (surface.round[static_cast<std::size_t>(r)].alive()) collector.add_round(r);
+    if (surface.round[index(r)].alive()) collector.add_round(r);
   for (int s = 0; s < static_cast<int>(surface.slaves()); ++s) collector.set_point(s);
   collector.settle();
   collect_rings(features, surface);
@@ -362,7 +356,7 @@ void update(SurfaceFeatures& features, const Surface& surface, const ContactOpti
   for (int r : change.dead_round) collector.drop_round(r);
   for (int f : change.dead_face) collector.drop_face(f);
   for (int f : change.new_face)
-    if (surface.face[static_cast<std::size_t>(f)].alive()) collector.add_face(f);
+    if (surface.face[index(f)].alive()) collector.add_face(f);
   for (int s : change.dead_slave) collector.set_point(s);
   for (int s : change.changed_slave) collector.set_point(s);
   changed_edges = collector.settle();

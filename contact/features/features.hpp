@@ -46,6 +46,9 @@ struct EdgeFeature {
   bool alive() const { return kind != EdgeKind::none; }
 };
 
+/// Distances below this fraction of the smallest edge have no direction.
+inline constexpr double no_distance = 1e-12;
+
 struct SurfaceFeatures {
   double smallest_edge = 0;  ///< of the surface as built: the scale of skins and bands
   double mean_edge = 0;      ///< as built

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -11,8 +13,6 @@ namespace {
 constexpr std::size_t nodes_a_group = 128;  // or more, so that groups are not many more than
 constexpr std::size_t most_groups = 512;
 constexpr std::size_t fewest_nodes = 8;  // with which a body begins a group of its own, in the same way
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];

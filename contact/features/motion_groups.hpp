@@ -15,6 +15,7 @@
 #include "contact/features/features.hpp"
 #include "contact/search/spatial_order.hpp"
 #include "contact/surface/surface.hpp"
+#include "src/base/index.hpp"
 #include "src/base/parallel.hpp"
 
 namespace brio {
@@ -55,9 +56,9 @@ class MotionGroups {
 
   /// By how much the frames of two groups that share a feature moved apart.
   const std::array<double, 2>& frames_apart(int a, int b) const {
-    return apart[static_cast<std::size_t>(relation_of_[cell(a, b)])];
+    return apart[index(relation_of_[cell(a, b)])];
   }
-  int of_node(int slave) const { return of_node_[static_cast<std::size_t>(slave)]; }
+  int of_node(int slave) const { return of_node_[index(slave)]; }
   /// Living nodes of a group, ascending.
   std::span<const int> members(std::size_t g) const { return member_.of(static_cast<int>(g)); }
   /// The relation of the groups of two nodes.
@@ -74,7 +75,7 @@ class MotionGroups {
 
  private:
   std::size_t cell(int a, int b) const {
-    return static_cast<std::size_t>(std::min(a, b)) * group.size() + static_cast<std::size_t>(std::max(a, b));
+    return index(std::min(a, b)) * group.size() + index(std::max(a, b));
   }
   void list_members(const Surface& surface);
   template <class Corners>

@@ -15,6 +15,7 @@
 /// momentum alone; such along the offset do but for the part across.)
 
 #include "contact/geometry/closest_on_triangle.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -118,11 +119,10 @@ BRIO_INLINE ClosestOnHull<T> closest_on_hull(const Vector3<T>& node,
       max(flatness, T(16 * unit_roundoff) * (largest + largest_magnitude(node)) + T(0x1p-1000));
 
   const auto foot_on = [&](int i, int j, const Vector3<T>& along, T inverse_square) {
-    const SegmentFoot<T> foot = segment_foot(from[static_cast<std::size_t>(i)],
-                                             from[static_cast<std::size_t>(j)], along, inverse_square);
+    const SegmentFoot<T> foot = segment_foot(from[index(i)], from[index(j)], along, inverse_square);
     HullFoot<T> result{foot.offset, {zero, zero, zero, zero}, foot.squared_distance};
-    result.weights[static_cast<std::size_t>(i)] = one - foot.share;
-    result.weights[static_cast<std::size_t>(j)] = foot.share;
+    result.weights[index(i)] = one - foot.share;
+    result.weights[index(j)] = foot.share;
     return result;
   };
   const Vector3<T> e01 = vertices[1] - vertices[0];

@@ -5,6 +5,7 @@
 #include "contact/geometry/closest_on_triangle.hpp"
 #include "contact/geometry/eigen_vector.hpp"
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -35,13 +36,13 @@ TrianglePoint closest_point_on_triangle(const Vector3d& node, const std::array<V
                       found.squared_distance, Feature::interior,    0};
   // Edge k faces vertex k + 2.
   for (int k = 0; k < 3; ++k) {
-    if (found.weights[static_cast<std::size_t>((k + 2) % 3)] == 0) {
+    if (found.weights[index((k + 2) % 3)] == 0) {
       point.feature = Feature::edge;
       point.index = k;
     }
   }
   for (int k = 0; k < 3; ++k) {
-    if (found.weights[static_cast<std::size_t>(k)] == 1) {
+    if (found.weights[index(k)] == 1) {
       point.feature = Feature::vertex;
       point.index = k;
     }
@@ -76,8 +77,8 @@ ClosestPoint closest_point_on_quad(const Vector3d& node, const FaceVertices& ver
   Vector3d area_vector = face_area;
   closest.squared_distance = infinity;
   for (int k = 0; k < (triangle ? 1 : 4); ++k) {
-    const auto first = static_cast<std::size_t>(k);
-    const auto second = static_cast<std::size_t>((k + 1) % 4);
+    const auto first = index(k);
+    const auto second = index((k + 1) % 4);
     const TrianglePoint foot =
         triangle ? closest_point_on_triangle(local_node, {local[0], local[1], local[2]})
                  : closest_point_on_triangle(local_node, {centroid, local[first], local[second]});

@@ -14,6 +14,9 @@ namespace brio {
 
 using FaceVertices = std::array<Eigen::Vector3d, 4>;
 
+/// A weight below this is rounding: the closest point does not lie on that corner's side.
+inline constexpr double no_weight = 1e-9;
+
 enum class Feature { interior, edge, vertex };
 
 /// a x b, each component correct to about one rounding even where the products nearly cancel (Kahan's

@@ -45,7 +45,7 @@ RelativeEdges relative_edges(const MovingEdge& a, const MovingEdge& b) {
 
 // What is seen at a time: the corners of the parallelogram of differences, and how they move until the end of
 // the step.
-struct Sight {
+struct SightOfEdges {
   std::array<Vector3d, 4> corners;
   std::array<Vector3d, 4> motions;
   Vector3d along_a;
@@ -53,7 +53,7 @@ struct Sight {
   ClosestSegments closest;
 };
 
-void look(const RelativeEdges& edges, double time, Sight& sight) {
+void look(const RelativeEdges& edges, double time, SightOfEdges& sight) {
   for (std::size_t k = 0; k < 4; ++k) sight.corners[k] = edges.between[k].at(time);
   sight.along_a = edges.along_a.at(time);
   sight.along_b = edges.along_b.at(time);
@@ -65,7 +65,7 @@ void look(const RelativeEdges& edges, double time, Sight& sight) {
 // For how long some direction is known to separate the edges; 0 if none is.
 class Certificates {
  public:
-  Certificates(const RelativeEdges& edges, const Sight& sight, double left)
+  Certificates(const RelativeEdges& edges, const SightOfEdges& sight, double left)
       : edges_(edges), sight_(sight), left_(left) {}
 
   // By the feature that the closest points are on.
@@ -166,7 +166,7 @@ class Certificates {
   Direction between_points() const { return {sight_.closest.offset.normalized(), Vector3d::Zero()}; }
 
   const RelativeEdges& edges_;
-  const Sight& sight_;
+  const SightOfEdges& sight_;
   double left_;  // of the step: no certificate need last longer
 };
 
@@ -174,7 +174,7 @@ class Certificates {
 // rounding.
 constexpr double offset_roundings = 0x1p30;
 
-struct Touch {
+struct TouchOfEdges {
   double time;
   ClosestSegments closest;
   Vector3d approach;  // from b to a when there last was a direction, or zero
@@ -184,12 +184,12 @@ struct Touch {
 constexpr int usual = 16;
 
 // The time moves forward for as long as a direction separates.
-std::optional<Touch> first_touch(const RelativeEdges& edges) {
+std::optional<TouchOfEdges> first_touch(const RelativeEdges& edges) {
   const double rounding = unit_roundoff * edges.scale;
   const double directed = offset_roundings * rounding;
   double tolerance = touch_roundings * rounding;
   Vector3d approach = Vector3d::Zero();
-  Sight sight;
+  SightOfEdges sight;
   for (std::size_t k = 0; k < 4; ++k) sight.motions[k] = edges.between[k].displacement;
   double time = 0;
   for (int count = 1;; ++count) {
@@ -197,26 +197,26 @@ std::optional<Touch> first_touch(const RelativeEdges& edges) {
     const ClosestSegments& closest = sight.closest;
     if (closest.squared_distance > directed * directed || approach.isZero(0)) approach = closest.offset;
     const double touching = edges.reach + tolerance;
-    if (closest.squared_distance <= touching * touching) return Touch{time, closest, approach};
+    if (closest.squared_distance <= touching * touching) return TouchOfEdges{time, closest, approach};
     const Certificates certificates(edges, sight, 1 - time);
     double until = time + certificates.by_feature() * kept_time;
     if (!(until > time) || (count > usual && until <= 1))
       until = std::max(until, time + certificates.by_any() * kept_time);
     if (until > 1) return std::nullopt;
-    if (!(until > time)) return Touch{time, closest, approach};  // no certificate: in doubt, contact
+    if (!(until > time)) return TouchOfEdges{time, closest, approach};  // no certificate: in doubt, contact
     time = until;
     if (count % patience == 0) tolerance *= 2;
   }
 }
 
-int side_before(const RelativeEdges& edges, const Touch& touch) {
+int side_before(const RelativeEdges& edges, const TouchOfEdges& touch) {
   if (touch.closest.normal.isZero(0)) return 0;
   // Where an edge is long the scale bounds half of it.
   const double area = 0.25 * bound(edges.along_a) * bound(edges.along_b);
   return sign_before(volume(edges.between[0], edges.along_a, edges.along_b, edges.scale, area), touch.time);
 }
 
-Vector3d contact_normal(const RelativeEdges& edges, const Touch& touch, int side) {
+Vector3d contact_normal(const RelativeEdges& edges, const TouchOfEdges& touch, int side) {
   const ClosestSegments& closest = touch.closest;
   const double directed = offset_roundings * unit_roundoff * edges.scale;
   if (closest.squared_distance > directed * directed) return unit_or(closest.offset, touch.approach);
@@ -247,7 +247,7 @@ std::optional<EdgeContact> edge_check(const MovingEdge& a, const MovingEdge& b) 
   assert(a.radius >= 0 && b.radius >= 0);
   if (surely_apart(edge_pair(a, b), a.radius + b.radius)) return std::nullopt;
   const RelativeEdges edges = relative_edges(a, b);
-  const std::optional<Touch> touch = first_touch(edges);
+  const std::optional<TouchOfEdges> touch = first_touch(edges);
   if (!touch) return std::nullopt;
   const ClosestSegments& closest = touch->closest;
   const int side = side_before(edges, *touch);

@@ -7,6 +7,7 @@
 #include "contact/geometry/advancement.hpp"
 #include "contact/geometry/apart.hpp"
 #include "contact/geometry/eigen_vector.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -57,7 +58,7 @@ Cubic coplanarity(const Triangle& triangle) {
 }
 
 // What is seen from the node at a time: the vertices, and how they move until the end of the step.
-struct Sight {
+struct SightOfTriangle {
   std::array<Vector3d, 3> vertices;
   std::array<Vector3d, 3> motions;
   TrianglePoint closest;
@@ -66,8 +67,8 @@ struct Sight {
 // Direction along which a feature separates the triangle best from the node, if it is the closest: it follows
 // the turn of the normal in the interior and of the edge on an edge. No direction (zero) if the feature has
 // no extent.
-Direction separating_direction(const Sight& sight, Feature feature, int index) {
-  const auto k = static_cast<std::size_t>(index);
+Direction separating_direction(const SightOfTriangle& sight, Feature feature, int number) {
+  const auto k = index(number);
   const std::size_t next = (k + 1) % 3;
   if (feature == Feature::vertex) return {sight.vertices[k].normalized(), Vector3d::Zero()};
   const Vector3d edge = sight.vertices[next] - sight.vertices[k];
@@ -79,14 +80,14 @@ Direction separating_direction(const Sight& sight, Feature feature, int index) {
                       sight.closest.offset);
 }
 
-double separated_for(const Triangle& triangle, const Sight& sight, const Direction& direction) {
+double separated_for(const Triangle& triangle, const SightOfTriangle& sight, const Direction& direction) {
   return separated_for(sight.vertices, sight.motions, direction, triangle.scale, triangle.reach);
 }
 
 // For how long some direction is known to separate the triangle from the node; 0 if none is.
-double separated_for(const Triangle& triangle, const Sight& sight) {
-  const auto along = [&](Feature feature, int index) {
-    const Direction direction = separating_direction(sight, feature, index);
+double separated_for(const Triangle& triangle, const SightOfTriangle& sight) {
+  const auto along = [&](Feature feature, int number) {
+    const Direction direction = separating_direction(sight, feature, number);
     return std::max(separated_for(triangle, sight, direction),
                     separated_for(triangle, sight, without_turn(direction)));
   };
@@ -99,16 +100,16 @@ double separated_for(const Triangle& triangle, const Sight& sight) {
   return elapsed;
 }
 
-struct Touch {
+struct TouchOfTriangle {
   double time;
   TrianglePoint closest;
 };
 
 // First touch of a sub-triangle not later than `limit`: the time moves forward for as long as a direction
 // separates.
-std::optional<Touch> first_touch(const Triangle& triangle, double limit) {
+std::optional<TouchOfTriangle> first_touch(const Triangle& triangle, double limit) {
   double tolerance = touch_roundings * unit_roundoff * triangle.scale;
-  Sight sight;
+  SightOfTriangle sight;
   std::array<Path, 3> paths;
   for (std::size_t k = 0; k < 3; ++k) {
     paths[k] = triangle.vertices[k] - triangle.node;
@@ -119,11 +120,11 @@ std::optional<Touch> first_touch(const Triangle& triangle, double limit) {
     for (std::size_t k = 0; k < 3; ++k) sight.vertices[k] = paths[k].at(time);
     sight.closest = closest_point_on_triangle(Vector3d::Zero(), sight.vertices);
     const double touching = triangle.reach + tolerance;
-    if (sight.closest.squared_distance <= touching * touching) return Touch{time, sight.closest};
+    if (sight.closest.squared_distance <= touching * touching) return TouchOfTriangle{time, sight.closest};
     const double elapsed = separated_for(triangle, sight);
     const double until = time + elapsed * kept_time;
     if (until > limit) return std::nullopt;
-    if (!(until > time)) return Touch{time, sight.closest};  // no certificate: in doubt, contact
+    if (!(until > time)) return TouchOfTriangle{time, sight.closest};  // no certificate: in doubt, contact
     time = until;
     if (count % patience == 0) tolerance *= 2;
   }
@@ -151,8 +152,8 @@ std::optional<VelocityContact> velocity_check(const MovingNode& node, const Movi
   const bool single = is_triangle(face.start) && is_triangle(face.displacement);
   std::optional<VelocityContact> contact;
   for (int k = 0; k < (single ? 1 : 4); ++k) {
-    const auto first = static_cast<std::size_t>(k);
-    const auto second = static_cast<std::size_t>((k + 1) % 4);
+    const auto first = index(k);
+    const auto second = index((k + 1) % 4);
     Triangle triangle{pair.node,
                       {pair.centroid, pair.vertices[first], pair.vertices[second]},
                       pair.scale,
@@ -160,7 +161,7 @@ std::optional<VelocityContact> velocity_check(const MovingNode& node, const Movi
                       reach};
     if (single) triangle.vertices = {pair.vertices[0], pair.vertices[1], pair.vertices[2]};
     const Cubic cubic = coplanarity(triangle);
-    const std::optional<Touch> touch = first_touch(triangle, contact ? contact->time : 1.0);
+    const std::optional<TouchOfTriangle> touch = first_touch(triangle, contact ? contact->time : 1.0);
     if (!touch || (contact && touch->time >= contact->time)) continue;
     const Vector3d face_area =
         accurate_cross(pair.vertices[2].at(touch->time) - pair.vertices[0].at(touch->time),

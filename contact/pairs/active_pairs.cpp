@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -29,8 +30,8 @@ struct Ahead {
 };
 
 void lay_down(PairBlock& block, const PathAndAhead& total, double left) {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(block.relations); ++k) {
-    const auto r = static_cast<std::size_t>(block.relation[k]);
+  for (std::size_t k = 0; k < index(block.relations); ++k) {
+    const auto r = index(block.relation[k]);
     block.wake[k] =
         std::min(block.wake[k], total.path[r] + left - rounding * (total.ahead[r] + std::abs(left)));
   }
@@ -56,7 +57,7 @@ void look_into(PairBlock& block, const PairList& pairs, const Ahead& ahead, cons
 void look_at_awake(PairBlock& block, const PairList& pairs, const Ahead& ahead, const PathAndAhead& total,
                    std::size_t begin) {
   for (std::uint32_t bits = block.active; bits != 0; bits &= bits - 1) {
-    const double left = ahead.left_of(pairs, begin + static_cast<std::size_t>(std::countr_zero(bits)));
+    const double left = ahead.left_of(pairs, begin + index(std::countr_zero(bits)));
     if (ahead.is_awake(left)) continue;
     block.active &= ~(bits & -bits);
     if (left < infinity) lay_down(block, total, left);
@@ -65,8 +66,8 @@ void look_at_awake(PairBlock& block, const PairList& pairs, const Ahead& ahead, 
 
 bool still_sleeps(const PairBlock& block, const PathAndAhead& total, double surplus) {
   if (!block.inactive) return false;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(block.relations); ++k)
-    if (!(total.ahead[static_cast<std::size_t>(block.relation[k])] + surplus < block.wake[k])) return false;
+  for (std::size_t k = 0; k < index(block.relations); ++k)
+    if (!(total.ahead[index(block.relation[k])] + surplus < block.wake[k])) return false;
   return true;
 }
 
@@ -127,7 +128,7 @@ void select_active_pairs(PairBlocks& blocks, const PairList& pairs, const PathAn
       for (std::uint32_t left = block.active; left != 0; left &= left - 1)
         *to++ = static_cast<int>(from) + std::countr_zero(left);
     }
-    blocks.count[begin / blocks_a_range] = static_cast<std::size_t>(to - start);
+    blocks.count[begin / blocks_a_range] = index(to - start);
   });
   join(blocks, active);
 }

@@ -5,6 +5,7 @@
 
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/surface/exclusion.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -36,16 +37,15 @@ bool on_one_face(const EdgeFeature& a, const EdgeFeature& b) {
 
 // Whether edges may meet at all: parts, rigid bodies, ties.
 bool may_meet(const Surface& surface, const EdgeFeature& a, const EdgeFeature& b) {
-  const auto global = [&](int slave) { return surface.node[static_cast<std::size_t>(slave)]; };
+  const auto global = [&](int slave) { return surface.node[index(slave)]; };
   const int rigid = surface.rigid_body_of_all(std::array{global(a.node[0]), global(a.node[1])});
   if (rigid >= 0 && rigid == surface.rigid_body_of_all(std::array{global(b.node[0]), global(b.node[1])}))
     return false;
   if (surface.pairs.parts_apart(a.part, b.part)) return false;
   if (surface.tied.empty()) return true;
   const auto tied = [&](const EdgeFeature& edge, const EdgeFeature& other) {
-    return std::any_of(edge.node.begin(), edge.node.end(), [&](int slave) {
-      return surface.tied.apart(surface.node[static_cast<std::size_t>(slave)], other.part);
-    });
+    return std::any_of(edge.node.begin(), edge.node.end(),
+                       [&](int slave) { return surface.tied.apart(surface.node[index(slave)], other.part); });
   };
   return !tied(a, b) && !tied(b, a);
 }
@@ -54,7 +54,7 @@ bool may_meet(const Surface& surface, const EdgeFeature& a, const EdgeFeature& b
 bool drawn_together(const SurfaceFeatures& features, const EdgeFeature& a, const EdgeFeature& b) {
   if (a.round < 0 || b.round < 0) return true;
   const auto drawn = [&](const EdgeFeature& edge) -> const Segment& {
-    return features.drawn_beam[static_cast<std::size_t>(edge.round)];
+    return features.drawn_beam[index(edge.round)];
   };
   const double fold = 0.5 * std::numbers::pi * (a.radius + b.radius);
   return closest_points_of_segments(drawn(a), drawn(b)).squared_distance < fold * fold;

@@ -4,6 +4,7 @@
 
 #include "contact/pairs/feature_pairs.hpp"
 #include "contact/surface/exclusion.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -14,11 +15,6 @@ using Flags = SearchedBoxes::Change;
 /// PairRecord::one_piece of pairs all of whose features are of one piece, and of those that never meet: no
 /// pair has these bits.
 constexpr std::uint8_t all_one_piece = 0xff, never = 0x0f;
-
-template <class T>
-const T& at(const std::vector<T>& of, int i) {
-  return of[static_cast<std::size_t>(i)];
-}
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "contact/pairs/feature_boxes.hpp"
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 void FeatureBoxes::start(std::size_t count) {
@@ -15,12 +17,12 @@ void FeatureBoxes::grow(std::size_t count) {
 
 void FeatureBoxes::build(ThreadTeam& team) {
   tree_.build(SearchNodes(box_), team);
-  for (int feature : changed_) is_changed_[static_cast<std::size_t>(feature)] = 0;
+  for (int feature : changed_) is_changed_[index(feature)] = 0;
   changed_.clear();
 }
 
 void FeatureBoxes::change(int feature, const CaptureBox& box) {
-  const auto f = static_cast<std::size_t>(feature);
+  const auto f = index(feature);
   box_[f] = box;
   if (is_changed_[f] != 0) return;
   is_changed_[f] = 1;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact/search/global_search.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -42,7 +43,7 @@ class FeatureBoxes {
   /// How many have changed since the tree was built.
   std::size_t changed() const { return changed_.size(); }
   const CaptureBox& operator[](std::size_t feature) const { return box_[feature]; }
-  const CaptureBox& of(int feature) const { return box_[static_cast<std::size_t>(feature)]; }
+  const CaptureBox& of(int feature) const { return box_[index(feature)]; }
   std::span<const CaptureBox> boxes() const { return box_; }
 
   /// Of every feature whose box meets query i, `judge(i, feature)` is called by any thread, in any order;
@@ -58,15 +59,15 @@ class FeatureBoxes {
       find_changed(part, team, counts);
       if (counts.candidate_pairs > most_pairs) throw TooManyNear();
       const auto each_found = [&](std::size_t i, auto&& call) {
-        const auto first = static_cast<std::size_t>(found_.first[i]);
+        const auto first = index(found_.first[i]);
         const auto found = found_.of_box(i);
         for (std::size_t k = 0; k < found.size(); ++k)
-          if (is_changed_[static_cast<std::size_t>(found[k])] == 0) call(found[k], judgement_[first + k]);
+          if (is_changed_[index(found[k])] == 0) call(found[k], judgement_[first + k]);
         if (changed_.empty()) return;
-        const std::size_t first_changed = found_.size() + static_cast<std::size_t>(found_changed_.first[i]);
+        const std::size_t first_changed = found_.size() + index(found_changed_.first[i]);
         const auto among_changed = found_changed_.of_box(i);
         for (std::size_t k = 0; k < among_changed.size(); ++k)
-          call(changed_[static_cast<std::size_t>(among_changed[k])], judgement_[first_changed + k]);
+          call(changed_[index(among_changed[k])], judgement_[first_changed + k]);
       };
       judgement_.resize(found_.size() + (changed_.empty() ? 0 : found_changed_.size()));
       team.for_ranges(part.size(), queries_a_task, [&](std::size_t from, std::size_t to) {

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -34,15 +36,6 @@ constexpr std::uint64_t features_of_pair = 18;
 constexpr std::uint64_t no_limit = ~std::uint64_t{0};
 
 using Flags = SearchedBoxes::Change;
-
-template <class T>
-T& at(std::vector<T>& of, int i) {
-  return of[static_cast<std::size_t>(i)];
-}
-template <class T>
-const T& at(const std::vector<T>& of, int i) {
-  return of[static_cast<std::size_t>(i)];
-}
 
 }  // namespace
 
@@ -128,7 +121,7 @@ double FeaturePairs::scale_of(std::size_t slave, const Scene& scene, const Featu
   const double* own = motion.node[slave].start;
   double shortest = infinity;
   for (int other : scene.features.ring.of(static_cast<int>(slave))) {
-    const double* end = motion.node[static_cast<std::size_t>(other)].start;
+    const double* end = motion.node[index(other)].start;
     const Vector3<double> edge{end[0] - own[0], end[1] - own[1], end[2] - own[2]};
     shortest = std::min(shortest, dot(edge, edge));
   }
@@ -252,7 +245,7 @@ void FeaturePairs::close_up() {
     if (number.empty()) return;
     const auto renumber = [&](int parent) {
       if (parent == no_parent || parents_of(parent) != parents) return parent;
-      return parent_number(parents, static_cast<std::size_t>(number[place_of_parent(parent)]));
+      return parent_number(parents, index(number[place_of_parent(parent)]));
     };
     node_face.renumber_parents(renumber);
     edge_edge.renumber_parents(renumber);
@@ -359,10 +352,10 @@ void FeaturePairs::start_over(const Scene& scene, FeatureMotion& motion, ThreadT
     if (e >= 0) rounds_.leaving.push_back(e);
   std::sort(rounds_.leaving.begin(), rounds_.leaving.end());
   measure_radii(scene);
-  for (int f : faces_.leaving) faces_.box.set(static_cast<std::size_t>(f), face_box(scene, f));
-  for (int e : rounds_.leaving) rounds_.box.set(static_cast<std::size_t>(e), round_box(scene, e));
+  for (int f : faces_.leaving) faces_.box.set(index(f), face_box(scene, f));
+  for (int e : rounds_.leaving) rounds_.box.set(index(e), round_box(scene, e));
   if (!debris_.flag.empty()) debris_.leaving = debris_node_;
-  for (int s : debris_.leaving) debris_.box.set(static_cast<std::size_t>(s), debris_box(scene, s));
+  for (int s : debris_.leaving) debris_.box.set(index(s), debris_box(scene, s));
   for (SearchedBoxes* boxes : {&faces_, &rounds_, &debris_}) boxes->box.build(team);
   for (const auto& [list, kept] :
        {std::pair(&node_face, &kept_.node_face), std::pair(&edge_edge, &kept_.edge_edge)}) {

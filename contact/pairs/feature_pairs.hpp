@@ -30,6 +30,7 @@
 #include "contact/pairs/feature_boxes.hpp"
 #include "contact/pairs/pair_list.hpp"
 #include "contact/pairs/searched_depth.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -41,9 +42,9 @@ struct SearchedBoxes {
   std::vector<int> leaving;        ///< ascending
 
   enum Change : std::uint8_t { leaves = 1, is_new = 2, bends = 4 };
-  std::uint8_t flag_of(int i) const { return flag[static_cast<std::size_t>(i)]; }
+  std::uint8_t flag_of(int i) const { return flag[index(i)]; }
   const CaptureBox& last_box(int i) const {
-    return (flag_of(i) & leaves) != 0 ? before[static_cast<std::size_t>(i)] : box.of(i);
+    return (flag_of(i) & leaves) != 0 ? before[index(i)] : box.of(i);
   }
   void begin_search(std::size_t count);
   void leave(int i, const CaptureBox& other);
@@ -118,7 +119,7 @@ class FeaturePairs {
   template <std::size_t Count>
   CaptureBox box_of(const std::array<int, Count>& nodes) const {
     CaptureBox box = empty_box;
-    for (int node : nodes) box.include(reach_[static_cast<std::size_t>(node)]);
+    for (int node : nodes) box.include(reach_[index(node)]);
     return box;
   }
   CaptureBox face_box(const Scene& scene, int face) const;
@@ -204,9 +205,7 @@ class FeaturePairs {
   std::vector<CaptureBox> query_;
   enum class PairFate : std::uint8_t { stays, bends, closes, leaves };
   std::array<std::vector<PairFate>, 2> fate_;  ///< in a search, of each pair, by Parents
-  PairFate fate_of(int parent) const {
-    return fate_[static_cast<std::size_t>(parents_of(parent))][place_of_parent(parent)];
-  }
+  PairFate fate_of(int parent) const { return fate_[index(parents_of(parent))][place_of_parent(parent)]; }
   std::vector<std::uint64_t> bending_;  ///< edges of pairs with faces that bend
   std::uint64_t searches_ = 0;
   std::uint64_t most_pairs_ = 0;   ///< of `counts`, in this search

@@ -4,6 +4,7 @@
 
 #include "contact/geometry/number.hpp"
 #include "src/base/gather.hpp"
+#include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {
@@ -17,7 +18,7 @@ struct alignas(32) PointRow {
 /// apart and aligned to 32 bytes.
 template <class T>
 BRIO_INLINE Vector3<T> gather_points(const double* first, std::size_t stride, const int* node) {
-  const auto row = [&](int lane) { return first + stride * static_cast<std::size_t>(node[lane]); };
+  const auto row = [&](int lane) { return first + stride * index(node[lane]); };
   if constexpr (NumberTraits<T>::lanes == 1) {
     const double* only = row(0);
     return {only[0], only[1], only[2]};

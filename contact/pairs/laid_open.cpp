@@ -6,7 +6,8 @@
 
 #include "contact/pairs/piercing.hpp"
 #include "contact/surface/face_geometry.hpp"
-#include "src/base/sort_out.hpp"
+#include "src/base/index.hpp"
+#include "src/base/lists.hpp"
 
 namespace brio {
 
@@ -43,7 +44,7 @@ class LaidOpen {
     SearchCounts counts;
     search.find(SearchNodes(boxes_of_young), boxes, team, found, counts);
     for (std::size_t i = 0; i < open_.size(); ++i)
-      for (int other : found.of_box(i)) near_.emplace_back(open_[i], young[static_cast<std::size_t>(other)]);
+      for (int other : found.of_box(i)) near_.emplace_back(open_[i], young[index(other)]);
     for (const auto& [i, g] : pairs.find_faces(boxes, motion, team)) near_.emplace_back(open_[i], g);
   }
 
@@ -59,7 +60,7 @@ class LaidOpen {
   }
 
  private:
-  const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
+  const Face& face(int f) const { return surface_.face[index(f)]; }
   bool is_side(int f) const { return face(f).alive() && !face(f).shell; }
   std::vector<CaptureBox> boxes_of(const std::vector<int>& faces) const {
     std::vector<CaptureBox> boxes;

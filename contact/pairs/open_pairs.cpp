@@ -7,6 +7,7 @@
 #include "contact/pairs/feature_pairs.hpp"
 #include "contact/pairs/pair_packs.hpp"
 #include "contact/surface/exclusion.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -16,11 +17,6 @@ namespace {
 constexpr double distance_to_close = 0.1;
 /// A direction is kept as long as it separates a pair for so many steps like this one.
 constexpr double steps_to_keep = 4;
-
-template <class T>
-const T& at(const std::vector<T>& of, int i) {
-  return of[static_cast<std::size_t>(i)];
-}
 
 /// Pairs of faces, or of beams or particles with faces, as passes over pairs take them (pair_packs.hpp).
 template <Parents Of>
@@ -181,7 +177,7 @@ void FeaturePairs::open_kind(const Scene& scene, const Kind& kind, PairBlocks& b
   for (std::size_t range = 0; range < near_.size(); ++range)
     for (std::size_t i = 0; i < near_[range]; ++i) {
       if (node_face.size() + edge_edge.size() > most_open_) throw TooManyNear();
-      open(scene, Kind::parents, static_cast<std::size_t>(awake_[range * pairs_a_range + i]), motion.groups);
+      open(scene, Kind::parents, index(awake_[range * pairs_a_range + i]), motion.groups);
     }
 }
 
@@ -253,7 +249,7 @@ void FeaturePairs::add_diagonals(const Scene& scene, MotionGroups& groups) {
     return edge.is_diagonal() && (faces_.flag_of(edge.face[0]) & SearchedBoxes::bends) != 0;
   };
   for (const Parents parents : {Parents::faces, Parents::rounds}) {
-    const std::vector<PairFate>& fate = fate_[static_cast<std::size_t>(parents)];
+    const std::vector<PairFate>& fate = fate_[index(parents)];
     for (std::size_t i = 0; i < fate.size(); ++i) {
       if (fate[i] != PairFate::bends) continue;
       const PairRecord record = (parents == Parents::faces ? face_face : round_face)[i];
@@ -278,7 +274,7 @@ void FeaturePairs::drop_of_kind(const Scene& scene, const Kind& kind, const Sear
   constexpr std::size_t pairs_a_task = 1024;
   static_assert(pairs_a_task % PairList::block_size == 0);
   PairList& list = kind.list;
-  std::vector<PairFate>& fate = fate_[static_cast<std::size_t>(Kind::parents)];
+  std::vector<PairFate>& fate = fate_[index(Kind::parents)];
   fate.assign(list.size(), PairFate::stays);
   list.begin_changes();
   const double far = distance_to_close * scene.features.mean_edge;
@@ -325,8 +321,7 @@ void FeaturePairs::drop_pairs(const Scene& scene, const FeatureMotion& motion, T
   std::sort(kept_.edge_edge.begin(), kept_.edge_edge.end());
   for (const auto& [list, parents] :
        {std::pair(&face_face, Parents::faces), std::pair(&round_face, Parents::rounds)})
-    list->remove_if([&fate = fate_[static_cast<std::size_t>(parents)]](
-                        std::size_t i) { return fate[i] == PairFate::leaves; },
+    list->remove_if([&fate = fate_[index(parents)]](std::size_t i) { return fate[i] == PairFate::leaves; },
                     team, [](const PairRecord&) {});
 }
 

@@ -1,5 +1,7 @@
 #include "contact/pairs/pair_list.hpp"
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 void PairList::clear() {
@@ -17,7 +19,7 @@ void PairList::add(const PairRecord& pair) {
     wake.emplace_back();
     if (place % block_size == 0) version_.push_back(0);
   } else {
-    place = static_cast<std::size_t>(vacant_.back());
+    place = index(vacant_.back());
     vacant_.pop_back();
   }
   record_[place] = pair;

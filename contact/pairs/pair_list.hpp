@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 #include "src/base/parallel.hpp"
 
 namespace brio {
@@ -24,9 +25,7 @@ constexpr int parent_number(Parents of, std::size_t pair) {
   return of == Parents::faces ? static_cast<int>(pair) : -2 - static_cast<int>(pair);
 }
 constexpr Parents parents_of(int parent) { return parent >= 0 ? Parents::faces : Parents::rounds; }
-constexpr std::size_t place_of_parent(int parent) {
-  return static_cast<std::size_t>(parent >= 0 ? parent : -2 - parent);
-}
+constexpr std::size_t place_of_parent(int parent) { return index(parent >= 0 ? parent : -2 - parent); }
 
 /// By which a height along a direction is lowered, as directions are kept in single precision.
 inline constexpr double rounding_of_direction = 1e-6;
@@ -139,7 +138,7 @@ void PairList::remove_if(const Leaves& leaves, ThreadTeam& team, const Removed& 
     for (std::uint32_t bits = own.vacant | own.leaving; bits != 0;) {
       const int place = 31 - __builtin_clz(bits);
       bits ^= 1U << place;
-      const std::size_t i = block * block_size + static_cast<std::size_t>(place);
+      const std::size_t i = block * block_size + index(place);
       vacant_.push_back(static_cast<int>(i));
       if ((own.leaving >> place & 1U) == 0) continue;
       removed(record_[i]);

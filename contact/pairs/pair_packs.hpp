@@ -12,6 +12,7 @@
 #include "contact/geometry/separation.hpp"
 #include "contact/pairs/feature_pairs.hpp"
 #include "contact/pairs/gather.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -97,9 +98,7 @@ struct NodesAndFaces {
   const std::vector<double>& first_radii() const { return features.node_radius; }
   const std::vector<double>& second_radii() const { return features.face_radius; }
   static std::array<int, 1> first_nodes(int node) { return {node}; }
-  const std::array<int, 4>& second_nodes(int face) const {
-    return features.face_node[static_cast<std::size_t>(face)];
-  }
+  const std::array<int, 4>& second_nodes(int face) const { return features.face_node[index(face)]; }
   /// Of the hull of the face, or among neighbours of one piece of its two triangles (hull_point.hpp). A face
   /// that bends by a tenth of a skin counts as flat, so that weights do not leap as what rests on it quivers.
   BRIO_INLINE Closest closest(const Points& at, bool as_hull) const {
@@ -136,9 +135,7 @@ struct EdgesAndEdges {
   const PathAndAhead& second_ways() const { return motion.of_edge; }
   const std::vector<double>& first_radii() const { return features.edge_radius; }
   const std::vector<double>& second_radii() const { return features.edge_radius; }
-  const std::array<int, 2>& first_nodes(int edge) const {
-    return features.edge_node[static_cast<std::size_t>(edge)];
-  }
+  const std::array<int, 2>& first_nodes(int edge) const { return features.edge_node[index(edge)]; }
   const std::array<int, 2>& second_nodes(int edge) const { return first_nodes(edge); }
   BRIO_INLINE Closest closest(const Points& at, bool /*as_hull*/) const {
     return closest_on_segments(at.first[0], at.first[1], at.second[0], at.second[1]);
@@ -163,8 +160,7 @@ struct EdgesAndEdges {
     Pack sure = max(longest - resolution, Pack(0.0));
     if (!features.all_of_faces)
       for (int lane = 0; lane < pack_size; ++lane)
-        if (!features.edge[static_cast<std::size_t>(pack.a[lane])].of_face() ||
-            !features.edge[static_cast<std::size_t>(pack.b[lane])].of_face())
+        if (!features.edge[index(pack.a[lane])].of_face() || !features.edge[index(pack.b[lane])].of_face())
           sure.set(lane, 0);
     return sure;
   }
@@ -178,8 +174,8 @@ BRIO_INLINE typename Kind::Pairs pack_of(const Kind& kind, const int* pairs, std
   for (std::size_t lane = 0; lane < pack_size; ++lane) {
     const int pair = pairs[begin + lane < end ? begin + lane : end - 1];
     pack.pair[lane] = pair;
-    pack.a[lane] = kind.list.first(static_cast<std::size_t>(pair));
-    pack.b[lane] = kind.list.second(static_cast<std::size_t>(pair));
+    pack.a[lane] = kind.list.first(index(pair));
+    pack.b[lane] = kind.list.second(index(pair));
     const auto& first = kind.first_nodes(pack.a[lane]);
     const auto& second = kind.second_nodes(pack.b[lane]);
     for (std::size_t k = 0; k < first.size(); ++k) pack.node[k][lane] = first[k];
@@ -192,7 +188,7 @@ BRIO_INLINE typename Kind::Pairs pack_of(const Kind& kind, const int* pairs, std
 template <class Pairs>
 BRIO_INLINE MaskOf<Pack> have_spacing(Spacing spacing, const PairList& list, const Pairs& pack) {
   const auto lane = [&](std::size_t l) -> std::int64_t {
-    return list.spacing(static_cast<std::size_t>(pack.pair[l])) == spacing ? -1 : 0;
+    return list.spacing(index(pack.pair[l])) == spacing ? -1 : 0;
   };
   return {wide_of<std::int64_t>(lane(0), lane(1), lane(2), lane(3), lane(4), lane(5), lane(6), lane(7))};
 }
@@ -218,7 +214,7 @@ BRIO_INLINE PackOfWays ways_of(const Kind& kind, const typename Kind::Pairs& pac
   const PathAndAhead &first = kind.first_ways(), &second = kind.second_ways();
   int relation[pack_size];
   for (std::size_t lane = 0; lane < pack_size; ++lane)
-    relation[lane] = kind.list[static_cast<std::size_t>(pack.pair[lane])].relation;
+    relation[lane] = kind.list[index(pack.pair[lane])].relation;
   const PathAndAhead& frames = kind.motion.groups.relation;
   ways.path = gather_numbers(first.path.data(), pack.a) + gather_numbers(second.path.data(), pack.b) +
               gather_numbers(frames.path.data(), relation);
@@ -228,7 +224,7 @@ BRIO_INLINE PackOfWays ways_of(const Kind& kind, const typename Kind::Pairs& pac
 template <class Pairs>
 BRIO_INLINE void store_directions(PairList& list, const Pairs& pack, unsigned lanes, const Vector3<Pack>& d) {
   for_lanes(lanes, [&](int lane) {
-    const auto pair = static_cast<std::size_t>(pack.pair[lane]);
+    const auto pair = index(pack.pair[lane]);
     list.set_direction(pair, d.x[lane], d.y[lane], d.z[lane]);
   });
 }
@@ -251,16 +247,12 @@ struct OnePair {
   using Points = PointsOfPair<double, first_points, second_points>;
 
   OnePair(const Kind& of, int number)
-      : kind(of),
-        pair(static_cast<std::size_t>(number)),
-        record(kind.list[pair]),
-        a(record.first),
-        b(record.second) {}
+      : kind(of), pair(index(number)), record(kind.list[pair]), a(record.first), b(record.second) {}
 
   Points points(const double* rows) const {
     constexpr std::size_t stride = sizeof(NodeMotion64) / sizeof(double);
     const auto at = [&](int node) {
-      const double* row = rows + stride * static_cast<std::size_t>(node);
+      const double* row = rows + stride * index(node);
       return Vector3<double>{row[0], row[1], row[2]};
     };
     const auto& first = kind.first_nodes(a);
@@ -289,11 +281,9 @@ struct OnePair {
 
  private:
   const PathAndAhead& frames() const { return kind.motion.groups.relation; }
-  double of_a(const std::vector<double>& all) const { return all[static_cast<std::size_t>(a)]; }
-  double of_b(const std::vector<double>& all) const { return all[static_cast<std::size_t>(b)]; }
-  double of_frames(const std::vector<double>& all) const {
-    return all[static_cast<std::size_t>(record.relation)];
-  }
+  double of_a(const std::vector<double>& all) const { return all[index(a)]; }
+  double of_b(const std::vector<double>& all) const { return all[index(b)]; }
+  double of_frames(const std::vector<double>& all) const { return all[index(record.relation)]; }
 };
 
 /// In a pass over a list of pairs, at place i: brings what later places read into the cache, since the
@@ -302,22 +292,18 @@ struct OnePair {
 template <class Kind>
 BRIO_INLINE void prefetch_pairs(const Kind& kind, const int* pairs, std::size_t i, std::size_t end) {
   constexpr std::size_t to_nodes = 6, to_features = 12, to_records = 18;
-  const auto record = [&](std::size_t place) -> const PairRecord& {
-    return kind.list[static_cast<std::size_t>(pairs[place])];
-  };
+  const auto record = [&](std::size_t place) -> const PairRecord& { return kind.list[index(pairs[place])]; };
   if (i + to_records < end) __builtin_prefetch(&record(i + to_records));
   if (i + to_features < end) {
     const PairRecord& pair = record(i + to_features);
     if constexpr (Kind::Pairs::first_points > 1) __builtin_prefetch(&kind.first_nodes(pair.first));
     __builtin_prefetch(&kind.second_nodes(pair.second));
-    __builtin_prefetch(&kind.first_ways().path[static_cast<std::size_t>(pair.first)]);
-    __builtin_prefetch(&kind.second_ways().path[static_cast<std::size_t>(pair.second)]);
+    __builtin_prefetch(&kind.first_ways().path[index(pair.first)]);
+    __builtin_prefetch(&kind.second_ways().path[index(pair.second)]);
   }
   if (i + to_nodes < end) {
     const PairRecord& pair = record(i + to_nodes);
-    const auto fetch = [&](int node) {
-      __builtin_prefetch(kind.motion.node.data() + static_cast<std::size_t>(node));
-    };
+    const auto fetch = [&](int node) { __builtin_prefetch(kind.motion.node.data() + index(node)); };
     for (int node : kind.first_nodes(pair.first)) fetch(node);
     for (int node : kind.second_nodes(pair.second)) fetch(node);
   }
@@ -333,7 +319,7 @@ struct PairsOfRange {
   std::array<std::size_t, 2> count{};
 
   void add(const PairList& list, int p) {
-    const std::size_t kind = list.has_radii(static_cast<std::size_t>(p)) ? 1 : 0;
+    const std::size_t kind = list.has_radii(index(p)) ? 1 : 0;
     pair[kind][count[kind]++] = p;
   }
 };

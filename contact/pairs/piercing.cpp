@@ -11,6 +11,7 @@
 #include "contact/search/global_search.hpp"
 #include "contact/surface/exclusion.hpp"
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -23,13 +24,12 @@ constexpr std::size_t faces_a_range = 256;
 template <class NodesOf>
 CaptureBox box_around(const Nodes& nodes, const NodesOf& global) {
   CaptureBox box = empty_box;
-  for (int node : global) box.include(nodes.record[static_cast<std::size_t>(node)].position);
+  for (int node : global) box.include(nodes.record[index(node)].position);
   return box;
 }
 
 std::array<int, 2> ends_of(const Surface& surface, const EdgeFeature& edge) {
-  return {surface.node[static_cast<std::size_t>(edge.node[0])],
-          surface.node[static_cast<std::size_t>(edge.node[1])]};
+  return {surface.node[index(edge.node[0])], surface.node[index(edge.node[1])]};
 }
 
 /// Of the largest distance between an edge and a face: far more than the rounding of `is_beyond`.
@@ -90,10 +90,9 @@ std::optional<double> first_meeting(const MovingNode& way, const FaceVertices& a
 [[noreturn]] void refuse(const Surface& surface, const EdgeFeature& edge, const Face& face,
                          const Vector3d& at) {
   std::ostringstream text;
-  text << "contact: part '" << surface.part_name[static_cast<std::size_t>(edge.part)]
-       << (face.shell ? "' goes through part '" : "' lies in part '")
-       << surface.part_name[static_cast<std::size_t>(face.part)] << "', whose surface it crosses at ("
-       << at[0] << ", " << at[1] << ", " << at[2]
+  text << "contact: part '" << surface.part_name[index(edge.part)]
+       << (face.shell ? "' goes through part '" : "' lies in part '") << surface.part_name[index(face.part)]
+       << "', whose surface it crosses at (" << at[0] << ", " << at[1] << ", " << at[2]
        << "); accepted are bodies that do not intersect at the start";
   throw std::invalid_argument(text.str());
 }
@@ -124,7 +123,7 @@ std::optional<Piercing> find_piercing(const SurfaceFeatures& features, const Sur
     if (!face.alive()) return {};
     const FaceVertices at = vertices(nodes, face);
     for (int e : pairs.of_box(f)) {
-      const EdgeFeature& edge = features.edge[static_cast<std::size_t>(e)];
+      const EdgeFeature& edge = features.edge[index(e)];
       const std::array<int, 2> ends = ends_of(surface, edge);
       if (face.has(ends[0]) || face.has(ends[1]) || surface.pairs.parts_apart(edge.part, face.part)) continue;
       if (shells_alone && surface.tied.one_piece(face.body, edge.body)) continue;
@@ -153,8 +152,7 @@ void expect_nothing_crosses(const SurfaceFeatures& features, const Surface& surf
                             ThreadTeam& team) {
   const auto found = find_piercing(features, surface, excluded, options, nodes, shells_alone, team);
   if (found)
-    refuse(surface, features.edge[static_cast<std::size_t>(found->edge)],
-           surface.face[static_cast<std::size_t>(found->face)], found->point);
+    refuse(surface, features.edge[index(found->edge)], surface.face[index(found->face)], found->point);
 }
 
 }  // namespace brio

@@ -7,6 +7,7 @@
 
 #include "contact/features/features.hpp"
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -15,7 +16,7 @@ struct SearchedDepth {
   bool bends_faces = false;         ///< nodes are going to be moved: no face is flat
 
   bool empty() const { return of_node.empty(); }
-  double of(int slave) const { return empty() ? 0 : of_node[static_cast<std::size_t>(slave)]; }
+  double of(int slave) const { return empty() ? 0 : of_node[index(slave)]; }
   double of(const EdgeFeature& edge) const { return std::min(of(edge.node[0]), of(edge.node[1])); }
   double of(const Surface& surface, const Face& face) const {
     double least = infinity;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "src/base/fields.hpp"
+#include "src/base/index.hpp"
 #include "src/base/parallel.hpp"
 #include "src/base/tensor.hpp"
 
@@ -80,12 +81,8 @@ class SearchNodes {
 
   std::size_t size() const { return count_; }
   bool are_points() const { return to_upper_ == 0; }
-  double lower(std::size_t node, int axis) const {
-    return first_[node * stride_ + static_cast<std::size_t>(axis)];
-  }
-  double upper(std::size_t node, int axis) const {
-    return first_[node * stride_ + to_upper_ + static_cast<std::size_t>(axis)];
-  }
+  double lower(std::size_t node, int axis) const { return first_[node * stride_ + index(axis)]; }
+  double upper(std::size_t node, int axis) const { return first_[node * stride_ + to_upper_ + index(axis)]; }
   CaptureBox range(std::size_t node) const {
     return {{lower(node, 0), lower(node, 1), lower(node, 2)},
             {upper(node, 0), upper(node, 1), upper(node, 2)}};
@@ -104,8 +101,8 @@ struct CandidatePairs {
 
   std::size_t size() const { return node.size(); }
   std::span<const int> of_box(std::size_t box) const {
-    const auto begin = static_cast<std::size_t>(first[box]);
-    const auto end = static_cast<std::size_t>(first[box + 1]);
+    const auto begin = index(first[box]);
+    const auto end = index(first[box + 1]);
     return {node.data() + begin, end - begin};
   }
 };

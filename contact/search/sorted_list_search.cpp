@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -15,12 +16,11 @@ void SortedListSearch::sort(const SearchNodes& nodes, int axis) {
   rank.resize(nodes.size());
   if (order.size() != left_in_.size() || left_in_.size() != nodes.size())
     order.assign(left_in_.begin(), left_in_.end());
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return nodes.lower(static_cast<std::size_t>(a), axis) < nodes.lower(static_cast<std::size_t>(b), axis);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return nodes.lower(index(a), axis) < nodes.lower(index(b), axis); });
   double width = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const auto node = static_cast<std::size_t>(order[i]);
+    const auto node = index(order[i]);
     rank[node] = static_cast<int>(i);
     width = std::max(width, nodes.are_points() ? 0 : nodes.upper(node, axis) - nodes.lower(node, axis));
   }
@@ -30,7 +30,7 @@ void SortedListSearch::sort(const SearchNodes& nodes, int axis) {
 SortedListSearch::Slab SortedListSearch::slab(int axis, const SearchNodes& nodes, double lower, double upper,
                                               std::uint64_t& comparisons) const {
   const std::vector<int>& order = order_[axis];
-  const auto value = [&](int node) { return nodes.lower(static_cast<std::size_t>(node), axis); };
+  const auto value = [&](int node) { return nodes.lower(index(node), axis); };
   const double lowest = width_[axis] == 0 ? lower : std::nextafter(lower - width_[axis], -infinity);
   const auto begin = std::partition_point(order.begin(), order.end(), [&](int node) {
     ++comparisons;
@@ -54,19 +54,19 @@ void SortedListSearch::find_in_box(const SearchNodes& nodes, std::span<const Cap
   }
   const int second = (shortest + 1) % 3;
   const int third = (shortest + 2) % 3;
-  int* const found = piece.room(static_cast<std::size_t>(slabs[shortest].end - slabs[shortest].begin));
+  int* const found = piece.room(index(slabs[shortest].end - slabs[shortest].begin));
   std::size_t count = 0;
   for (int position = slabs[shortest].begin; position < slabs[shortest].end; ++position) {
-    const int node = order_[shortest][static_cast<std::size_t>(position)];
+    const int node = order_[shortest][index(position)];
     const auto inside = [&](int axis) {
-      const int rank = rank_[axis][static_cast<std::size_t>(node)];
+      const int rank = rank_[axis][index(node)];
       piece.comparisons += 2;
       return rank >= slabs[axis].begin && rank < slabs[axis].end;
     };
     if (!inside(second) || !inside(third)) continue;
     if (!nodes.are_points()) {
       piece.comparisons += 6;
-      if (!boxes[box].overlaps(nodes.range(static_cast<std::size_t>(node)))) continue;
+      if (!boxes[box].overlaps(nodes.range(index(node)))) continue;
     }
     found[count++] = node;
   }

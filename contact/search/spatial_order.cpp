@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -23,9 +25,7 @@ constexpr int digit_bits = 11;
 constexpr std::size_t digits = std::size_t{1} << digit_bits;
 constexpr std::array<int, 3> digit_shift = {32, 32 + digit_bits, 32 + 2 * digit_bits};
 
-constexpr std::size_t digit(Entry entry, int shift) {
-  return static_cast<std::size_t>(entry >> shift) & (digits - 1);
-}
+constexpr std::size_t digit(Entry entry, int shift) { return index(entry >> shift) & (digits - 1); }
 
 constexpr std::uint32_t key_of(Entry entry) { return static_cast<std::uint32_t>(entry >> 32); }
 
@@ -132,7 +132,7 @@ void SpatialOrder::sort(std::span<const Vector3<double>> positions, ThreadTeam& 
 
 /// Radix sort, stable; slices of the list are counted and moved by separate tasks.
 void SpatialOrder::sort_by_key(std::size_t count, ThreadTeam& team) {
-  const std::size_t most_slices = team.size() == 1 ? 1 : 4 * static_cast<std::size_t>(team.size());
+  const std::size_t most_slices = team.size() == 1 ? 1 : 4 * index(team.size());
   const std::size_t slices = std::clamp<std::size_t>(count / smallest_slice, 1, most_slices);
   histogram_.resize(slices * digits);
   for (const int shift : digit_shift) {

@@ -9,12 +9,13 @@
 
 #include "contact/search/overlap_bits.hpp"
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
 namespace {
 
-constexpr auto width = static_cast<std::size_t>(tree_width);
+constexpr auto width = index(tree_width);
 constexpr std::size_t group_size = 4;                 // boxes that descend together
 constexpr std::size_t bundle_size = 16 * group_size;  // boxes whose groups begin at the same branches
 constexpr std::size_t most_branches = 16;             // of a bundle, that give way to those below
@@ -51,7 +52,7 @@ void NodeTree::build(const SearchNodes& nodes, ThreadTeam& team) {
   order_.sort(centres_, team);
   range_.resize(order_.size());
   team.for_ranges(order_.size(), places_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) range_[i] = nodes.range(static_cast<std::size_t>(order_[i]));
+    for (std::size_t i = begin; i < end; ++i) range_[i] = nodes.range(index(order_[i]));
   });
   blocks_.clear();
   first_.clear();
@@ -107,7 +108,7 @@ std::span<const NodeTree::Branch> NodeTree::narrow(const CaptureBox& box, std::v
       const auto [level, number] = room[i];
       comparisons += tests_per_block;
       for (unsigned bits = overlap_bits(blocks_[first_[level] + number], box); bits != 0; bits &= bits - 1)
-        room.push_back({level - 1, number * width + static_cast<std::size_t>(std::countr_zero(bits))});
+        room.push_back({level - 1, number * width + index(std::countr_zero(bits))});
     }
     if (room.size() - end > most_branches) return std::span(room).subspan(begin, end - begin);
     branches = std::span(room).subspan(end);
@@ -128,7 +129,7 @@ std::size_t NodeTree::collect(const CaptureBox& box, std::span<const Branch> bra
       unsigned bits = overlap_bits(blocks_[first_[level] + number], box);
       if (level > 0) {
         for (; bits != 0; bits &= bits - 1)
-          below[waiting++] = {level - 1, number * width + static_cast<std::size_t>(std::countr_zero(bits))};
+          below[waiting++] = {level - 1, number * width + index(std::countr_zero(bits))};
       } else {
         make_room(places, found + width);
         for (; bits != 0; bits &= bits - 1)
@@ -169,7 +170,7 @@ void lay_out(const NodeTree& tree, std::size_t count, NodesNearby& nearby) {
     if (!tree.holds_points()) make_room(nearby.upper[axis], count + bits_lanes);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const auto to = static_cast<std::size_t>(nearby.rank[i]);
+    const auto to = index(nearby.rank[i]);
     const CaptureBox& range = tree.range(nearby.place[i]);
     nearby.node[to] = nearby.found[i];
     for (int axis = 0; axis < 3; ++axis) {
@@ -192,7 +193,7 @@ void add_nodes_inside(const CaptureBox& box, int box_number, const NodesNearby& 
     const double* const upper[3] = {nearby_upper[0].data() + i, nearby_upper[1].data() + i,
                                     nearby_upper[2].data() + i};
     const unsigned bits = overlap_bits(lower, upper, lanes) & first_bits(count - i);
-    found += static_cast<std::size_t>(append_selected(target + found, nearby.node.data() + i, bits));
+    found += index(append_selected(target + found, nearby.node.data() + i, bits));
   }
   piece.comparisons += 6 * count;
   piece.add(box_number, found);
@@ -203,7 +204,7 @@ void add_nodes_inside(const CaptureBox& box, int box_number, const NodesNearby& 
 CaptureBox TreeSearch::bounds_of(std::span<const CaptureBox> boxes, std::size_t begin,
                                  std::size_t end) const {
   CaptureBox bounds = empty_box;
-  for (std::size_t i = begin; i < end; ++i) bounds.include(boxes[static_cast<std::size_t>(box_order_[i])]);
+  for (std::size_t i = begin; i < end; ++i) bounds.include(boxes[index(box_order_[i])]);
   return bounds;
 }
 
@@ -227,8 +228,7 @@ void TreeSearch::find_in_group(std::span<const CaptureBox> boxes, std::size_t be
   }
   lay_out(tree_, count, nearby);
   for (std::size_t i = begin; i < end; ++i)
-    add_nodes_inside(boxes[static_cast<std::size_t>(box_order_[i])], box_order_[i], nearby,
-                     tree_.holds_points(), count, piece);
+    add_nodes_inside(boxes[index(box_order_[i])], box_order_[i], nearby, tree_.holds_points(), count, piece);
 }
 
 void TreeSearch::find(const SearchNodes& nodes, std::span<const CaptureBox> boxes, ThreadTeam& team,

@@ -13,6 +13,7 @@
 #include "contact/search/search.hpp"
 #include "contact/search/spatial_order.hpp"
 #include "src/base/aligned.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -40,8 +41,8 @@ class NodeTree {
   CaptureBox bounds() const { return bounds_.empty() ? empty_box : bounds_.front(); }
   bool holds_points() const { return holds_points_; }
   /// The node at a place in the order of the tree, and where it may be.
-  int node(int place) const { return order_[static_cast<std::size_t>(place)]; }
-  const CaptureBox& range(int place) const { return range_[static_cast<std::size_t>(place)]; }
+  int node(int place) const { return order_[index(place)]; }
+  const CaptureBox& range(int place) const { return range_[index(place)]; }
 
   struct Branch {
     std::size_t level, block;

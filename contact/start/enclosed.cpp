@@ -10,6 +10,7 @@
 #include "contact/search/tree_search.hpp"
 #include "contact/surface/face_geometry.hpp"
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -26,10 +27,10 @@ class Enclosures {
       : surface_(scene.surface),
         nodes_(nodes),
         overlap_limit_(overlap_limit),
-        faces_(static_cast<std::size_t>(surface_.body_count)) {
+        faces_(index(surface_.body_count)) {
     for (std::size_t f = 0; f < surface_.face.size(); ++f)
       if (const Face& face = surface_.face[f]; face.alive() && !face.shell)
-        faces_[static_cast<std::size_t>(face.body)].push_back(static_cast<int>(f));
+        faces_[index(face.body)].push_back(static_cast<int>(f));
   }
 
   // A point just inside of each closed body, in no other.
@@ -52,14 +53,13 @@ class Enclosures {
     search.find(SearchNodes(probes), boxes, team, pairs, counts);
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (const int other : pairs.of_box(b))
-        if (other != static_cast<int>(b) &&
-            (!enclosed_alone || is_within(boxes[static_cast<std::size_t>(other)], boxes[b])))
-          expect_apart(bodies[static_cast<std::size_t>(other)], bodies[b]);
+        if (other != static_cast<int>(b) && (!enclosed_alone || is_within(boxes[index(other)], boxes[b])))
+          expect_apart(bodies[index(other)], bodies[b]);
   }
 
  private:
-  const std::vector<int>& faces_of(int body) const { return faces_[static_cast<std::size_t>(body)]; }
-  const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
+  const std::vector<int>& faces_of(int body) const { return faces_[index(body)]; }
+  const Face& face(int f) const { return surface_.face[index(f)]; }
 
   double winding(int body, const Vector3d& x) const {
     double sum = 0;
@@ -111,9 +111,9 @@ class Enclosures {
 
   [[noreturn]] void refuse(int part, int other, double depth, const Vector3d& x) const {
     std::ostringstream text;
-    text << "contact: part '" << surface_.part_name[static_cast<std::size_t>(part)] << "' lies in part '"
-         << surface_.part_name[static_cast<std::size_t>(other)] << "', " << depth << " deep at (" << x[0]
-         << ", " << x[1] << ", " << x[2] << "); accepted are bodies that do not intersect at the start";
+    text << "contact: part '" << surface_.part_name[index(part)] << "' lies in part '"
+         << surface_.part_name[index(other)] << "', " << depth << " deep at (" << x[0] << ", " << x[1] << ", "
+         << x[2] << "); accepted are bodies that do not intersect at the start";
     throw std::invalid_argument(text.str());
   }
 

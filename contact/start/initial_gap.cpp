@@ -15,6 +15,7 @@
 #include "contact/start/sided_pairs.hpp"
 #include "contact/surface/exclusion.hpp"
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -111,7 +112,7 @@ class GapMaker {
   bool must_move(const SidedPair& pair) const {
     return !pair.is_apart || overlap(pair) > resolved_share * pair.scale;
   }
-  const std::string& part_name(int part) const { return surface_.part_name[static_cast<std::size_t>(part)]; }
+  const std::string& part_name(int part) const { return surface_.part_name[index(part)]; }
 
   // Of each node, by the shortest edge of the faces at it: a thin body is not looked through.
   void set_depths() {
@@ -120,7 +121,7 @@ class GapMaker {
       if (!face.alive()) continue;
       const double edge = shortest_edge(nodes_, face);
       for (int corner : face.node) {
-        double& depth = node_depth_[static_cast<std::size_t>(surface_.slave(corner))];
+        double& depth = node_depth_[index(surface_.slave(corner))];
         depth = std::min(depth, edge);
       }
     }
@@ -157,13 +158,13 @@ class GapMaker {
     for (const SidedPair& pair : found_) {
       if (!pair.spaced || !is_missing(pair) || pair.skin >= 2 * features_.skin) continue;
       if (pair.contact.face >= 0) {
-        const int body = surface_.body[static_cast<std::size_t>(pair.contact.slave)];
+        const int body = surface_.body[index(pair.contact.slave)];
         if (surface_.tied.one_piece(pair.contact.body, body))
           drawn.emplace_back(pair.contact.slave, pair.contact.face);
         continue;
       }
-      const EdgeFeature& a = features_.edge[static_cast<std::size_t>(pair.feature[0])];
-      const EdgeFeature& b = features_.edge[static_cast<std::size_t>(pair.feature[1])];
+      const EdgeFeature& a = features_.edge[index(pair.feature[0])];
+      const EdgeFeature& b = features_.edge[index(pair.feature[1])];
       if (!surface_.tied.one_piece(a.body, b.body)) continue;
       for (const auto& [edge, other] : {std::pair(&a, &b), std::pair(&b, &a)})
         for (int node : edge->node)
@@ -208,7 +209,7 @@ class GapMaker {
   }
 
   [[noreturn]] void refuse(const SidedPair& pair, const char* why) const {
-    const Vector3d x = position(nodes_, surface_.node[static_cast<std::size_t>(pair.contact.node[0])]);
+    const Vector3d x = position(nodes_, surface_.node[index(pair.contact.node[0])]);
     std::ostringstream text;
     text << "contact: part '" << part_name(pair.part[0]) << "' overlaps part '" << part_name(pair.part[1])
          << "' by " << std::max(overlap(pair), 0.0) << " at (" << x[0] << ", " << x[1] << ", " << x[2]
@@ -256,8 +257,8 @@ class GapMaker {
 
   // Projection on the directions in which a node may be moved.
   SymmetricTensor<double> free_directions(int slave) const {
-    const int node = surface_.node[static_cast<std::size_t>(slave)];
-    const auto n = static_cast<std::size_t>(node);
+    const int node = surface_.node[index(slave)];
+    const auto n = index(node);
     const bool tied = !surface_.tied.empty() && surface_.tied.main_part[n] >= 0;
     if (tied || surface_.rigid_body(node) >= 0) return isotropic(0.0);
     return nodes_.free_translations(n);
@@ -329,7 +330,7 @@ class GapMaker {
     blocks_.clear();
     std::vector<int> members;
     const auto block_of = [&](int slave) {
-      int& block = block_[static_cast<std::size_t>(slave)];
+      int& block = block_[index(slave)];
       if (block >= 0) return block;
       block = static_cast<int>(blocks_.size());
       members.push_back(slave);
@@ -350,10 +351,10 @@ class GapMaker {
     }
     solver_.solve(solve_options, rows_, blocks_, team_);
     for (std::size_t b = 0; b < members.size(); ++b) {
-      const auto s = static_cast<std::size_t>(members[b]);
+      const auto s = index(members[b]);
       block_[s] = -1;
       const Vector3<double>& moved = blocks_[b].velocity;
-      double* v = nodes_.record[static_cast<std::size_t>(surface_.node[s])].velocity;
+      double* v = nodes_.record[index(surface_.node[s])].velocity;
       v[0] = moved.x;
       v[1] = moved.y;
       v[2] = moved.z;
@@ -379,24 +380,22 @@ class GapMaker {
     for (const Hit& hit : guard.hits) {
       const auto p = hit.pair;
       const bool edges = hit.kind == PairKind::edge_edge;
-      const int first = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.first(p))].body
-                              : surface_.body[static_cast<std::size_t>(pairs_.node_face.first(p))];
-      const int second = edges ? features_.edge[static_cast<std::size_t>(pairs_.edge_edge.second(p))].body
-                               : surface_.face[static_cast<std::size_t>(pairs_.node_face.second(p))].body;
+      const int first = edges ? features_.edge[index(pairs_.edge_edge.first(p))].body
+                              : surface_.body[index(pairs_.node_face.first(p))];
+      const int second = edges ? features_.edge[index(pairs_.edge_edge.second(p))].body
+                               : surface_.face[index(pairs_.node_face.second(p))].body;
       if (hit.time > 0 && !overlapping.contains(std::minmax(first, second)))
         share = std::min(share, share_of_hit * hit.time);
     }
     return share;
   }
 
-  int first_body(const Contact& contact) const {
-    return surface_.body[static_cast<std::size_t>(contact.node[0])];
-  }
+  int first_body(const Contact& contact) const { return surface_.body[index(contact.node[0])]; }
 
   int part_of(int slave) const {
     if (const auto faces = surface_.faces_of.of(slave); !faces.empty())
-      return surface_.face[static_cast<std::size_t>(faces.front())].part;
-    const int node = surface_.node[static_cast<std::size_t>(slave)];
+      return surface_.face[index(faces.front())].part;
+    const int node = surface_.node[index(slave)];
     for (const RoundElement& element : surface_.round)
       if (element.alive() && (element.node[0] == node || element.node[1] == node)) return element.part;
     return 0;

@@ -8,6 +8,7 @@
 
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/start/sided_look.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -37,11 +38,11 @@ class Retraction {
         look_(features, surface, nodes, {}),
         set_back_(surface.face.size(), 0.0),
         normal_(surface.face.size(), Vector3d::Zero()),
-        box_(static_cast<std::size_t>(surface.body_count), empty_box),
-        firmness_(static_cast<std::size_t>(surface.body_count), Firmness::is_free) {
+        box_(index(surface.body_count), empty_box),
+        firmness_(index(surface.body_count), Firmness::is_free) {
     for (std::size_t s = 0; s < surface.slaves(); ++s) {
-      const auto node = static_cast<std::size_t>(surface.node[s]);
-      Firmness& of_body = firmness_[static_cast<std::size_t>(surface.body[s])];
+      const auto node = index(surface.node[s]);
+      Firmness& of_body = firmness_[index(surface.body[s])];
       if (surface.rigid_body(surface.node[s]) >= 0) of_body = Firmness::rigid;
       if (of_body == Firmness::is_free && !nodes.prescribed.empty() && nodes.prescribed[node] != 0)
         of_body = Firmness::supported;
@@ -72,19 +73,19 @@ class Retraction {
       if (!one.alive()) continue;
       const FaceVertices at = look_.corners(one);
       normal_[f] = unit_or((at[2] - at[0]).cross(at[3] - at[1]), Vector3d::Zero());
-      CaptureBox& box = box_[static_cast<std::size_t>(one.body)];
+      CaptureBox& box = box_[index(one.body)];
       for (const Vector3d& corner : at) box.include(corner);
     }
   }
 
-  const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
+  const Face& face(int f) const { return surface_.face[index(f)]; }
 
   void look_at_node_and_face(std::size_t p) {
     const int s = pairs_.node_face.first(p), f = pairs_.node_face.second(p);
     const Face& other = face(f);
     const auto faces = surface_.faces_of.of(s);
     if (other.shell || faces.empty() || face(faces.front()).shell) return;
-    if (!are_two(surface_.body[static_cast<std::size_t>(s)], other.body)) return;
+    if (!are_two(surface_.body[index(s)], other.body)) return;
     if (look_.surely_farther(s, other, 2 * features_.skin)) return;
     const ClosestPoint closest = closest_point_on_quad(look_.at(s), look_.corners(other));
     double distance = std::sqrt(closest.squared_distance);
@@ -97,7 +98,7 @@ class Retraction {
       opposed = true;
     }
     if (!opposed) return;  // they meet at a rim of the face, beside others that look at each other
-    set_back(f, surface_.body[static_cast<std::size_t>(s)], distance);
+    set_back(f, surface_.body[index(s)], distance);
     touching_.push_back({{look_.part_of(s), other.part}, s, std::max(-distance, 0.0)});
   }
 
@@ -129,7 +130,7 @@ class Retraction {
     for (std::size_t p = 0; p < pairs_.node_face.size(); ++p) {
       const int s = pairs_.node_face.first(p), f = pairs_.node_face.second(p);
       const Face& other = face(f);
-      if (other.shell || !are_two(surface_.body[static_cast<std::size_t>(s)], other.body)) continue;
+      if (other.shell || !are_two(surface_.body[index(s)], other.body)) continue;
       if (is_deep_in_box(s, other.body)) order.push_back({s, other.body, f});
     }
     std::sort(order.begin(), order.end());
@@ -145,7 +146,7 @@ class Retraction {
   // Elsewhere a node in the body is no deeper than the gap.
   bool is_deep_in_box(int s, int body) const {
     const Vector3d x = look_.at(s);
-    const CaptureBox& box = box_[static_cast<std::size_t>(body)];
+    const CaptureBox& box = box_[index(body)];
     for (int axis = 0; axis < 3; ++axis)
       if (x[axis] <= box.lower[axis] + 2 * features_.skin || x[axis] >= box.upper[axis] - 2 * features_.skin)
         return false;
@@ -166,7 +167,7 @@ class Retraction {
       if (point.squared_distance <= 4 * features_.skin * features_.skin) return;
     }
     if (!is_outside(surface_, nodes_, nearest, point))
-      overlapping_.insert(std::minmax(surface_.body[static_cast<std::size_t>(s)], body));
+      overlapping_.insert(std::minmax(surface_.body[index(s)], body));
   }
 
   bool are_two(int body, int other) const {
@@ -176,11 +177,11 @@ class Retraction {
 
   // By what is missing of two skins, or half of it where the other body is as firm.
   void set_back(int f, int other_body, double distance) {
-    const Firmness own = firmness_[static_cast<std::size_t>(face(f).body)];
-    const Firmness other = firmness_[static_cast<std::size_t>(other_body)];
+    const Firmness own = firmness_[index(face(f).body)];
+    const Firmness other = firmness_[index(other_body)];
     if (own > other) return;
     const double missing = (1 + surplus) * (2 * features_.skin - distance);
-    double& known = set_back_[static_cast<std::size_t>(f)];
+    double& known = set_back_[index(f)];
     known = std::max(known, own == other ? 0.5 * missing : missing);
   }
 
@@ -188,22 +189,22 @@ class Retraction {
   void spread_over_planes() {
     std::vector<int> open;
     for (int f = 0; f < static_cast<int>(set_back_.size()); ++f)
-      if (set_back_[static_cast<std::size_t>(f)] > 0) open.push_back(f);
+      if (set_back_[index(f)] > 0) open.push_back(f);
     while (!open.empty()) {
       const int f = open.back();
       open.pop_back();
-      for (int neighbor : surface_.neighbor[static_cast<std::size_t>(f)]) {
+      for (int neighbor : surface_.neighbor[index(f)]) {
         if (neighbor < 0 || !face(neighbor).alive()) continue;
-        double& known = set_back_[static_cast<std::size_t>(neighbor)];
-        if (known >= set_back_[static_cast<std::size_t>(f)]) continue;
+        double& known = set_back_[index(neighbor)];
+        if (known >= set_back_[index(f)]) continue;
         if (normal(f).dot(normal(neighbor)) < coplanar_cosine) continue;
-        known = set_back_[static_cast<std::size_t>(f)];
+        known = set_back_[index(f)];
         open.push_back(neighbor);
       }
     }
   }
 
-  const Vector3d& normal(int f) const { return normal_[static_cast<std::size_t>(f)]; }
+  const Vector3d& normal(int f) const { return normal_[index(f)]; }
 
   void move() {
     std::vector<Vector3d> displacement(surface_.slaves(), Vector3d::Zero());
@@ -211,12 +212,11 @@ class Retraction {
       if (!is_tied(static_cast<int>(s))) displacement[s] = inward(static_cast<int>(s));
     for (std::size_t s = 0; s < displacement.size(); ++s)
       for (int axis = 0; axis < 3 && !displacement[s].isZero(0); ++axis)
-        nodes_.record[static_cast<std::size_t>(surface_.node[s])].position[axis] += displacement[s][axis];
+        nodes_.record[index(surface_.node[s])].position[axis] += displacement[s][axis];
   }
 
   bool is_tied(int s) const {
-    return !surface_.tied.empty() &&
-           surface_.tied.main_part[static_cast<std::size_t>(surface_.node[static_cast<std::size_t>(s)])] >= 0;
+    return !surface_.tied.empty() && surface_.tied.main_part[index(surface_.node[index(s)])] >= 0;
   }
 
   // Sets all faces at a node back by what the most of them needs.
@@ -224,14 +224,14 @@ class Retraction {
     Directions normals;
     double most = 0;
     for (int f : surface_.faces_of.of(s)) {
-      const double by = set_back_[static_cast<std::size_t>(f)];
+      const double by = set_back_[index(f)];
       if (by > 0) normals.add(normal(f));
       most = std::max(most, by);
     }
     const Vector3d way = normals.mean();
     double least = 1;
     for (int f : surface_.faces_of.of(s))
-      if (set_back_[static_cast<std::size_t>(f)] > 0) least = std::min(least, normal(f).dot(way));
+      if (set_back_[index(f)] > 0) least = std::min(least, normal(f).dot(way));
     return -most / std::max(least, 1 / most_miter) * way;
   }
 

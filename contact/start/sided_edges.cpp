@@ -3,6 +3,7 @@
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/start/sided_look.hpp"
 #include "contact/start/sided_pairs.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -13,9 +14,9 @@ namespace {
 /// Edges that are more parallel meet with their ends.
 constexpr double crossing_sine = 0.05;
 
-class EdgesAndEdges {
+class SidedEdgePairs {
  public:
-  EdgesAndEdges(const SidedLook& look, const FeaturePairs& pairs, double band, std::vector<SidedPair>& found)
+  SidedEdgePairs(const SidedLook& look, const FeaturePairs& pairs, double band, std::vector<SidedPair>& found)
       : look_(look),
         features_(look.features),
         surface_(look.surface),
@@ -82,7 +83,7 @@ class EdgesAndEdges {
     Vector3d sum = Vector3d::Zero();
     for (int f : edge.face) {
       if (f < 0) continue;
-      const FaceVertices at = look_.corners(surface_.face[static_cast<std::size_t>(f)]);
+      const FaceVertices at = look_.corners(surface_.face[index(f)]);
       sum += (at[2] - at[0]).cross(at[3] - at[1]).normalized();
     }
     return sum;
@@ -91,7 +92,7 @@ class EdgesAndEdges {
   bool is_behind(const EdgeFeature& edge, const Vector3d& offset) const {
     return std::all_of(edge.face.begin(), edge.face.end(), [&](int f) {
       if (f < 0) return true;
-      const FaceVertices at = look_.corners(surface_.face[static_cast<std::size_t>(f)]);
+      const FaceVertices at = look_.corners(surface_.face[index(f)]);
       return (at[2] - at[0]).cross(at[3] - at[1]).normalized().dot(offset) < -coincident_;
     });
   }
@@ -114,7 +115,7 @@ class EdgesAndEdges {
     for (const auto& [edge, sign] : {std::pair(&a, -1.0), std::pair(&b, 1.0)})
       for (int f : edge->face) {
         if (f < 0) continue;
-        const Face& face = surface_.face[static_cast<std::size_t>(f)];
+        const Face& face = surface_.face[index(f)];
         const FaceVertices at = look_.corners(face);
         const Vector3d normal = sign * (at[2] - at[0]).cross(at[3] - at[1]).normalized();
         consider(normal);
@@ -196,7 +197,7 @@ class EdgesAndEdges {
 
 void find_sided_edges(const SidedLook& look, const FeaturePairs& pairs, double band,
                       std::vector<SidedPair>& found) {
-  EdgesAndEdges(look, pairs, band, found).run();
+  SidedEdgePairs(look, pairs, band, found).run();
 }
 
 }  // namespace brio

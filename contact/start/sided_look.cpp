@@ -1,5 +1,7 @@
 #include "contact/start/sided_look.hpp"
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -22,19 +24,18 @@ SidedLook::SidedLook(const SurfaceFeatures& surface_features, const Surface& of,
       part_(surface.slaves(), 0) {
   for (const RoundElement& round : surface.round)
     if (round.alive())
-      for (int node : round.node) part_[static_cast<std::size_t>(surface.slave(node))] = round.part;
+      for (int node : round.node) part_[index(surface.slave(node))] = round.part;
   for (int s = 0; s < static_cast<int>(surface.slaves()); ++s)
     if (const auto faces = surface.faces_of.of(s); !faces.empty())
-      part_[static_cast<std::size_t>(s)] = surface.face[static_cast<std::size_t>(faces.front())].part;
+      part_[index(s)] = surface.face[index(faces.front())].part;
 }
 
 bool SidedLook::surely_farther(int slave, const Face& face, double distance) const {
-  const double* x =
-      nodes.record[static_cast<std::size_t>(surface.node[static_cast<std::size_t>(slave)])].position;
+  const double* x = nodes.record[index(surface.node[index(slave)])].position;
   for (int axis = 0; axis < 3; ++axis) {
     double least = infinity, most = -infinity;
     for (int corner : face.node) {
-      const double c = nodes.record[static_cast<std::size_t>(corner)].position[axis];
+      const double c = nodes.record[index(corner)].position[axis];
       least = std::min(least, c);
       most = std::max(most, c);
     }
@@ -59,10 +60,10 @@ Vector3d SidedLook::side_of(int slave, const Face& face, const Vector3d& normal)
 
 bool SidedLook::is_minimum(int f, const std::array<double, 4>& weights, const Vector3d& foot,
                            const Vector3d& normal, std::array<int, 2>& support) const {
-  const Face& own = surface.face[static_cast<std::size_t>(f)];
+  const Face& own = surface.face[index(f)];
   std::array<std::size_t, 4> on{};
   std::size_t count = 0;
-  const auto corners = static_cast<std::size_t>(own.corners());
+  const auto corners = index(own.corners());
   for (std::size_t k = 0; k < corners; ++k)
     if (weights[k] > no_weight) on[count++] = k;
   const auto slave = [&](std::size_t k) { return surface.slave(own.node[k]); };
@@ -74,7 +75,7 @@ bool SidedLook::is_minimum(int f, const std::array<double, 4>& weights, const Ve
   if (count != 2 || (corners == 4 && on[1] == on[0] + 2)) return true;
   const std::size_t side = on[1] == on[0] + 1 ? on[0] : on[1];
   support = {std::min(slave(on[0]), slave(on[1])), std::max(slave(on[0]), slave(on[1]))};
-  return look_away(edge(features.edge_of_face[static_cast<std::size_t>(f)][side]).wing, foot, -normal);
+  return look_away(edge(features.edge_of_face[index(f)][side]).wing, foot, -normal);
 }
 
 bool SidedLook::is_minimum(int e, double parameter, const Vector3d& foot, const Vector3d& away,

@@ -10,6 +10,7 @@
 #include "contact/pairs/feature_pairs.hpp"
 #include "contact/surface/face_geometry.hpp"
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -41,12 +42,10 @@ class SidedLook {
   const Nodes& nodes;
   SearchedDepth depth;  ///< to which overlaps are looked for
 
-  Eigen::Vector3d at(int slave) const {
-    return position(nodes, surface.node[static_cast<std::size_t>(slave)]);
-  }
+  Eigen::Vector3d at(int slave) const { return position(nodes, surface.node[index(slave)]); }
   FaceVertices corners(const Face& face) const { return vertices(nodes, face); }
-  const EdgeFeature& edge(int e) const { return features.edge[static_cast<std::size_t>(e)]; }
-  int part_of(int slave) const { return part_[static_cast<std::size_t>(slave)]; }
+  const EdgeFeature& edge(int e) const { return features.edge[index(e)]; }
+  int part_of(int slave) const { return part_[index(slave)]; }
   /// What of a radius is skin.
   double skin_in(double radius) const { return radius <= features.skin ? radius : 0; }
 
@@ -76,7 +75,6 @@ class SidedLook {
   static constexpr double nearer_by_rounding = 1e-6;
   /// Neighbours reach behind a plane by more than this sine.
   static constexpr double behind_sine = 1e-3;
-  static constexpr double no_weight = 1e-9;
 
  private:
   std::vector<int> part_;  ///< of each slave node

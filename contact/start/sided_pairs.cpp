@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "contact/start/sided_look.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -21,9 +22,9 @@ constexpr double outside_share = 1e-2;
 constexpr int most_doublings = 40;
 
 /// Nodes against faces.
-class NodesAndFaces {
+class SidedNodePairs {
  public:
-  NodesAndFaces(const SidedLook& look, const FeaturePairs& pairs, double band, std::vector<SidedPair>& found)
+  SidedNodePairs(const SidedLook& look, const FeaturePairs& pairs, double band, std::vector<SidedPair>& found)
       : look_(look),
         features_(look.features),
         surface_(look.surface),
@@ -59,15 +60,15 @@ class NodesAndFaces {
   }
 
  private:
-  const Face& face(int f) const { return surface_.face[static_cast<std::size_t>(f)]; }
-  int face_of(int pair) const { return list_.second(static_cast<std::size_t>(pair)); }
+  const Face& face(int f) const { return surface_.face[index(f)]; }
+  int face_of(int pair) const { return list_.second(index(pair)); }
 
   // Pairs of one node with faces of one body, of solids or of shells.
   void look_at(std::span<const int> group) {
-    const int s = list_.first(static_cast<std::size_t>(group.front()));
+    const int s = list_.first(index(group.front()));
     const Face& any = face(face_of(group.front()));
     const Vector3d x = look_.at(s);
-    if (any.shell || any.body == surface_.body[static_cast<std::size_t>(s)]) {
+    if (any.shell || any.body == surface_.body[index(s)]) {
       for (int pair : group) look_by_distance(pair, s, x);
       return;
     }
@@ -139,7 +140,7 @@ class NodesAndFaces {
     const double distance = std::sqrt(seen.squared_distance);
     if (distance > reach + band_) return;
     const Vector3d across = (at[2] - at[0]).cross(at[3] - at[1]);
-    const bool own = face(f).body == surface_.body[static_cast<std::size_t>(s)];
+    const bool own = face(f).body == surface_.body[index(s)];
     if (distance <= coincident_) {
       const Vector3d way = look_.side_of(s, face(f), across.normalized());
       if (!way.isZero(0)) look_from_outside(pair, s, x, way, 0);
@@ -150,10 +151,9 @@ class NodesAndFaces {
     add(pair, s, seen, x - seen.offset, seen.offset / distance, distance, true);
   }
 
-  bool is_spaced(int pair) const { return list_.has_radii(static_cast<std::size_t>(pair)); }
+  bool is_spaced(int pair) const { return list_.has_radii(index(pair)); }
   double reach_of(int pair, int s, int f) const {
-    return is_spaced(pair) ? features_.node_radius[static_cast<std::size_t>(s)] +
-                                 features_.face_radius[static_cast<std::size_t>(f)]
+    return is_spaced(pair) ? features_.node_radius[index(s)] + features_.face_radius[index(f)]
                            : 2 * features_.skin;
   }
 
@@ -178,8 +178,8 @@ class NodesAndFaces {
     contact.normal = normal;
     contact.gap = distance - reach;
     one.distance = distance;
-    one.skin = is_spaced(pair) ? look_.skin_in(features_.node_radius[static_cast<std::size_t>(s)]) +
-                                     look_.skin_in(features_.face_radius[static_cast<std::size_t>(f)])
+    one.skin = is_spaced(pair) ? look_.skin_in(features_.node_radius[index(s)]) +
+                                     look_.skin_in(features_.face_radius[index(f)])
                                : 2 * features_.skin;
     const double edge = shortest_edge(look_.nodes, other);
     one.scale = reach - one.skin > 0 ? std::min(edge, reach - one.skin) : edge;
@@ -216,8 +216,7 @@ void keep_one_of_each(std::vector<SidedPair>& found, std::size_t begin) {
 // Overlaps of edges wait until nodes are out.
 void leave_out_edges_beside_nodes(const Surface& surface, double coincident, std::vector<SidedPair>& found) {
   const auto bodies = [&](const SidedPair& pair) -> std::pair<int, int> {
-    return std::minmax<int>(surface.body[static_cast<std::size_t>(pair.contact.node[0])],
-                            static_cast<int>(pair.contact.body));
+    return std::minmax<int>(surface.body[index(pair.contact.node[0])], static_cast<int>(pair.contact.body));
   };
   std::set<std::pair<int, int>> waiting;
   for (const SidedPair& pair : found)
@@ -234,7 +233,7 @@ void find_sided_pairs(const SurfaceFeatures& features, const Surface& surface, c
                       std::vector<SidedPair>& found) {
   found.clear();
   const SidedLook look(features, surface, nodes, depth);
-  NodesAndFaces(look, pairs, band, found).run();
+  SidedNodePairs(look, pairs, band, found).run();
   keep_one_of_each(found, 0);
   const std::size_t edges = found.size();
   find_sided_edges(look, pairs, band, found);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "src/base/disjoint_sets.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -16,8 +17,7 @@ class SeparationOfPieces {
     topology_.last_mark += static_cast<int>(elements.size());
     apart_ = elements.size();
     growing_.assign(elements.size(), 1);
-    for (int g = 0; g < static_cast<int>(elements.size()); ++g)
-      reach(g, elements[static_cast<std::size_t>(g)]);
+    for (int g = 0; g < static_cast<int>(elements.size()); ++g) reach(g, elements[index(g)]);
   }
 
   bool run() {
@@ -33,9 +33,9 @@ class SeparationOfPieces {
     std::size_t next = 0;
     bool exhausted = false;
   };
-  Front& front(int g) { return fronts_[static_cast<std::size_t>(g)]; }
+  Front& front(int g) { return fronts_[index(g)]; }
   // Fronts of a group of joined ones that are not exhausted.
-  int& growing(int g) { return growing_[static_cast<std::size_t>(joined_.root(g))]; }
+  int& growing(int g) { return growing_[index(joined_.root(g))]; }
 
   // \returns whether a piece is complete that hangs together with nothing else.
   bool step(int g) {
@@ -54,7 +54,7 @@ class SeparationOfPieces {
 
   void reach(int g, int element) {
     ++topology_.visits;
-    int& mark = topology_.mark[static_cast<std::size_t>(element)];
+    int& mark = topology_.mark[index(element)];
     if (mark < base_) {
       mark = base_ + g;
       front(g).element.push_back(element);
@@ -73,11 +73,11 @@ class SeparationOfPieces {
     for (int g = 0; g < static_cast<int>(fronts_.size()); ++g) {
       if (joined_.root(g) != group) continue;
       for (int element : front(g).element) {
-        topology_.body[static_cast<std::size_t>(element)] = number;
+        topology_.body[index(element)] = number;
         for_faces_of(topology_, element, [&](int f) {
-          Face& face = surface_.face[static_cast<std::size_t>(f)];
+          Face& face = surface_.face[index(f)];
           face.body = number;
-          for (int node : face.node) surface_.body[static_cast<std::size_t>(surface_.slave(node))] = number;
+          for (int node : face.node) surface_.body[index(surface_.slave(node))] = number;
         });
       }
     }

@@ -6,7 +6,8 @@
 #include <numbers>
 
 #include "contact/surface/face_geometry.hpp"
-#include "src/base/sort_out.hpp"
+#include "src/base/index.hpp"
+#include "src/base/lists.hpp"
 
 namespace brio {
 
@@ -16,9 +17,9 @@ namespace {
 
 // As built, faces of the same hexahedron stand side by side in the surface.
 void add_element_of(const Surface& surface, int face, std::vector<int>& found) {
-  const Face& own = surface.face[static_cast<std::size_t>(face)];
+  const Face& own = surface.face[index(face)];
   const auto same = [&](int other) {
-    const Face& candidate = surface.face[static_cast<std::size_t>(other)];
+    const Face& candidate = surface.face[index(other)];
     return candidate.part == own.part && candidate.element == own.element && candidate.shell == own.shell;
   };
   int first = face;
@@ -35,7 +36,7 @@ struct PositionOfNode {
 };
 struct PositionKept {
   const std::vector<Vector3d>& positions;
-  Vector3d operator[](int node) const { return positions[static_cast<std::size_t>(node)]; }
+  Vector3d operator[](int node) const { return positions[index(node)]; }
 };
 
 /// Whether the distance of a point to a face is less than `reach`.
@@ -59,15 +60,15 @@ void ShellWalk::spread(const Surface& surface, const Reference& reference, int s
   ++walk_;
   front_.clear();
   for (int f : surface.faces_of.of(slave))
-    if (surface.face[static_cast<std::size_t>(f)].shell) {
-      visited_[static_cast<std::size_t>(f)] = walk_;
+    if (surface.face[index(f)].shell) {
+      visited_[index(f)] = walk_;
       front_.push_back(f);
     }
-  const Vector3d centre = reference[surface.node[static_cast<std::size_t>(slave)]];
+  const Vector3d centre = reference[surface.node[index(slave)]];
   for (std::size_t i = 0; i < front_.size(); ++i)
-    for (int corner : surface.face[static_cast<std::size_t>(front_[i])].node)
+    for (int corner : surface.face[index(front_[i])].node)
       for (int next : surface.faces_of.of(surface.slave(corner))) {
-        const auto n = static_cast<std::size_t>(next);
+        const auto n = index(next);
         if (!surface.face[n].shell || visited_[n] == walk_) continue;
         visited_[n] = walk_;
         if (is_within(reference, centre, surface.face[n], within(n))) front_.push_back(next);
@@ -77,8 +78,7 @@ void ShellWalk::spread(const Surface& surface, const Reference& reference, int s
 template <class Reference>
 void ShellWalk::add_fold(const Surface& surface, const Reference& reference, int slave,
                          std::vector<int>& found) {
-  const double radius =
-      std::max(surface.radius[static_cast<std::size_t>(slave)], surface.radius_of_rounds(slave));
+  const double radius = std::max(surface.radius[index(slave)], surface.radius_of_rounds(slave));
   spread(surface, reference, slave, [&](std::size_t face) { return fold(surface.thickness[face], radius); });
   found.insert(found.end(), front_.begin(), front_.end());
 }
@@ -89,7 +89,7 @@ void ShellWalk::reach(const Surface& surface, const Reference& reference, int fr
   spread(surface, reference, from, [&](std::size_t) { return distance; });
   slaves.push_back(from);
   for (int f : front_)
-    for (int corner : surface.face[static_cast<std::size_t>(f)].node) slaves.push_back(surface.slave(corner));
+    for (int corner : surface.face[index(f)].node) slaves.push_back(surface.slave(corner));
 }
 
 Lists excluded_faces(const Surface& surface, const Nodes& reference) {
@@ -133,9 +133,8 @@ const std::vector<int>& ErodingExclusion::mend(Lists& excluded, const Surface& s
   // All nodes on faces of elements that got new faces; on shells, all whose walk may have met what has gone.
   affected_ = change.changed_slave;
   for (int f : change.new_face)
-    for_faces_of(topology, element_of(topology, surface.face[static_cast<std::size_t>(f)]), [&](int side) {
-      for (int node : surface.face[static_cast<std::size_t>(side)].node)
-        affected_.push_back(surface.slave(node));
+    for_faces_of(topology, element_of(topology, surface.face[index(f)]), [&](int side) {
+      for (int node : surface.face[index(side)].node) affected_.push_back(surface.slave(node));
     });
   if (!reference_.empty()) add_around_tear(excluded, surface, change);
   sort_out(affected_);
@@ -149,8 +148,8 @@ void ErodingExclusion::add_around_tear(const Lists& excluded, const Surface& sur
                                        const SurfaceChange& change) {
   const PositionKept reference{reference_};
   for (int f : change.dead_face) {
-    const Face& dead = surface.face[static_cast<std::size_t>(f)];
-    if (surface.thickness[static_cast<std::size_t>(f)] == 0) continue;
+    const Face& dead = surface.face[index(f)];
+    if (surface.thickness[index(f)] == 0) continue;
     double size = 0;
     for (int a : dead.node)
       for (int b : dead.node) size = std::max(size, (reference[a] - reference[b]).norm());
@@ -169,14 +168,14 @@ void ErodingExclusion::mend_slave(Lists& excluded, const Surface& surface, const
                                   int slave) {
   found_.clear();
   for (int f : surface.faces_of.of(slave))
-    for_faces_of(topology, element_of(topology, surface.face[static_cast<std::size_t>(f)]),
+    for_faces_of(topology, element_of(topology, surface.face[index(f)]),
                  [&](int side) { found_.push_back(side); });
   if (!reference_.empty()) walk_.add_fold(surface, PositionKept{reference_}, slave, found_);
   sort_out(found_);
   // What overlapped as drawn stays excluded; what a tear has parted does not.
   kept_.clear();
   for (int f : excluded.of(slave)) {
-    const Face& face = surface.face[static_cast<std::size_t>(f)];
+    const Face& face = surface.face[index(f)];
     if (face.alive() && !face.shell && !std::binary_search(found_.begin(), found_.end(), f))
       kept_.push_back(f);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -34,16 +35,16 @@ Vector3d corner_share(const FaceVertices& v, std::size_t corner) {
 }
 
 Vector3d edge_normal(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
-  const auto k = static_cast<std::size_t>(closest.index);
-  const int other = surface.neighbor[static_cast<std::size_t>(face)][k];
+  const auto k = index(closest.index);
+  const int other = surface.neighbor[index(face)][k];
   if (other < 0) return closest.normal;
-  const Face& own = surface.face[static_cast<std::size_t>(face)];
-  const Face& across = surface.face[static_cast<std::size_t>(other)];
+  const Face& own = surface.face[index(face)];
+  const Face& across = surface.face[index(other)];
   const int from = own.node[k];
-  const int to = own.node[(k + 1) % static_cast<std::size_t>(own.corners())];
+  const int to = own.node[(k + 1) % index(own.corners())];
   for (int j = 0; j < across.corners(); ++j) {
-    const int a = across.node[static_cast<std::size_t>(j)];
-    const int b = across.node[static_cast<std::size_t>((j + 1) % across.corners())];
+    const int a = across.node[index(j)];
+    const int b = across.node[index((j + 1) % across.corners())];
     if (a == to && b == from)
       return unit_or(closest.normal + unit(sub_triangle_area(vertices(nodes, across), j)), closest.normal);
   }
@@ -54,18 +55,18 @@ Vector3d edge_normal(const Surface& surface, const Nodes& nodes, int face, const
 
 Vector3d sub_triangle_area(const FaceVertices& v, int k) {
   if (is_triangle(v)) return accurate_cross(v[1] - v[0], v[2] - v[0]);
-  const auto first = static_cast<std::size_t>(k);
+  const auto first = index(k);
   const Vector3d middle = centroid(v);
   return accurate_cross(v[first] - middle, v[(first + 1) % 4] - middle);
 }
 
 Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave) {
   Vector3d sum = Vector3d::Zero();
-  const int node = surface.node[static_cast<std::size_t>(slave)];
+  const int node = surface.node[index(slave)];
   for (int f : surface.faces_of.of(slave)) {
-    const Face& face = surface.face[static_cast<std::size_t>(f)];
+    const Face& face = surface.face[index(f)];
     if (face.shell) continue;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(face.corners()); ++k)
+    for (std::size_t k = 0; k < index(face.corners()); ++k)
       if (face.node[k] == node) sum += corner_share(vertices(nodes, face), k);
   }
   return unit_or(sum, Vector3d::Zero());
@@ -73,10 +74,10 @@ Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave) {
 
 Vector3d fan_normal(const Surface& surface, const Nodes& nodes, int slave, int face) {
   Vector3d sum = Vector3d::Zero();
-  const int node = surface.node[static_cast<std::size_t>(slave)];
+  const int node = surface.node[index(slave)];
   for_fan(surface, slave, face, [&](int f) {
-    const Face& own = surface.face[static_cast<std::size_t>(f)];
-    for (std::size_t k = 0; k < static_cast<std::size_t>(own.corners()); ++k)
+    const Face& own = surface.face[index(f)];
+    for (std::size_t k = 0; k < index(own.corners()); ++k)
       if (own.node[k] == node) sum += corner_share(vertices(nodes, own), k);
   });
   return unit_or(sum, Vector3d::Zero());
@@ -84,11 +85,11 @@ Vector3d fan_normal(const Surface& surface, const Nodes& nodes, int slave, int f
 
 bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const Vector3d& direction,
                    double limit) {
-  const int node = surface.node[static_cast<std::size_t>(slave)];
+  const int node = surface.node[index(slave)];
   for (int f : surface.faces_of.of(slave)) {
-    const Face& face = surface.face[static_cast<std::size_t>(f)];
+    const Face& face = surface.face[index(f)];
     if (face.shell) continue;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(face.corners()); ++k)
+    for (std::size_t k = 0; k < index(face.corners()); ++k)
       if (face.node[k] == node && unit(corner_share(vertices(nodes, face), k)).dot(direction) < limit)
         return true;
   }
@@ -98,32 +99,32 @@ bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const 
 Vector3d pseudo_normal(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
   if (closest.feature == Feature::interior) return closest.normal;
   if (closest.feature == Feature::edge) return edge_normal(surface, nodes, face, closest);
-  const Face& own = surface.face[static_cast<std::size_t>(face)];
-  const int slave = surface.slave(own.node[static_cast<std::size_t>(closest.index)]);
-  return surface.pinched[static_cast<std::size_t>(slave)] != 0 ? fan_normal(surface, nodes, slave, face)
-                                                               : vertex_normal(surface, nodes, slave);
+  const Face& own = surface.face[index(face)];
+  const int slave = surface.slave(own.node[index(closest.index)]);
+  return surface.pinched[index(slave)] != 0 ? fan_normal(surface, nodes, slave, face)
+                                            : vertex_normal(surface, nodes, slave);
 }
 
 bool is_outside(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
   if (closest.feature == Feature::vertex) {
-    const Face& own = surface.face[static_cast<std::size_t>(face)];
-    const int node = own.node[static_cast<std::size_t>(closest.index)];
+    const Face& own = surface.face[index(face)];
+    const int node = own.node[index(closest.index)];
     bool above_some = false;
     bool below_some = false;
     const auto weigh = [&](int f) {
-      const Face& around = surface.face[static_cast<std::size_t>(f)];
+      const Face& around = surface.face[index(f)];
       if (around.shell) return;
       const FaceVertices v = vertices(nodes, around);
       const bool triangle = is_triangle(v);
       for (int k = 0; k < (triangle ? 1 : 4); ++k) {
-        const bool touches = triangle || around.node[static_cast<std::size_t>(k)] == node ||
-                             around.node[static_cast<std::size_t>((k + 1) % 4)] == node;
+        const bool touches =
+            triangle || around.node[index(k)] == node || around.node[index((k + 1) % 4)] == node;
         if (!touches) continue;
         (sub_triangle_area(v, k).dot(closest.separation) < 0 ? below_some : above_some) = true;
       }
     };
     const int slave = surface.slave(node);
-    if (surface.pinched[static_cast<std::size_t>(slave)] != 0) {
+    if (surface.pinched[index(slave)] != 0) {
       for_fan(surface, slave, face, weigh);
     } else {
       for (int f : surface.faces_of.of(slave)) weigh(f);
@@ -136,8 +137,8 @@ bool is_outside(const Surface& surface, const Nodes& nodes, int face, const Clos
 double shortest_edge(const Nodes& nodes, const Face& face) {
   double shortest = infinity;
   for (int k = 0; k < face.corners(); ++k) {
-    const Vector3d edge = position(nodes, face.node[static_cast<std::size_t>((k + 1) % face.corners())]) -
-                          position(nodes, face.node[static_cast<std::size_t>(k)]);
+    const Vector3d edge =
+        position(nodes, face.node[index((k + 1) % face.corners())]) - position(nodes, face.node[index(k)]);
     shortest = std::min(shortest, edge.norm());
   }
   return shortest;

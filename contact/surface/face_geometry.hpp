@@ -5,16 +5,17 @@
 
 #include "contact/geometry/closest_point.hpp"
 #include "contact/surface/surface.hpp"
+#include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {
 
 inline Eigen::Vector3d position(const Nodes& nodes, int global_node) {
-  const double* x = nodes.record[static_cast<std::size_t>(global_node)].position;
+  const double* x = nodes.record[index(global_node)].position;
   return {x[0], x[1], x[2]};
 }
 inline Eigen::Vector3d velocity(const Nodes& nodes, int global_node) {
-  const double* v = nodes.record[static_cast<std::size_t>(global_node)].velocity;
+  const double* v = nodes.record[index(global_node)].velocity;
   return {v[0], v[1], v[2]};
 }
 inline FaceVertices vertices(const Nodes& nodes, const Face& face) {

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 struct SurfacePart;
@@ -43,11 +45,9 @@ class PairTable {
   }
 
  private:
-  std::size_t place_of(int part, int other) const {
-    return static_cast<std::size_t>(part) * parts_ + static_cast<std::size_t>(other);
-  }
+  std::size_t place_of(int part, int other) const { return index(part) * parts_ + index(other); }
   std::size_t place(int global_node, int face_part) const {
-    return place_of(part_of_node_[static_cast<std::size_t>(global_node)], face_part);
+    return place_of(part_of_node_[index(global_node)], face_part);
   }
 
   std::size_t parts_ = 0;

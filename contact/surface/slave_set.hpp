@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/base/parallel.hpp"
 
 namespace brio {
@@ -17,12 +18,12 @@ class SlaveSet {
 
   void resize(std::size_t slaves) { word_.resize((slaves + bits - 1) / bits, 0); }
   void insert(int slave) {
-    const auto s = static_cast<std::size_t>(slave);
+    const auto s = index(slave);
     word_[s / bits] |= std::uint64_t{1} << s % bits;
   }
 
   bool contains(int slave) const {
-    const auto s = static_cast<std::size_t>(slave);
+    const auto s = index(slave);
     return (word_[s / bits] >> s % bits & 1) != 0;
   }
 
@@ -56,7 +57,7 @@ class SlaveSet {
   template <class Visit>
   void visit_word(std::size_t w, Visit&& visit) const {
     for (std::uint64_t left = word_[w]; left != 0; left &= left - 1)
-      visit(w * bits + static_cast<std::size_t>(std::countr_zero(left)));
+      visit(w * bits + index(std::countr_zero(left)));
   }
 
   std::vector<std::uint64_t> word_;

@@ -11,6 +11,7 @@
 
 #include "contact/surface/pair_table.hpp"
 #include "contact/surface/tied_pairs.hpp"
+#include "src/base/index.hpp"
 #include "src/base/lists.hpp"
 
 namespace brio {
@@ -84,8 +85,7 @@ struct Surface {
 
   /// -1: none.
   int rigid_body(int global_node) const {
-    return rigid_of_node.empty() || global_node < 0 ? -1
-                                                    : rigid_of_node[static_cast<std::size_t>(global_node)];
+    return rigid_of_node.empty() || global_node < 0 ? -1 : rigid_of_node[index(global_node)];
   }
   /// The body that all of the nodes belong to; -1: none.
   template <std::size_t Count>
@@ -97,28 +97,26 @@ struct Surface {
   }
   /// Excluded are contact of a rigid body with itself, pairs of parts by rules, and tied pairs.
   bool never_touch(int slave, const Face& other) const {
-    const int global_node = node[static_cast<std::size_t>(slave)];
+    const int global_node = node[index(slave)];
     const int own = rigid_body(global_node);
     return (own >= 0 && own == rigid_body_of_all(other.node)) || pairs.apart(global_node, other.part) ||
            (!tied.empty() && is_tied(slave, other));
   }
   /// Whether a node and a face belong to a tie: the node to its face's part, or a corner to the node's part.
   bool is_tied(int slave, const Face& other) const {
-    if (tied.apart(node[static_cast<std::size_t>(slave)], other.part)) return true;
+    if (tied.apart(node[index(slave)], other.part)) return true;
     for (int corner : other.node)
-      if (const int main_part = tied.main_part[static_cast<std::size_t>(corner)]; main_part >= 0)
+      if (const int main_part = tied.main_part[index(corner)]; main_part >= 0)
         for (int f : faces_of.of(slave))
-          if (face[static_cast<std::size_t>(f)].part == main_part) return true;
+          if (face[index(f)].part == main_part) return true;
     return false;
   }
 
   /// Largest radius of the beams and particles of a slave node; 0: it has none.
-  double radius_of_rounds(int slave) const {
-    return round_radius.empty() ? 0 : round_radius[static_cast<std::size_t>(slave)];
-  }
+  double radius_of_rounds(int slave) const { return round_radius.empty() ? 0 : round_radius[index(slave)]; }
 
   std::size_t slaves() const { return node.size(); }
-  int slave(int global_node) const { return slave_of[static_cast<std::size_t>(global_node)]; }
+  int slave(int global_node) const { return slave_of[index(global_node)]; }
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
@@ -141,14 +139,14 @@ void update_slave(Surface& surface, int slave);
 /// of solid. Where solids touch in nothing but the node there are several such fans.
 template <class Visit>
 void for_fan(const Surface& surface, int slave, int face, const Visit& visit) {
-  const int node = surface.node[static_cast<std::size_t>(slave)];
+  const int node = surface.node[index(slave)];
   int f = face;
   for (std::size_t left = surface.faces_of.of(slave).size(); left > 0 && f >= 0; --left) {
     visit(f);
-    const Face& own = surface.face[static_cast<std::size_t>(f)];
+    const Face& own = surface.face[index(f)];
     std::size_t corner = 0;
     while (corner < 3 && own.node[corner] != node) ++corner;
-    f = surface.neighbor[static_cast<std::size_t>(f)][corner];
+    f = surface.neighbor[index(f)][corner];
     if (f == face) break;
   }
 }

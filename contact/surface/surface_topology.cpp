@@ -9,6 +9,8 @@
 #include "contact/surface/body_pieces.hpp"
 #include "contact/surface/element_sides.hpp"
 #include "src/base/disjoint_sets.hpp"
+#include "src/base/index.hpp"
+#include "src/base/lists.hpp"
 
 namespace brio {
 
@@ -39,8 +41,8 @@ void number_elements(std::span<const SurfacePart> parts, SurfaceTopology& topolo
     if (sides > std::numeric_limits<int>::max())
       throw std::length_error("contact: more element sides than an int can number");
   }
-  topology.side.assign(static_cast<std::size_t>(sides), side_state::none);
-  topology.body.assign(static_cast<std::size_t>(elements), 0);
+  topology.side.assign(index(sides), side_state::none);
+  topology.body.assign(index(elements), 0);
 }
 
 template <class Visit>
@@ -61,26 +63,25 @@ void close_rings(std::span<const int> bucket, std::span<const std::array<int, 4>
     std::size_t next = i;
     do next = (next + 1) % bucket.size();
     while (key[next] != key[i]);
-    side[static_cast<std::size_t>(bucket[i])] = next == i ? side_state::alone : bucket[next];
+    side[index(bucket[i])] = next == i ? side_state::alone : bucket[next];
   }
 }
 
 void link_sides(std::size_t node_count, SurfaceTopology& topology) {
   std::vector<int> first(node_count + 1, 0);
-  for_sides_of_hexahedra(
-      topology, [&](int, const std::array<int, 4>& key) { ++first[static_cast<std::size_t>(key[0]) + 1]; });
+  for_sides_of_hexahedra(topology, [&](int, const std::array<int, 4>& key) { ++first[index(key[0]) + 1]; });
   std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<int> bucket(static_cast<std::size_t>(first.back()));
+  std::vector<int> bucket(index(first.back()));
   std::vector<std::array<int, 4>> keys(bucket.size());
   std::vector<int> fill(first.begin(), first.end() - 1);
   for_sides_of_hexahedra(topology, [&](int side, const std::array<int, 4>& key) {
-    const auto place = static_cast<std::size_t>(fill[static_cast<std::size_t>(key[0])]++);
+    const auto place = index(fill[index(key[0])]++);
     bucket[place] = side;
     keys[place] = key;
   });
   for (std::size_t n = 0; n < node_count; ++n) {
-    const auto begin = static_cast<std::size_t>(first[n]);
-    const auto count = static_cast<std::size_t>(first[n + 1]) - begin;
+    const auto begin = index(first[n]);
+    const auto count = index(first[n + 1]) - begin;
     close_rings(std::span(bucket).subspan(begin, count), std::span(keys).subspan(begin, count),
                 topology.side);
   }
@@ -89,9 +90,8 @@ void link_sides(std::size_t node_count, SurfaceTopology& topology) {
 void give_faces(const Surface& surface, SurfaceTopology& topology) {
   for (std::size_t f = 0; f < surface.face.size(); ++f) {
     const Face& face = surface.face[f];
-    const TopologyPart& part = topology.part[static_cast<std::size_t>(face.part)];
-    int& state =
-        topology.side[static_cast<std::size_t>(part.first_side + part.sides() * face.element + face.side)];
+    const TopologyPart& part = topology.part[index(face.part)];
+    int& state = topology.side[index(part.first_side + part.sides() * face.element + face.side)];
     assert(part.shell() || state == side_state::alone);
     state = side_state::of_face(static_cast<int>(f));
   }
@@ -103,13 +103,12 @@ void number_bodies(Surface& surface, SurfaceTopology& topology) {
   for (int e = 0; e < elements; ++e)
     for (int node : nodes_of(topology, e)) sets.join(nodes_of(topology, e)[0], node);
   std::vector<int> number(surface.slave_of.size(), -1);
-  for (const Face& face : surface.face) number[static_cast<std::size_t>(sets.root(face.node[0]))] = face.body;
-  for (const RoundElement& element : surface.round)
-    number[static_cast<std::size_t>(sets.root(element.node[0]))] = element.body;
+  for (const Face& face : surface.face) number[index(sets.root(face.node[0]))] = face.body;
+  for (const RoundElement& element : surface.round) number[index(sets.root(element.node[0]))] = element.body;
   for (int e = 0; e < elements; ++e) {
-    int& own = number[static_cast<std::size_t>(sets.root(nodes_of(topology, e)[0]))];
+    int& own = number[index(sets.root(nodes_of(topology, e)[0]))];
     if (own < 0) own = surface.body_count++;
-    topology.body[static_cast<std::size_t>(e)] = own;
+    topology.body[index(e)] = own;
   }
 }
 
@@ -117,11 +116,11 @@ void find_hexahedra_under_shells(std::size_t node_count, SurfaceTopology& topolo
   std::vector<char> of_shell(node_count, 0);
   for (const TopologyPart& part : topology.part)
     if (part.shell())
-      for (int node : part.connectivity) of_shell[static_cast<std::size_t>(node)] = 1;
+      for (int node : part.connectivity) of_shell[index(node)] = 1;
   for (const TopologyPart& part : topology.part) {
     if (!part.solid()) continue;
     for (std::size_t i = 0; i < part.connectivity.size(); ++i)
-      if (of_shell[static_cast<std::size_t>(part.connectivity[i])] != 0)
+      if (of_shell[index(part.connectivity[i])] != 0)
         topology.under_shells.emplace_back(part.connectivity[i],
                                            part.first_element + static_cast<int>(i / 8));
   }
@@ -134,15 +133,10 @@ void prepare_debris(std::span<const SurfacePart> parts, std::size_t node_count, 
   topology.debris.resize(node_count);
   for (const SurfacePart& part : parts)
     for (int node : part.connectivity) {
-      DebrisNode& debris = topology.debris[static_cast<std::size_t>(node)];
+      DebrisNode& debris = topology.debris[index(node)];
       debris.radius = std::max(debris.radius, part.debris_radius);
       ++debris.elements;
     }
-}
-
-void sort_out(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 /// One deletion.
@@ -154,8 +148,8 @@ class Deletion {
   void run(std::span<const SurfaceElement> deleted) {
     surface_.faces_of.loosen();
     for (const SurfaceElement& d : deleted) {
-      const int element = topology_.part[static_cast<std::size_t>(d.part)].first_element + d.element;
-      if (topology_.body[static_cast<std::size_t>(element)] < 0) continue;
+      const int element = topology_.part[index(d.part)].first_element + d.element;
+      if (topology_.body[index(element)] < 0) continue;
       removed_.push_back(element);
       for (int node : nodes_of(topology_, element)) corner_.push_back(node);
     }
@@ -179,8 +173,8 @@ class Deletion {
   }
 
  private:
-  int& state(int side) { return topology_.side[static_cast<std::size_t>(side)]; }
-  Face& face(int f) { return surface_.face[static_cast<std::size_t>(f)]; }
+  int& state(int side) { return topology_.side[index(side)]; }
+  Face& face(int f) { return surface_.face[index(f)]; }
 
   int first_node(int element) const { return nodes_of(topology_, element)[0]; }
   // Place of a node among those of the deleted elements, or -1.
@@ -203,10 +197,10 @@ class Deletion {
   }
 
   void remove(int element) {
-    topology_.body[static_cast<std::size_t>(element)] = -1;
+    topology_.body[index(element)] = -1;
     for (int node : nodes_of(topology_, element)) {
       corner_.push_back(node);
-      if (!topology_.debris.empty()) --topology_.debris[static_cast<std::size_t>(node)].elements;
+      if (!topology_.debris.empty()) --topology_.debris[index(node)].elements;
     }
     const TopologyPart& part = part_of_element(topology_, element);
     const int first = part.first_side + part.sides() * (element - part.first_element);
@@ -222,12 +216,12 @@ class Deletion {
     if (part.round()) remove_round(part.first_round + element - part.first_element);
   }
 
-  void remove_round(int index) {
-    change_.dead_round.push_back(index);
-    RoundElement& element = surface_.round[static_cast<std::size_t>(index)];
+  void remove_round(int number) {
+    change_.dead_round.push_back(number);
+    RoundElement& element = surface_.round[index(number)];
     for (int k = 0; k < (element.is_point() ? 1 : 2); ++k) {
-      const int slave = surface_.slave(element.node[static_cast<std::size_t>(k)]);
-      int& left = surface_.rounds[static_cast<std::size_t>(slave)];
+      const int slave = surface_.slave(element.node[index(k)]);
+      int& left = surface_.rounds[index(slave)];
       if (--left == 0) lose_radius(slave);
       touched_.push_back(slave);
     }
@@ -235,7 +229,7 @@ class Deletion {
   }
 
   void lose_radius(int slave) {
-    const auto s = static_cast<std::size_t>(slave);
+    const auto s = index(slave);
     surface_.radius[s] = surface_.round_radius[s];  // that debris begins with
     surface_.round_radius[s] = 0;
   }
@@ -257,7 +251,7 @@ class Deletion {
     change_.dead_face.push_back(f);
     if (!face(f).shell) topology_.faces.retired.push_back(f);
     for (int k = 0; k < face(f).corners(); ++k) {
-      const int slave = surface_.slave(face(f).node[static_cast<std::size_t>(k)]);
+      const int slave = surface_.slave(face(f).node[index(k)]);
       surface_.faces_of.erase(slave, f);
       touched_.push_back(slave);
     }
@@ -274,14 +268,14 @@ class Deletion {
                .element = local / sides_of_hexahedron,
                .side = static_cast<std::uint8_t>(local % sides_of_hexahedron)};
     nodes_of_side(part, side, added.node);
-    added.body = topology_.body[static_cast<std::size_t>(part.first_element + added.element)];
+    added.body = topology_.body[index(part.first_element + added.element)];
     const int f = face_number();
     face(f) = added;
-    surface_.thickness[static_cast<std::size_t>(f)] = 0;
+    surface_.thickness[index(f)] = 0;
     state(side) = side_state::of_face(f);
     change_.new_face.push_back(f);
     for (int k = 0; k < added.corners(); ++k) {
-      const int slave = slave_at(added.node[static_cast<std::size_t>(k)], added);
+      const int slave = slave_at(added.node[index(k)], added);
       surface_.faces_of.insert(slave, f);
       touched_.push_back(slave);
     }
@@ -301,10 +295,10 @@ class Deletion {
   }
 
   int slave_at(int node, const Face& of) {
-    int& slave = surface_.slave_of[static_cast<std::size_t>(node)];
+    int& slave = surface_.slave_of[index(node)];
     if (slave >= 0) return slave;
     slave = slave_number();
-    const auto s = static_cast<std::size_t>(slave);
+    const auto s = index(slave);
     surface_.node[s] = node;
     surface_.body[s] = of.body;
     change_.new_slave.push_back(slave);
@@ -339,7 +333,7 @@ class Deletion {
         ++topology_.visits;
       }
     for (int slave : touched_) {
-      const bool round = !surface_.rounds.empty() && surface_.rounds[static_cast<std::size_t>(slave)] > 0;
+      const bool round = !surface_.rounds.empty() && surface_.rounds[index(slave)] > 0;
       if (surface_.faces_of.of(slave).empty() && !round) {
         leave(slave);
         continue;
@@ -352,12 +346,12 @@ class Deletion {
   // Radius of a node that has become debris; 0 of others.
   double debris_radius(int node) const {
     if (topology_.debris.empty()) return 0;
-    const DebrisNode& debris = topology_.debris[static_cast<std::size_t>(node)];
+    const DebrisNode& debris = topology_.debris[index(node)];
     return debris.elements == 0 ? debris.radius : 0;
   }
 
   void become_debris(int slave, double radius) {
-    const auto s = static_cast<std::size_t>(slave);
+    const auto s = index(slave);
     surface_.of_solid[s] = 0;
     surface_.pinched[s] = 0;
     surface_.radius[s] = std::min(surface_.radius[s], radius);
@@ -372,9 +366,9 @@ class Deletion {
       const double radius = debris_radius(node);
       if (radius == 0 || surface_.slave(node) >= 0) continue;
       const int slave = slave_number();
-      surface_.slave_of[static_cast<std::size_t>(node)] = slave;
-      surface_.node[static_cast<std::size_t>(slave)] = node;
-      surface_.radius[static_cast<std::size_t>(slave)] = 0;
+      surface_.slave_of[index(node)] = slave;
+      surface_.node[index(slave)] = node;
+      surface_.radius[index(slave)] = 0;
       change_.new_slave.push_back(slave);
       become_debris(slave, radius);
     }
@@ -382,7 +376,7 @@ class Deletion {
 
   // A node left without faces.
   void leave(int slave) {
-    const auto s = static_cast<std::size_t>(slave);
+    const auto s = index(slave);
     if (const double radius = debris_radius(surface_.node[s]); radius > 0) {
       become_debris(slave, radius);
       return;
@@ -391,7 +385,7 @@ class Deletion {
     surface_.pinched[s] = 0;
     surface_.radius[s] = 0;
     surface_.body[s] = -1;
-    surface_.slave_of[static_cast<std::size_t>(surface_.node[s])] = -1;
+    surface_.slave_of[index(surface_.node[s])] = -1;
     surface_.node[s] = -1;
     change_.dead_slave.push_back(slave);
     topology_.slaves.retired.push_back(slave);
@@ -403,7 +397,7 @@ class Deletion {
     for_hexahedra_under_shells(topology_, node, [&](int element) { found = element; });
     const int slave = surface_.slave(node);
     if (slave < 0 || surface_.faces_of.of(slave).empty()) return found;
-    return element_of(topology_, surface_.face[static_cast<std::size_t>(surface_.faces_of.of(slave)[0])]);
+    return element_of(topology_, surface_.face[index(surface_.faces_of.of(slave)[0])]);
   }
 
   // Nothing has split if all nodes left of a cluster are still connected among themselves through faces
@@ -412,7 +406,7 @@ class Deletion {
     const int count = static_cast<int>(corner_.size());
     DisjointSets connected(corner_.size());
     for (int i = 0; i < count; ++i) {
-      const int slave = surface_.slave(corner_[static_cast<std::size_t>(i)]);
+      const int slave = surface_.slave(corner_[index(i)]);
       if (slave < 0) continue;
       for (int f : surface_.faces_of.of(slave))
         for (int node : face(f).node) {
@@ -422,8 +416,7 @@ class Deletion {
     }
     std::vector<int> pieces;  // by one element each
     for (int i = 0; i < count; ++i)
-      if (const int element = element_at(corner_[static_cast<std::size_t>(i)]);
-          element >= 0 && connected.root(i) == i)
+      if (const int element = element_at(corner_[index(i)]); element >= 0 && connected.root(i) == i)
         pieces.push_back(element);
     if (pieces.size() > 1) change_.split |= separate_pieces(surface_, topology_, pieces);
   }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "contact/surface/surface.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -135,15 +136,14 @@ inline const TopologyPart& part_of_side(const SurfaceTopology& topology, int sid
 
 /// Number through all parts of the element of a face.
 inline int element_of(const SurfaceTopology& topology, const Face& face) {
-  return topology.part[static_cast<std::size_t>(face.part)].first_element + face.element;
+  return topology.part[index(face.part)].first_element + face.element;
 }
 
 /// Nodes of an element, numbered through all parts.
 inline std::span<const int> nodes_of(const SurfaceTopology& topology, int element) {
   const TopologyPart& part = part_of_element(topology, element);
-  const auto corners = static_cast<std::size_t>(part.corners());
-  return {part.connectivity.data() + corners * static_cast<std::size_t>(element - part.first_element),
-          corners};
+  const auto corners = index(part.corners());
+  return {part.connectivity.data() + corners * index(element - part.first_element), corners};
 }
 
 /// Call `visit` with every living face of an element, numbered through all parts.
@@ -152,7 +152,7 @@ void for_faces_of(const SurfaceTopology& topology, int element, const Visit& vis
   const TopologyPart& part = part_of_element(topology, element);
   const int first = part.first_side + part.sides() * (element - part.first_element);
   for (int side = first; side < first + part.sides(); ++side) {
-    const int state = topology.side[static_cast<std::size_t>(side)];
+    const int state = topology.side[index(side)];
     if (side_state::is_face(state)) visit(side_state::face_of(state));
   }
 }
@@ -163,7 +163,7 @@ void for_hexahedra_under_shells(const SurfaceTopology& topology, int node, const
   const auto& under = topology.under_shells;
   for (auto at = std::lower_bound(under.begin(), under.end(), std::pair(node, 0));
        at != under.end() && at->first == node; ++at)
-    if (topology.body[static_cast<std::size_t>(at->second)] >= 0) visit(at->second);
+    if (topology.body[index(at->second)] >= 0) visit(at->second);
 }
 
 /// Call `visit` with living elements, at least one in each direction in which elements around share a node
@@ -175,8 +175,8 @@ void for_elements_around(const Surface& surface, const SurfaceTopology& topology
   const TopologyPart& part = part_of_element(topology, element);
   const int first = part.first_side + part.sides() * (element - part.first_element);
   for (int side = first; side < first + part.sides(); ++side)
-    for (int other = topology.side[static_cast<std::size_t>(side)]; other >= 0 && other != side;
-         other = topology.side[static_cast<std::size_t>(other)]) {
+    for (int other = topology.side[index(side)]; other >= 0 && other != side;
+         other = topology.side[index(other)]) {
       const TopologyPart& of = part_of_side(topology, other);
       visit(of.first_element + (other - of.first_side) / of.sides());
     }
@@ -184,7 +184,7 @@ void for_elements_around(const Surface& surface, const SurfaceTopology& topology
     if (part.shell()) for_hexahedra_under_shells(topology, node, visit);
     if (surface.slave(node) < 0) continue;
     for (int f : surface.faces_of.of(surface.slave(node)))
-      visit(element_of(topology, surface.face[static_cast<std::size_t>(f)]));
+      visit(element_of(topology, surface.face[index(f)]));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 struct TiedPairs {
@@ -23,7 +25,7 @@ struct TiedPairs {
   bool one_piece(int a, int b) const {
     if (a == b) return true;
     const int count = static_cast<int>(piece.size());
-    return a < count && b < count && piece[static_cast<std::size_t>(a)] == piece[static_cast<std::size_t>(b)];
+    return a < count && b < count && piece[index(a)] == piece[index(b)];
   }
 
   /// Saved and restored (src/base/state_archive.hpp).

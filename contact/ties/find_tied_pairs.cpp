@@ -1,6 +1,7 @@
 #include "contact/ties/find_tied_pairs.hpp"
 
 #include "src/base/disjoint_sets.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -9,8 +10,8 @@ namespace {
 // Parts that a node of the surface belongs to.
 std::vector<int> parts_of(const Surface& surface, int slave) {
   std::vector<int> parts;
-  for (int f : surface.faces_of.of(slave)) parts.push_back(surface.face[static_cast<std::size_t>(f)].part);
-  const int node = surface.node[static_cast<std::size_t>(slave)];
+  for (int f : surface.faces_of.of(slave)) parts.push_back(surface.face[index(f)].part);
+  const int node = surface.node[index(slave)];
   if (surface.radius_of_rounds(slave) > 0)
     for (const RoundElement& element : surface.round)
       if (element.node[0] == node || element.node[1] == node) parts.push_back(element.part);
@@ -26,11 +27,11 @@ TiedPairs find_tied_pairs(const Surface& surface, const Ties& ties, const std::v
   if (ties.empty() && ties.joined.empty()) return tied;
   tied.part_of_surface = part_of_surface;
   renew(tied, surface, ties);
-  DisjointSets bodies(static_cast<std::size_t>(surface.body_count));
-  const auto body_of = [&](int node) { return surface.body[static_cast<std::size_t>(surface.slave(node))]; };
+  DisjointSets bodies(index(surface.body_count));
+  const auto body_of = [&](int node) { return surface.body[index(surface.slave(node))]; };
   for (const std::vector<TiedNode>* entries : {&ties.node, &ties.joined})
     for (const TiedNode& entry : *entries)
-      if (tied.main_part[static_cast<std::size_t>(entry.tie.node)] >= 0)
+      if (tied.main_part[index(entry.tie.node)] >= 0)
         bodies.join(body_of(entry.tie.node), body_of(entry.tie.corner[0]));
   for (int body = 0; body < surface.body_count; ++body) tied.piece.push_back(bodies.root(body));
   return tied;
@@ -41,10 +42,10 @@ void renew(TiedPairs& tied, const Surface& surface, const Ties& ties) {
   tied.pairs.clear();
   for (const std::vector<TiedNode>* entries : {&ties.node, &ties.joined})
     for (const TiedNode& entry : *entries) {
-      const int main_part = tied.part_of_surface[static_cast<std::size_t>(entry.face_part)];
+      const int main_part = tied.part_of_surface[index(entry.face_part)];
       const int slave = surface.slave(entry.tie.node);
       if (main_part < 0 || slave < 0) continue;
-      tied.main_part[static_cast<std::size_t>(entry.tie.node)] = main_part;
+      tied.main_part[index(entry.tie.node)] = main_part;
       tied.pairs.emplace_back(entry.tie.node, main_part);
       for (int part : parts_of(surface, slave))
         for (int corner : entry.tie.corner) tied.pairs.emplace_back(corner, part);

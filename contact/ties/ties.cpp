@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -15,10 +16,10 @@ namespace {
 
 using Rows = const AlignedBuffer<NodeVector>&;
 
-Vector3d row(Rows rows, int node) { return Vector3d(rows[static_cast<std::size_t>(node)].component); }
+Vector3d row(Rows rows, int node) { return Vector3d(rows[index(node)].component); }
 
 void add(AlignedBuffer<NodeVector>& rows, int node, const Vector3d& value) {
-  double* sum = rows[static_cast<std::size_t>(node)].component;
+  double* sum = rows[index(node)].component;
   for (int i = 0; i < 3; ++i) sum[i] += value[i];
 }
 
@@ -42,7 +43,7 @@ std::array<double, 4> mass_share(const Tie& tie) {
 }
 
 void set_inverses(Nodes& nodes, int entry) {
-  const auto node = static_cast<std::size_t>(entry);
+  const auto node = index(entry);
   nodes.record[node].inverse_mass = nodes.mass[node] > 0 ? 1 / nodes.mass[node] : 0;
   if (nodes.has_rotations())
     nodes.angular_velocity[node].component[3] =
@@ -51,7 +52,7 @@ void set_inverses(Nodes& nodes, int entry) {
 
 void move_mass(TiedNode& tied, Nodes& nodes) {
   const Tie& tie = tied.tie;
-  const auto node = static_cast<std::size_t>(tie.node);
+  const auto node = index(tie.node);
   const std::array<double, 4> share = mass_share(tie);
   tied.mass = nodes.mass[node];
   nodes.mass[node] = 0;
@@ -61,7 +62,7 @@ void move_mass(TiedNode& tied, Nodes& nodes) {
   }
   set_inverses(nodes, tie.node);
   for (std::size_t k = 0; k < 4; ++k) {
-    const auto corner = static_cast<std::size_t>(tie.corner[k]);
+    const auto corner = index(tie.corner[k]);
     nodes.mass[corner] += share[k] * tied.mass;
     if (tie.turning) nodes.rotational_inertia[corner] += share[k] * tied.inertia;
     set_inverses(nodes, tie.corner[k]);
@@ -69,8 +70,7 @@ void move_mass(TiedNode& tied, Nodes& nodes) {
 }
 
 std::size_t place_in(std::span<const int> ascending, int node) {
-  return static_cast<std::size_t>(std::lower_bound(ascending.begin(), ascending.end(), node) -
-                                  ascending.begin());
+  return index(std::lower_bound(ascending.begin(), ascending.end(), node) - ascending.begin());
 }
 
 // Rayleigh's quotient: the highest frequency grows at most by the largest ratio of the energy that masses
@@ -94,7 +94,7 @@ double largest_energy_ratio(Ties& ties, const Nodes& nodes) {
   }
   double largest = 1;
   for (std::size_t i = 0; i < ties.concerned.size(); ++i) {
-    const auto node = static_cast<std::size_t>(ties.concerned[i]);
+    const auto node = index(ties.concerned[i]);
     if (!(nodes.mass[node] > 0)) continue;
     double ratio = ties.bound[i] / nodes.mass[node];
     if (ties.coupling[i] > 0)
@@ -115,7 +115,7 @@ void list_concerned(Ties& ties, const Nodes& nodes) {
   ties.own_mass.clear();
   ties.own_inertia.clear();
   for (int entry : ties.concerned) {
-    const auto node = static_cast<std::size_t>(entry);
+    const auto node = index(entry);
     ties.own_mass.push_back(nodes.mass[node]);
     ties.own_inertia.push_back(nodes.has_rotations() ? nodes.rotational_inertia[node] : 0);
   }
@@ -124,7 +124,7 @@ void list_concerned(Ties& ties, const Nodes& nodes) {
 void move_masses(Ties& ties, Nodes& nodes) {
   for (TiedNode& tied : ties.node) {
     move_mass(tied, nodes);
-    ties.moved_mass[static_cast<std::size_t>(tied.tie.node)] = tied.mass;
+    ties.moved_mass[index(tied.tie.node)] = tied.mass;
   }
   // Weights that sum to one but for rounding take nothing from the step.
   constexpr double rounding = 1e-9;
@@ -134,9 +134,9 @@ void move_masses(Ties& ties, Nodes& nodes) {
 
 // Where masses are without ties.
 void take_back(Ties& ties, Nodes& nodes) {
-  for (const TiedNode& tied : ties.node) ties.moved_mass[static_cast<std::size_t>(tied.tie.node)] = 0;
+  for (const TiedNode& tied : ties.node) ties.moved_mass[index(tied.tie.node)] = 0;
   for (std::size_t i = 0; i < ties.concerned.size(); ++i) {
-    const auto node = static_cast<std::size_t>(ties.concerned[i]);
+    const auto node = index(ties.concerned[i]);
     nodes.mass[node] = ties.own_mass[i];
     if (nodes.has_rotations()) nodes.rotational_inertia[node] = ties.own_inertia[i];
     set_inverses(nodes, ties.concerned[i]);
@@ -146,7 +146,7 @@ void take_back(Ties& ties, Nodes& nodes) {
 NodeMotion motion_of(std::span<const int> concerned, const Nodes& nodes) {
   NodeMotion sum;
   for (int entry : concerned) {
-    const auto node = static_cast<std::size_t>(entry);
+    const auto node = index(entry);
     const Vector3d v = brio::velocity(nodes, entry);
     const Vector3d linear = nodes.mass[node] * v;
     sum.energy += 0.5 * v.dot(linear);
@@ -171,7 +171,7 @@ FaceVertices corners_of(const Tie& tie, const Nodes& nodes) {
 void number(Ties& ties, std::size_t node_count) {
   ties.of_node.assign(node_count, -1);
   for (std::size_t i = 0; i < ties.node.size(); ++i)
-    ties.of_node[static_cast<std::size_t>(ties.node[i].tie.node)] = static_cast<int>(i);
+    ties.of_node[index(ties.node[i].tie.node)] = static_cast<int>(i);
 }
 
 void condense(Ties& ties, Nodes& nodes) {
@@ -188,10 +188,10 @@ NodeMotion release(Ties& ties, Nodes& nodes) {
   const NodeMotion before = motion_of(ties.concerned, nodes);
   take_back(ties, nodes);
   for (const TiedNode& tied : ties.node)
-    if (tied.released) ties.of_node[static_cast<std::size_t>(tied.tie.node)] = -1;
+    if (tied.released) ties.of_node[index(tied.tie.node)] = -1;
   ties.released += static_cast<std::int64_t>(std::erase_if(ties.node, marked));
   for (std::size_t i = 0; i < ties.node.size(); ++i)
-    ties.of_node[static_cast<std::size_t>(ties.node[i].tie.node)] = static_cast<int>(i);
+    ties.of_node[index(ties.node[i].tie.node)] = static_cast<int>(i);
   // With the masses without ties still at hand for those that remain, and motion compared over all.
   for (TiedNode& tied : ties.node) move_mass(tied, nodes);
   const NodeMotion after = motion_of(ties.concerned, nodes);
@@ -230,7 +230,7 @@ std::int64_t mark_failed(Ties& ties, double step, const Nodes& nodes) {
   const double mean_step = 0.5 * (std::exchange(ties.last_step, step) + step);
   std::int64_t count = 0;
   for (TiedNode& tied : ties.node) {
-    const TiedParts& parts = ties.found[static_cast<std::size_t>(tied.connection)];
+    const TiedParts& parts = ties.found[index(tied.connection)];
     tied.released = parts.can_fail() && exceeds(tied, parts, force_on_face(tied, mean_step, nodes), nodes);
     if (tied.released) ++count;
     if (parts.can_fail()) tied.last_velocity = brio::velocity(nodes, tied.tie.node);
@@ -277,7 +277,7 @@ Vector3d tied_velocity(const Tie& tie, const Nodes& nodes, double step) {
 void carry_velocities(const Ties& ties, Nodes& nodes, double step) {
   for (std::size_t i = ties.node.size(); i-- > 0;) {
     const Tie& tie = ties.node[i].tie;
-    const auto node = static_cast<std::size_t>(tie.node);
+    const auto node = index(tie.node);
     set_components(nodes.record[node].velocity, tied_velocity(tie, nodes, step));
     if (tie.turning)
       set_components(nodes.angular_velocity[node].component, mean_angular_velocity(tie, nodes));
@@ -288,8 +288,7 @@ void place(Ties& ties, Nodes& nodes, double step) {
   for (std::size_t i = ties.node.size(); i-- > 0;) {
     Tie& tie = ties.node[i].tie;
     if (tie.has_arm() && step > 0) tie.arm = turned_by(step * mean_angular_velocity(tie, nodes), tie.arm);
-    set_components(nodes.record[static_cast<std::size_t>(tie.node)].position,
-                   tied_position(tie, corners_of(tie, nodes)));
+    set_components(nodes.record[index(tie.node)].position, tied_position(tie, corners_of(tie, nodes)));
   }
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "contact/ties/tie.hpp"
+#include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
 
 namespace brio {
@@ -69,9 +70,7 @@ struct Ties {
   double last_step = 0;       ///< time step before the last one, where ties can fail
 
   bool empty() const { return node.empty(); }
-  bool is_tied(int global_node) const {
-    return !of_node.empty() && of_node[static_cast<std::size_t>(global_node)] >= 0;
-  }
+  bool is_tied(int global_node) const { return !of_node.empty() && of_node[index(global_node)] >= 0; }
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>

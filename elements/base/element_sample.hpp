@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "materials/stress_state.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -27,7 +28,7 @@ struct ElementSample {
 
   /// Shells: at one integration point of the thickness.
   struct Layer {
-    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    static constexpr std::size_t none = index(-1);
     std::size_t point = none;
     SymmetricTensor<double> stress = undefined_tensor;
     double plastic_strain = undefined;  ///< the sweep fills it

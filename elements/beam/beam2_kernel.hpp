@@ -20,6 +20,7 @@
 #include "elements/shell/shell_step.hpp"
 #include "materials/failing.hpp"
 #include "src/base/fetch_ahead.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -132,8 +133,7 @@ struct Beam2Kernel : Beam2 {
     FibreTensor<double> mean{};
     out.section_force = out.section_moment = {};
     for (int p = 0; p < points(); ++p) {
-      const BeamFibre fibre =
-          bends() ? fibres->fibre[static_cast<std::size_t>(p % fibres->count)] : BeamFibre{};
+      const BeamFibre fibre = bends() ? fibres->fibre[index(p % fibres->count)] : BeamFibre{};
       const FibreTensor<double> share = (bends() ? 0.5 * fibre.share : 1.0) * point[p].stress;
       mean = mean + share;
       out.section_force[1] += fibres->area * fibre.shear_y * share.xy;
@@ -227,13 +227,12 @@ struct Beam2Kernel : Beam2 {
   BRIO_INLINE FibreSums<T> sum_fibres(const SectionChange<T>& change, const Law& law,
                                       Point<T, Law>* point) const {
     const FibreSection& s = *fibres;
-    const std::size_t pack_bytes =
-        sizeof(Header<T, Law>) + static_cast<std::size_t>(points()) * sizeof(Point<T, Law>);
+    const std::size_t pack_bytes = sizeof(Header<T, Law>) + index(points()) * sizeof(Point<T, Law>);
     FibreSums<T> sum{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), {T(0.0), T(0.0)}, {T(0.0), T(0.0)}};
     for (int station = 0; station < 2; ++station) {
       Point<T, Law>* const fibre_point = point + station * s.count;
       for (int f = 0; f < s.count; ++f) {
-        const BeamFibre& fibre = s.fibre[static_cast<std::size_t>(f)];
+        const BeamFibre& fibre = s.fibre[index(f)];
         const FibreTensor<T> strain{
             change.stretch + T(fibre.z) * change.curvature_y[station] -
                 T(fibre.y) * change.curvature_z[station],

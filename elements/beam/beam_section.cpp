@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "elements/shell/through_thickness.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -50,10 +51,10 @@ std::array<LinePoint, 18> line_rule(int count) {
   const int each = whole ? 2 : count / 2;
   const ThicknessRule& rule = thickness_rule(ThicknessQuadrature::gauss, each);
   for (int k = 0; k < count; ++k) {
-    const auto p = static_cast<std::size_t>(k % each);
+    const auto p = index(k % each);
     const double half = k < each ? -0.25 : 0.25;
-    points[static_cast<std::size_t>(k)] = whole ? LinePoint{rule.place[p], rule.weight[p]}
-                                                : LinePoint{half + 0.5 * rule.place[p], 0.5 * rule.weight[p]};
+    points[index(k)] = whole ? LinePoint{rule.place[p], rule.weight[p]}
+                             : LinePoint{half + 0.5 * rule.place[p], 0.5 * rule.weight[p]};
   }
   return points;
 }
@@ -68,8 +69,8 @@ void add_rectangle(FibreSection& section, double width, double height, double z0
   double sum = 0;
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < up; ++j) {
-      const LinePoint& column = columns[static_cast<std::size_t>(i)];
-      const LinePoint& row = rows[static_cast<std::size_t>(j)];
+      const LinePoint& column = columns[index(i)];
+      const LinePoint& row = rows[index(j)];
       const double y = width * column.place;
       const double z = height * row.place;
       // (along y, along z) = (-z, y) in a circle; in the series the short side is the first axis.
@@ -82,13 +83,12 @@ void add_rectangle(FibreSection& section, double width, double height, double z0
       }
       const double share = column.weight * row.weight * area / section.area;
       sum += share * section.area * (twist[0] * twist[0] + twist[1] * twist[1]);
-      section.fibre[static_cast<std::size_t>(section.count++)] = {y,       z0 + z,   share,   shear_y,
-                                                                  shear_z, twist[0], twist[1]};
+      section.fibre[index(section.count++)] = {y, z0 + z, share, shear_y, shear_z, twist[0], twist[1]};
     }
   const double scale = std::sqrt(torsion_constant(width, height) / sum);
   for (int f = first; f < section.count; ++f) {
-    section.fibre[static_cast<std::size_t>(f)].twist_y *= scale;
-    section.fibre[static_cast<std::size_t>(f)].twist_z *= scale;
+    section.fibre[index(f)].twist_y *= scale;
+    section.fibre[index(f)].twist_z *= scale;
   }
   section.torsion_constant += torsion_constant(width, height);
 }
@@ -104,13 +104,13 @@ FibreSection round_fibres(double inner, double outer, const std::array<int, 2>& 
   const ThicknessRule& rule = thickness_rule(ThicknessQuadrature::gauss, fibres[0]);
   const double middle = 0.5 * (inner + outer);
   for (int ring = 0; ring < fibres[0]; ++ring) {
-    const auto p = static_cast<std::size_t>(ring);
+    const auto p = index(ring);
     const double radius = middle + (outer - inner) * rule.place[p];
     for (int k = 0; k < fibres[1]; ++k) {
       const double angle = (2 * k + 1) * pi / fibres[1];
       const double y = radius * std::cos(angle);
       const double z = radius * std::sin(angle);
-      section.fibre[static_cast<std::size_t>(section.count++)] = {
+      section.fibre[index(section.count++)] = {
           y, z, rule.weight[p] * radius / (middle * fibres[1]), shear, shear, -z, y};
     }
   }
@@ -160,7 +160,7 @@ double torsion_constant(double width, double height) {
 FibreSection fibres_of(const BeamSection& shape, double shear_factor) {
   FibreSection section = std::visit([](const auto& one) { return fibres_of(one); }, shape);
   for (int f = 0; f < section.count; ++f) {
-    const BeamFibre& fibre = section.fibre[static_cast<std::size_t>(f)];
+    const BeamFibre& fibre = section.fibre[index(f)];
     section.second_moment_y += section.area * fibre.share * fibre.z * fibre.z;
     section.second_moment_z += section.area * fibre.share * fibre.y * fibre.y;
     section.shear_factor_y += fibre.share * fibre.shear_y * fibre.shear_y;
@@ -170,8 +170,8 @@ FibreSection fibres_of(const BeamSection& shape, double shear_factor) {
     const double scale_y = std::sqrt(shear_factor / section.shear_factor_y);
     const double scale_z = std::sqrt(shear_factor / section.shear_factor_z);
     for (int f = 0; f < section.count; ++f) {
-      section.fibre[static_cast<std::size_t>(f)].shear_y *= scale_y;
-      section.fibre[static_cast<std::size_t>(f)].shear_z *= scale_z;
+      section.fibre[index(f)].shear_y *= scale_y;
+      section.fibre[index(f)].shear_z *= scale_z;
     }
     section.shear_factor_y = section.shear_factor_z = shear_factor;
   }

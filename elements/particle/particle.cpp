@@ -3,6 +3,7 @@
 #include "elements/particle/particle_kernel.hpp"
 #include "elements/particle/particle_pairs.hpp"
 #include "elements/sweep.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -49,7 +50,7 @@ ParticleMotion<Number> motion_of(const NeighbourSums& sums) {
 
 void publish(ParticleCloud& cloud, const int* node, int count, const ParticleForces<Number>& forces) {
   for (int lane = 0; lane < count; ++lane) {
-    ParticleForce& own = cloud.force[static_cast<std::size_t>(node[lane] - cloud.first_node)];
+    ParticleForce& own = cloud.force[index(node[lane] - cloud.first_node)];
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 3; ++r) own.column[c][r] = forces.a.m[r][c][lane];
       own.column[c][3] = c == 0 ? forces.stiffness[lane] : 0;
@@ -62,7 +63,7 @@ void publish_now(ParticleCloud& cloud, const Particle& particle, const int* node
                  const ParticleForces<Number>& forces) {
   const auto [least, largest] = particle.smoothing_bounds.value_or(default_smoothing_bounds);
   for (int lane = 0; lane < count; ++lane) {
-    const auto i = static_cast<std::size_t>(node[lane] - cloud.first_node);
+    const auto i = index(node[lane] - cloud.first_node);
     ParticleForce& own = cloud.residual[i];
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 3; ++r) own.column[c][r] = forces.residual.m[r][c][lane];
@@ -116,7 +117,7 @@ class NodeExchange<ParticleKernel, double> {
 
   void gather_start(const int* node, ParticleMotion<Number>& motion) const {
     for (int lane = 0; lane < width; ++lane) {
-      const auto i = static_cast<std::size_t>(node[lane] - cloud_.first_node);
+      const auto i = index(node[lane] - cloud_.first_node);
       motion.volume.set(lane, cloud_.volume[i]);
       motion.hourglass_weight.set(lane, cloud_.hourglass_weight[i]);
     }
@@ -130,7 +131,7 @@ class NodeExchange<ParticleKernel, double> {
         cloud_, nodes_, at_start, kernel.stiffness_share() * ParticleKernel::youngs_modulus(at_start));
   }
   double volume(const int* node, int lane, double, double) const {
-    return cloud_.volume[static_cast<std::size_t>(node[lane] - cloud_.first_node)];
+    return cloud_.volume[index(node[lane] - cloud_.first_node)];
   }
 
   void gather(const int* node, int count, ParticleMotion<Number>& motion) {

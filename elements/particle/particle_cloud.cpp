@@ -7,20 +7,21 @@
 #include "elements/base/bad_element.hpp"
 #include "elements/particle/particle_weights.hpp"
 #include "src/base/gather.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
 namespace {
 
 Vector3<double> pair_vector(const Nodes& nodes, int from, int to) {
-  const double* a = nodes.record[static_cast<std::size_t>(from)].position;
-  const double* b = nodes.record[static_cast<std::size_t>(to)].position;
+  const double* a = nodes.record[index(from)].position;
+  const double* b = nodes.record[index(to)].position;
   return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
 }
 
 SymmetricTensor<double> moments(const ParticleCloud& cloud, std::size_t i) {
   SymmetricTensor<double> m{};
-  for (std::size_t k = cloud.first[i]; k < cloud.first[i] + static_cast<std::size_t>(cloud.count[i]); ++k) {
+  for (std::size_t k = cloud.first[i]; k < cloud.first[i] + index(cloud.count[i]); ++k) {
     const double* w = cloud.pair[k].weighted;
     const double inverse = 1 / w[3];
     m = m + SymmetricTensor<double>{inverse * w[0] * w[0], inverse * w[1] * w[1], inverse * w[2] * w[2],
@@ -36,7 +37,7 @@ void correct(ParticleCloud& cloud, std::size_t i) {
   const bool has_support = trace(c) > 0;
   cloud.hourglass_weight[i] = has_support ? 3 / trace(m) : 0;
   double sum = 0;
-  for (std::size_t k = cloud.first[i]; k < cloud.first[i] + static_cast<std::size_t>(cloud.count[i]); ++k) {
+  for (std::size_t k = cloud.first[i]; k < cloud.first[i] + index(cloud.count[i]); ++k) {
     const double* w = cloud.pair[k].weighted;
     const double x = c.xx * w[0] + c.xy * w[1] + c.xz * w[2];
     const double y = c.xy * w[0] + c.yy * w[1] + c.yz * w[2];
@@ -48,7 +49,7 @@ void correct(ParticleCloud& cloud, std::size_t i) {
 
 void remove_pair(ParticleCloud& cloud, std::size_t from, int to) {
   const std::size_t begin = cloud.first[from];
-  const std::size_t end = begin + static_cast<std::size_t>(cloud.count[from]);
+  const std::size_t end = begin + index(cloud.count[from]);
   std::size_t kept = begin;
   for (std::size_t k = begin; k < end; ++k) {
     if (cloud.neighbour[k] == to) continue;
@@ -90,8 +91,8 @@ ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume
   for (std::size_t i = 0; i < n; ++i) {
     cloud.first[i] = neighbour.size();
     for (int k = first[i]; k < first[i + 1]; ++k) {
-      const int j = candidate[static_cast<std::size_t>(k)];
-      const auto other = static_cast<std::size_t>(j);
+      const int j = candidate[index(k)];
+      const auto other = index(j);
       if (other == i) continue;
       const Vector3<double> x = pair_vector(nodes, first_node + static_cast<int>(i), first_node + j);
       const double length = smoothing * 0.5 * (cloud.spacing[i] + cloud.spacing[other]);
@@ -121,13 +122,13 @@ ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume
 void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
                          NeighbourSums& sums) {
   for (int lane = 0; lane < count; ++lane) {
-    const auto i = static_cast<std::size_t>(node[lane] - cloud.first_node);
+    const auto i = index(node[lane] - cloud.first_node);
     const NodeRecord* record = nodes.record.data() + cloud.first_node;
     const Row4 x0 = load_row(record[i].position);
     const Row4 v0 = load_row(record[i].velocity);
     Row4 x_sum[3] = {}, v_sum[3] = {}, xv_sum = {}, vv_sum = {};
     const std::size_t begin = cloud.first[i];
-    for (std::size_t k = begin; k < begin + static_cast<std::size_t>(cloud.count[i]); ++k) {
+    for (std::size_t k = begin; k < begin + index(cloud.count[i]); ++k) {
       const NodeRecord& other = record[cloud.neighbour[k]];
       const double* w = cloud.pair[k].weighted;
       const Row4 x = load_row(other.position) - x0;
@@ -165,32 +166,32 @@ void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const i
 
 void add_pair_forces(const ParticleCloud& cloud, Nodes& nodes, const int* node, int count) {
   for (int lane = 0; lane < count; ++lane) {
-    const auto i = static_cast<std::size_t>(node[lane] - cloud.first_node);
+    const auto i = index(node[lane] - cloud.first_node);
     const NodeRecord* record = nodes.record.data() + cloud.first_node;
     const Row4 x0 = load_row(record[i].position);
     const ParticleForce& own = cloud.force[i];
     const Row4 a0 = load_row(own.column[0]), a1 = load_row(own.column[1]), a2 = load_row(own.column[2]);
     Row4 force = {};
     const std::size_t begin = cloud.first[i];
-    for (std::size_t k = begin; k < begin + static_cast<std::size_t>(cloud.count[i]); ++k) {
+    for (std::size_t k = begin; k < begin + index(cloud.count[i]); ++k) {
       const int j = cloud.neighbour[k];
       const double* w = cloud.pair[k].weighted;
-      const ParticleForce& other = cloud.force[static_cast<std::size_t>(j)];
+      const ParticleForce& other = cloud.force[index(j)];
       const Row4 x = load_row(record[j].position) - x0;
       const Row4 first = a0 + load_row(other.column[0]);
       const double stiffness = first[3];
       force += (w[0] * first + w[1] * (a1 + load_row(other.column[1]))) +
                (w[2] * (a2 + load_row(other.column[2])) + (stiffness * w[3]) * x);
     }
-    double* row = nodes.force[static_cast<std::size_t>(node[lane])].component;
+    double* row = nodes.force[index(node[lane])].component;
     store_row(row, load_row(row) + Row4{force[0], force[1], force[2], 0});
   }
 }
 
 void cut_particle(ParticleCloud& cloud, int particle) {
-  const auto i = static_cast<std::size_t>(particle);
-  for (std::size_t k = cloud.first[i]; k < cloud.first[i] + static_cast<std::size_t>(cloud.count[i]); ++k) {
-    const auto j = static_cast<std::size_t>(cloud.neighbour[k]);
+  const auto i = index(particle);
+  for (std::size_t k = cloud.first[i]; k < cloud.first[i] + index(cloud.count[i]); ++k) {
+    const auto j = index(cloud.neighbour[k]);
     remove_pair(cloud, j, particle);
     if (!cloud.is_eulerian()) correct(cloud, j);  // the other form does so in every step
   }

@@ -8,6 +8,7 @@
 #include "elements/particle/particle_support.hpp"
 #include "elements/particle/particle_weights.hpp"
 #include "src/base/gather.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -205,7 +206,7 @@ void set_neighbours(ParticleCloud& cloud, std::span<const int> first, std::span<
   std::size_t total = 0;
   const auto for_each_pair = [&](std::size_t i, const auto& take) {
     for (int k = first[i]; k < first[i + 1]; ++k) {
-      const auto j = static_cast<std::size_t>(candidate[static_cast<std::size_t>(k)]);
+      const auto j = index(candidate[index(k)]);
       if (j != i && are_close(cloud, nodes, i, j)) take(static_cast<int>(j));
     }
   };
@@ -223,7 +224,7 @@ void set_neighbours(ParticleCloud& cloud, std::span<const int> first, std::span<
     for_each_pair(i, [&](int j) { cloud.neighbour[next++] = j; });
     cloud.count[i] = static_cast<int>(next - cloud.first[i]);
     if (cloud.is_cut(i)) continue;
-    const double* x = nodes.record[static_cast<std::size_t>(cloud.first_node) + i].position;
+    const double* x = nodes.record[index(cloud.first_node) + i].position;
     cloud.searched_at[i] = {{x[0], x[1], x[2], cloud.smoothing_length[i]}};
   }
 }
@@ -231,8 +232,8 @@ void set_neighbours(ParticleCloud& cloud, std::span<const int> first, std::span<
 void sum_over_neighbours_now(ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
                              double step, NeighbourSums& sums) {
   for (int lane = 0; lane < count; ++lane) {
-    const auto i = static_cast<std::size_t>(node[lane] - cloud.first_node);
-    const auto at = static_cast<std::size_t>(lane);
+    const auto i = index(node[lane] - cloud.first_node);
+    const auto at = index(lane);
     const OwnSums own = weigh(cloud, nodes, i, step);
     const ParticleSupport now(own.moments, cloud.volume[i]), middle(own.middle_moments, cloud.volume[i]);
     const SymmetricTensor<double> unbounded = inverse_moments(own.moments);
@@ -264,7 +265,7 @@ double add_pair_forces_now(ParticleCloud& cloud, Nodes& nodes, const int* node, 
   const NodeRecord* record = nodes.record.data() + cloud.first_node;
   const double inverse_shape_at_start = 1 / kernel_shape(1 / cloud.smoothing);
   for (int lane = 0; lane < count; ++lane) {
-    const auto i = static_cast<std::size_t>(node[lane] - cloud.first_node);
+    const auto i = index(node[lane] - cloud.first_node);
     const Number own_length(cloud.smoothing_length[i]), none(0.0), one(1.0);
     const double own_viscosity = cloud.residual[i].column[0][3];
     PairVector stress{none, none, none}, other{none, none, none};
@@ -275,8 +276,7 @@ double add_pair_forces_now(ParticleCloud& cloud, Nodes& nodes, const int* node, 
       const PairVector stress_force = s * (SummedColumns(cloud.force.data(), i, pack) * pair.x);
       Number viscosity(own_viscosity);
       for (int k = 0; k < width; ++k)
-        viscosity.set(k,
-                      own_viscosity + cloud.residual[static_cast<std::size_t>(pack.index[k])].column[0][3]);
+        viscosity.set(k, own_viscosity + cloud.residual[index(pack.index[k])].column[0][3]);
       // Tension along the pair, growing until the two are as close as they stood at the start. Not further:
       // it is the force of no energy, and where it grew to half of the tension, sheets of particles shook
       // themselves apart.
@@ -297,7 +297,7 @@ double add_pair_forces_now(ParticleCloud& cloud, Nodes& nodes, const int* node, 
     const double* v = record[i].velocity;
     work += step * (mean[0] * v[0] + mean[1] * v[1] + mean[2] * v[2]);
     store_row(last.component, other_force);
-    double* row = nodes.force[static_cast<std::size_t>(node[lane])].component;
+    double* row = nodes.force[index(node[lane])].component;
     store_row(row, load_row(row) + force + other_force);
   }
   return work;

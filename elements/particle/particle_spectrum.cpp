@@ -6,6 +6,7 @@
 
 #include "elements/base/tridiagonal.hpp"
 #include "elements/particle/particle_pairs.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -35,13 +36,13 @@ struct Stiffness {
   ElasticModuli<double> moduli;
   double hourglass_modulus;
 
-  double mass(std::size_t i) const { return nodes.mass[static_cast<std::size_t>(cloud.first_node) + i]; }
+  double mass(std::size_t i) const { return nodes.mass[index(cloud.first_node) + i]; }
 
   // Columns of A for displacements u.
   ParticleForce force_of(std::size_t i, const Displacements& u) const {
     Tensor<double> sum{};
-    for (std::size_t k = cloud.first[i]; k < cloud.first[i] + static_cast<std::size_t>(cloud.count[i]); ++k) {
-      const Vector3<double> d = u[static_cast<std::size_t>(cloud.neighbour[k])] - u[i];
+    for (std::size_t k = cloud.first[i]; k < cloud.first[i] + index(cloud.count[i]); ++k) {
+      const Vector3<double> d = u[index(cloud.neighbour[k])] - u[i];
       const double* w = cloud.pair[k].weighted;
       for (int c = 0; c < 3; ++c) {
         sum.m[0][c] += w[c] * d.x;
@@ -73,9 +74,8 @@ struct Stiffness {
     for (std::size_t i = 0; i < u.size(); ++i) {
       const ParticleForce& own = cloud.force[i];
       double force[3] = {};
-      for (std::size_t k = cloud.first[i]; k < cloud.first[i] + static_cast<std::size_t>(cloud.count[i]);
-           ++k) {
-        const auto j = static_cast<std::size_t>(cloud.neighbour[k]);
+      for (std::size_t k = cloud.first[i]; k < cloud.first[i] + index(cloud.count[i]); ++k) {
+        const auto j = index(cloud.neighbour[k]);
         const ParticleForce& other = cloud.force[j];
         const double* w = cloud.pair[k].weighted;
         const double stiffness = w[3] * (own.column[0][3] + other.column[0][3]);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "elements/particle/particle_pairs.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -52,8 +53,7 @@ inline void repeat_last_lane(NeighbourSums& sums, int count) {
   constexpr std::size_t width = lane_count<double>;
   auto* number = reinterpret_cast<double*>(&sums);  // nothing but numbers by lanes
   for (std::size_t row = 0; row < sizeof(NeighbourSums) / sizeof(double); row += width)
-    for (auto lane = static_cast<std::size_t>(count); lane < width; ++lane)
-      number[row + lane] = number[row + static_cast<std::size_t>(count) - 1];
+    for (auto lane = index(count); lane < width; ++lane) number[row + lane] = number[row + index(count) - 1];
 }
 
 }  // namespace brio

@@ -17,6 +17,7 @@
 #include "elements/shell/shell_step.hpp"
 #include "elements/shell/shell_strain.hpp"
 #include "src/base/fetch_ahead.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -143,8 +144,7 @@ struct Shell4Kernel : Shell4 {
     ElementSample out;
     const ThicknessRule& points = rule();
     ShellTensor<double> mean{};
-    for (int p = 0; p < thickness_points; ++p)
-      mean = mean + points.weight[static_cast<std::size_t>(p)] * point[p].stress;
+    for (int p = 0; p < thickness_points; ++p) mean = mean + points.weight[index(p)] * point[p].stress;
     out.stress = on_global_axes(shell_geometry(motion.position, header.reference), mean);
     out.internal_energy = header.internal_energy;
     out.thickness = header.thickness;
@@ -156,13 +156,13 @@ struct Shell4Kernel : Shell4 {
     const ShellGeometry<double> g = shell_geometry(motion.position, header.reference);
     ShellTensor<double> first_moment{};
     for (int p = 0; p < thickness_points; ++p) {
-      const auto k = static_cast<std::size_t>(p);
+      const auto k = index(p);
       first_moment = first_moment + (rule().weight[k] * rule().place[k]) * point[p].stress;
       if (rule().place[k] == 0) sample.middle.point = k;
     }
     // Rules go from the bottom to the top.
     sample.bottom.point = 0;
-    sample.top.point = static_cast<std::size_t>(thickness_points - 1);
+    sample.top.point = index(thickness_points - 1);
     sample.bending_moment = on_global_axes(g, header.thickness * header.thickness * first_moment);
     for (ElementSample::Layer* layer : {&sample.top, &sample.middle, &sample.bottom})
       if (layer->point != ElementSample::Layer::none)
@@ -216,11 +216,10 @@ struct Shell4Kernel : Shell4 {
     T shear[2] = {T(0.0), T(0.0)};
     T thickness_strain = T(0.0);
     T work = T(0.0);
-    const std::size_t pack_bytes =
-        sizeof(Header<T, Law>) + static_cast<std::size_t>(thickness_points) * sizeof(Point<T, Law>);
+    const std::size_t pack_bytes = sizeof(Header<T, Law>) + index(thickness_points) * sizeof(Point<T, Law>);
     for (int p = 0; p < thickness_points; ++p) {
-      const T place(quadrature_rule.place[static_cast<std::size_t>(p)]);
-      const T weight(quadrature_rule.weight[static_cast<std::size_t>(p)]);
+      const T place(quadrature_rule.place[index(p)]);
+      const T weight(quadrature_rule.weight[index(p)]);
       const ShellTensor<T> strain_increment{strain[0] + place * bend[0], strain[1] + place * bend[1],
                                             strain[2] + place * bend[2], half_shear[1], half_shear[0]};
       const ShellTensor<T> before = point[p].stress;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "src/base/fields.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -61,16 +62,16 @@ constexpr ThicknessRule thickness_rule(ThicknessQuadrature quadrature, int count
       const Legendre p = legendre(degree, x);
       if ((ends ? p.slope : p.value) == 0) break;
       double log_slope = ends ? p.curvature / p.slope : p.slope / p.value;
-      for (int j = 0; j < k; ++j) log_slope -= 1 / (x - root[static_cast<std::size_t>(j)]);
+      for (int j = 0; j < k; ++j) log_slope -= 1 / (x - root[index(j)]);
       x -= 1 / log_slope;
     }
     if (inner % 2 == 1 && k == inner / 2) x = 0;
-    root[static_cast<std::size_t>(k)] = x;
+    root[index(k)] = x;
   }
   for (int k = 0; k < count; ++k) {
     const int from_end = k < count - 1 - k ? k : count - 1 - k;
     double x = 1;
-    if (!ends || from_end > 0) x = root[static_cast<std::size_t>(ends ? from_end - 1 : from_end)];
+    if (!ends || from_end > 0) x = root[index(ends ? from_end - 1 : from_end)];
     double weight = 1.0 / (count > 1 ? count * (count - 1.0) : 1.0);
     if (!ends) {
       const double slope = legendre(count, x).slope;
@@ -79,7 +80,7 @@ constexpr ThicknessRule thickness_rule(ThicknessQuadrature quadrature, int count
       const double value = legendre(count - 1, x).value;
       weight /= value * value;
     }
-    const auto p = static_cast<std::size_t>(k);
+    const auto p = index(k);
     rule.place[p] = (k < count - 1 - k ? -0.5 : 0.5) * x;
     rule.weight[p] = weight;
   }
@@ -89,8 +90,8 @@ constexpr ThicknessRule thickness_rule(ThicknessQuadrature quadrature, int count
 constexpr auto all_thickness_rules() {
   std::array<std::array<ThicknessRule, most_thickness_points + 1>, 2> rules{};
   for (int count = 1; count <= most_thickness_points; ++count) {
-    rules[0][static_cast<std::size_t>(count)] = thickness_rule(ThicknessQuadrature::gauss, count);
-    rules[1][static_cast<std::size_t>(count)] = thickness_rule(ThicknessQuadrature::lobatto, count);
+    rules[0][index(count)] = thickness_rule(ThicknessQuadrature::gauss, count);
+    rules[1][index(count)] = thickness_rule(ThicknessQuadrature::lobatto, count);
   }
   return rules;
 }
@@ -100,7 +101,7 @@ inline constexpr auto thickness_rules = all_thickness_rules();
 
 /// A single Lobatto point stands in the middle, as Gauss' does.
 constexpr const ThicknessRule& thickness_rule(ThicknessQuadrature quadrature, int count) {
-  return detail::thickness_rules[static_cast<std::size_t>(quadrature)][static_cast<std::size_t>(count)];
+  return detail::thickness_rules[index(quadrature)][index(count)];
 }
 
 }  // namespace brio

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "io/files/file_error.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -53,7 +54,7 @@ Owner read_owner(int descriptor) {
   if (size <= 0) return {};
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E) c = ' ';
-  std::istringstream words(string(text.data(), static_cast<std::size_t>(size)));
+  std::istringstream words(string(text.data(), index(size)));
   Owner owner;
   if (!(words >> owner.process >> owner.host >> owner.since)) return {};
   return owner;

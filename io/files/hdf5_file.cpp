@@ -13,6 +13,7 @@
 #include "io/files/checksum.hpp"
 #include "io/files/hdf5_transaction.hpp"
 #include "io/files/text_file.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -264,7 +265,7 @@ std::size_t Hdf5File::columns_of(const string& table, std::int64_t first, std::i
   constexpr std::int64_t most_values = std::numeric_limits<std::int64_t>::max() / 8;
   if (rows > 0 && (columns < 0 || columns > most_values / rows))
     throw FileError(path_, table + " claims more values than any file holds");
-  return static_cast<std::size_t>(columns);
+  return index(columns);
 }
 
 void Hdf5File::read_table(const string& table, std::int64_t first, std::int64_t rows, hid_t memory_type,
@@ -283,14 +284,14 @@ void Hdf5File::read_table(const string& table, std::int64_t first, std::int64_t 
 }
 
 std::vector<double> Hdf5File::read_rows(const string& table, std::int64_t first, std::int64_t rows) const {
-  std::vector<double> values(columns_of(table, first, rows) * static_cast<std::size_t>(rows));
+  std::vector<double> values(columns_of(table, first, rows) * index(rows));
   if (!values.empty()) read_table(table, first, rows, H5T_NATIVE_DOUBLE, values.data());
   return values;
 }
 
 std::vector<std::int64_t> Hdf5File::read_integers(const string& table, std::int64_t first,
                                                   std::int64_t rows) const {
-  std::vector<std::int64_t> values(columns_of(table, first, rows) * static_cast<std::size_t>(rows));
+  std::vector<std::int64_t> values(columns_of(table, first, rows) * index(rows));
   if (!values.empty()) read_table(table, first, rows, H5T_NATIVE_INT64, values.data());
   return values;
 }
@@ -301,7 +302,7 @@ void Hdf5File::read_bytes(const string& table, std::int64_t first, std::int64_t 
 }
 
 std::uint64_t Hdf5File::checksum_of_rows(const string& table, std::int64_t first, std::int64_t rows) const {
-  const std::size_t values = columns_of(table, first, rows) * static_cast<std::size_t>(rows);
+  const std::size_t values = columns_of(table, first, rows) * index(rows);
   const Hdf5Handle dataset = open_dataset(table);
   const Hdf5Handle stored = checked(H5Dget_type(dataset.id()), H5Tclose, "read " + table);
   for (const hid_t type : {H5T_IEEE_F32LE, H5T_IEEE_F64LE, H5T_STD_I64LE, H5T_STD_U8LE}) {

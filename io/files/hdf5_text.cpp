@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "io/files/hdf5_file.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -59,7 +60,7 @@ std::vector<string> Hdf5File::read_texts(const string& dataset) const {
   const string doing = "read " + dataset;
   const std::vector<std::int64_t> size = dimensions(dataset);
   if (size.size() > 1) throw FileError(path_, dataset + " is not a list of texts");
-  const std::size_t count = size.empty() ? 1 : static_cast<std::size_t>(size[0]);
+  const std::size_t count = size.empty() ? 1 : index(size[0]);
   const Hdf5Handle opened = open_dataset(dataset);
   const Hdf5Handle type = checked(H5Dget_type(opened.id()), H5Tclose, doing);
   if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) != 0) {

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 namespace {
 
@@ -53,7 +55,7 @@ bool write_all(TransactionFile& file, haddr_t address, const unsigned char* byte
     }
     address += static_cast<haddr_t>(written);
     bytes += written;
-    size -= static_cast<std::size_t>(written);
+    size -= index(written);
     file.end_of_file = std::max(file.end_of_file, address);
   }
   return true;
@@ -200,7 +202,7 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, size_t size, void*
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return -1;
     if (count == 0) break;
-    done += static_cast<std::size_t>(count);
+    done += index(count);
   }
   std::memset(bytes + done, 0, size - done);  // beyond the end of the file
   for (const Piece& piece : file.waiting) {

@@ -17,6 +17,7 @@
 #include <system_error>
 
 #include "io/files/file_error.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -110,7 +111,7 @@ string answer_of(const std::filesystem::path& file, const std::function<string()
     const ssize_t count = ::write(out, answer.data() + sent, answer.size() - sent);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) _exit(1);
-    sent += static_cast<std::size_t>(count);
+    sent += index(count);
   }
   _exit(0);
 }
@@ -122,7 +123,7 @@ string everything_from(int in) {
     const ssize_t count = ::read(in, piece.data(), piece.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return text;
-    text.append(piece.data(), static_cast<std::size_t>(count));
+    text.append(piece.data(), index(count));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "io/files/file_error.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -22,7 +23,7 @@ int write_all(int descriptor, std::string_view text) {
     const ssize_t written = ::write(descriptor, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
     if (written <= 0) return written < 0 ? errno : ENOSPC;
-    text.remove_prefix(static_cast<std::size_t>(written));
+    text.remove_prefix(index(written));
   }
   return 0;
 }
@@ -115,7 +116,7 @@ std::string read_small_file(const std::filesystem::path& path) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw FileError(path, std::string("cannot read: ") + std::strerror(errno));
     if (count == 0) return text;
-    text.append(piece, 0, static_cast<std::size_t>(count));
+    text.append(piece, 0, index(count));
     if (text.size() > largest_small_file) throw FileError(path, "is longer than such a file can be");
   }
 }

@@ -8,6 +8,7 @@
 #include "io/mesh/particle_mesh.hpp"
 #include "io/mesh/section_mesh.hpp"
 #include "io/mesh/sphere_mesh.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -31,7 +32,7 @@ Mesh mesh_of(const BoxMesh& box) {
   Mesh mesh = pull_along_z(rectangle_section({box.size[0], box.size[1]}, {nx, ny}), -box.size[2] / 2,
                            box.size[2], nz);
   // Above and below by the same number, whatever the rounding of the steps between.
-  const std::size_t level = mesh.position.size() / static_cast<std::size_t>(nz + 1);
+  const std::size_t level = mesh.position.size() / index(nz + 1);
   for (std::size_t n = 0; n < mesh.position.size(); ++n) {
     const int k = static_cast<int>(n / level);
     mesh.position[n][2] = box.size[2] * (2.0 * k - nz) / (2.0 * nz);
@@ -55,8 +56,7 @@ Mesh mesh_of(const PlateMesh& plate) {
   for (const auto& [name, edges] : section.edges) {
     std::vector<int>& set = mesh.node_sets[name];
     for (const auto& [quad, edge] : edges)
-      for (const int corner : {edge, (edge + 1) % 4})
-        set.push_back(section.quad[static_cast<std::size_t>(quad)][static_cast<std::size_t>(corner)]);
+      for (const int corner : {edge, (edge + 1) % 4}) set.push_back(section.quad[index(quad)][index(corner)]);
     boundary.insert(boundary.end(), set.begin(), set.end());
   }
   for (auto& [name, set] : mesh.node_sets) {

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -44,7 +46,7 @@ void add_layers(const char* lower_name, const char* upper_name, std::size_t axis
   std::vector<int>& lower = mesh.node_sets[lower_name];
   std::vector<int>& upper = mesh.node_sets[upper_name];
   for (int i = 0; i < static_cast<int>(mesh.position.size()); ++i) {
-    const double at = mesh.position[static_cast<std::size_t>(i)][axis];
+    const double at = mesh.position[index(i)][axis];
     if (at == centre.front()) lower.push_back(i);
     if (at == centre.back()) upper.push_back(i);
   }

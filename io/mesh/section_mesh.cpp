@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -47,7 +49,7 @@ Point2 core_point(double u, double v, double corner_radius, double bulge) {
 /// Grid places (i, j) of the outline of an m by m square, counter-clockwise from (0, 0).
 std::vector<std::array<int, 2>> outline_of_square(int m) {
   std::vector<std::array<int, 2>> outline;
-  outline.reserve(4 * static_cast<std::size_t>(m));
+  outline.reserve(4 * index(m));
   for (int i = 0; i < m; ++i) outline.push_back({i, 0});
   for (int j = 0; j < m; ++j) outline.push_back({m, j});
   for (int i = m; i > 0; --i) outline.push_back({i, m});
@@ -140,7 +142,7 @@ Section disc_section(double radius, int across, bool keep_area) {
   const int first_on_ray = static_cast<int>(section.point.size());
   for (const auto& [i, j] : outline) {
     on_core.push_back(i + (m + 1) * j);
-    const Point2 inner = section.point[static_cast<std::size_t>(on_core.back())];
+    const Point2 inner = section.point[index(on_core.back())];
     const Point2 direction = direction_of_square((2.0 * i - m) / m, (2.0 * j - m) / m);
     for (int k = 1; k <= layers; ++k) {
       const double share = static_cast<double>(k) / layers;
@@ -150,7 +152,7 @@ Section disc_section(double radius, int across, bool keep_area) {
   }
   const auto node = [&](int ray, int k) {
     const int r = ray % around;
-    return k == 0 ? on_core[static_cast<std::size_t>(r)] : first_on_ray + r * layers + k - 1;
+    return k == 0 ? on_core[index(r)] : first_on_ray + r * layers + k - 1;
   };
   for (int ray = 0; ray < around; ++ray)
     for (int k = 0; k < layers; ++k) {
@@ -201,8 +203,8 @@ Mesh pull_along_z(const Section& section, double start, double length, int layer
   mesh.nodes_per_element = 8;
   const int level = static_cast<int>(section.point.size());
   const int quads = static_cast<int>(section.quad.size());
-  mesh.position.reserve(section.point.size() * static_cast<std::size_t>(layers + 1));
-  mesh.connectivity.reserve(8 * section.quad.size() * static_cast<std::size_t>(layers));
+  mesh.position.reserve(section.point.size() * index(layers + 1));
+  mesh.connectivity.reserve(8 * section.quad.size() * index(layers));
   for (int k = 0; k <= layers; ++k)
     for (const Point2& p : section.point) mesh.position.push_back({p[0], p[1], start + length * k / layers});
   for (int k = 0; k < layers; ++k)
@@ -229,16 +231,13 @@ Mesh pull_along_z(const Section& section, double start, double length, int layer
 }
 
 std::vector<int> nodes_of_sides(const Mesh& mesh, const std::vector<ElementSide>& sides) {
-  const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+  const auto corners = index(mesh.nodes_per_element);
   std::vector<int> nodes;
   nodes.reserve(4 * sides.size());
   for (const auto& [element, side] : sides)
     for (int corner = 0; corner < 4; ++corner) {
-      const int local = mesh.nodes_per_element == 4
-                            ? corner
-                            : sides_of_hex[static_cast<std::size_t>(side)][static_cast<std::size_t>(corner)];
-      nodes.push_back(
-          mesh.connectivity[static_cast<std::size_t>(element) * corners + static_cast<std::size_t>(local)]);
+      const int local = mesh.nodes_per_element == 4 ? corner : sides_of_hex[index(side)][index(corner)];
+      nodes.push_back(mesh.connectivity[index(element) * corners + index(local)]);
     }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "io/mesh/section_mesh.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -80,9 +81,8 @@ double enclosed_volume(const Mesh& mesh) {
   for (const auto& [element, side] : mesh.side_sets.at("outside")) {
     std::array<Point3, 4> x;
     for (std::size_t k = 0; k < 4; ++k) {
-      const int corner = sides_of_hex[static_cast<std::size_t>(side)][k];
-      x[k] = mesh.position[static_cast<std::size_t>(
-          mesh.connectivity[8 * static_cast<std::size_t>(element) + static_cast<std::size_t>(corner)])];
+      const int corner = sides_of_hex[index(side)][k];
+      x[k] = mesh.position[index(mesh.connectivity[8 * index(element) + index(corner)])];
     }
     volume += 0.5 * (volume_of_tetrahedron(x[0], x[1], x[2]) + volume_of_tetrahedron(x[0], x[2], x[3]) +
                      volume_of_tetrahedron(x[0], x[1], x[3]) + volume_of_tetrahedron(x[1], x[2], x[3]));
@@ -132,7 +132,7 @@ void add_layers(Mesh& mesh, int m, int layers, double radius) {
     if (layer == 0) return on_core;
     const auto [entry, is_new] = ray.try_emplace(place, static_cast<int>(mesh.position.size()));
     if (is_new) {
-      const Point3 inner = mesh.position[static_cast<std::size_t>(on_core)];
+      const Point3 inner = mesh.position[index(on_core)];
       const Point3 direction = direction_of_cube(on_cube(place, m));
       for (int k = 1; k <= layers; ++k) {
         const double share = static_cast<double>(k) / layers;

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 /// Shapes that are read, with their corners in VTK order. Further values are kinds that are refused
@@ -80,7 +82,7 @@ struct FileMesh {
     return shape[e] >= static_cast<unsigned char>(ElementShape::refused);
   }
   const RefusedKind& refused_kind(std::size_t e) const {
-    return refused_kinds[shape[e] - static_cast<std::size_t>(ElementShape::refused)];
+    return refused_kinds[shape[e] - index(ElementShape::refused)];
   }
   int dimension(std::size_t e) const {
     return is_refused(e) ? refused_kind(e).dimension : dimension_of_shape[shape[e]];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -20,7 +22,7 @@ IdMap::IdMap(std::span<const std::int64_t> ids) {
   if (span / sparse < ids.size()) {
     table_.assign(span + 1, -1);
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      int& entry = table_[static_cast<std::size_t>(ids[i] - least_)];
+      int& entry = table_[index(ids[i] - least_)];
       if (entry >= 0)
         note(static_cast<int>(i));
       else
@@ -37,7 +39,7 @@ IdMap::IdMap(std::span<const std::int64_t> ids) {
 int IdMap::find(std::int64_t id) const {
   if (!table_.empty()) {
     const std::uint64_t place = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(least_);
-    return id >= least_ && place < table_.size() ? table_[static_cast<std::size_t>(place)] : -1;
+    return id >= least_ && place < table_.size() ? table_[index(place)] : -1;
   }
   const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(id, 0));
   return found != sorted_.end() && found->first == id ? found->second : -1;

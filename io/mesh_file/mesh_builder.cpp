@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "io/mesh_file/id_map.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -67,13 +68,12 @@ int MeshBuilder::add_refused(const RefusedKind& kind, std::int64_t id, std::span
     if (place == most_kinds) fail(line, "the file holds too many kinds of elements that are not accepted");
     mesh_.refused_kinds.push_back(kind);
   }
-  return add(static_cast<unsigned char>(static_cast<std::size_t>(ElementShape::refused) + place), id, nodes,
-             line);
+  return add(static_cast<unsigned char>(index(ElementShape::refused) + place), id, nodes, line);
 }
 
 void MeshBuilder::set_volume(int element, double volume) {
   mesh_.volume.resize(mesh_.shape.size());
-  mesh_.volume[static_cast<std::size_t>(element)] = volume;
+  mesh_.volume[index(element)] = volume;
 }
 
 std::size_t MeshBuilder::block(const std::string& name, std::int64_t number) {
@@ -161,10 +161,8 @@ void MeshBuilder::add_resolved_side(const std::string& name, FileSet& set, const
   if (raw.side < 1 || raw.side > static_cast<int>(table.size()))
     fail(raw.line, "set '" + name + "' names side " + std::to_string(raw.side) + " of element " +
                        std::to_string(mesh_.element_id[e]) + ", which has no such side");
-  const std::vector<int>& corners = table[static_cast<std::size_t>(raw.side) - 1];
-  const auto node = [&](std::size_t k) {
-    return mesh_.node[mesh_.first[e] + static_cast<std::size_t>(corners[k])];
-  };
+  const std::vector<int>& corners = table[index(raw.side) - 1];
+  const auto node = [&](std::size_t k) { return mesh_.node[mesh_.first[e] + index(corners[k])]; };
   for (std::size_t k = 0; k < corners.size(); ++k) set.node.push_back(node(k));
   if (corners.size() < 3) return;
   FileFace& face = set.face.emplace_back();
@@ -185,14 +183,14 @@ void MeshBuilder::resolve_sides(const IdMap& elements) {
     for (const RawSide& side : raw) {
       if (!side.block.empty()) {
         for (const int e : block_named(side.block, side.line).element)
-          add_resolved_side(name, set, side, static_cast<std::size_t>(e));
+          add_resolved_side(name, set, side, index(e));
         continue;
       }
       const int element = elements.find(side.element);
       if (element < 0)
         fail(side.line, "set '" + name + "' names element " + std::to_string(side.element) +
                             ", which the file does not have");
-      add_resolved_side(name, set, side, static_cast<std::size_t>(element));
+      add_resolved_side(name, set, side, index(element));
     }
   }
 }
@@ -202,7 +200,7 @@ void MeshBuilder::resolve_nodes_of_blocks() {
     std::vector<int>& node = mesh_.sets[name].node;
     for (const auto& [block, line] : raw)
       for (const int element : block_named(block, line).element) {
-        const auto e = static_cast<std::size_t>(element);
+        const auto e = index(element);
         node.insert(node.end(), mesh_.node.begin() + mesh_.first[e], mesh_.node.begin() + mesh_.first[e + 1]);
       }
   }
@@ -232,8 +230,8 @@ void MeshBuilder::resolve_blocks(const IdMap& elements) {
 
 void MeshBuilder::note_unused_nodes() {
   std::vector<bool> is_used(mesh_.position.size());
-  for (const int node : mesh_.node) is_used[static_cast<std::size_t>(node)] = true;
-  const auto unused = static_cast<std::size_t>(std::count(is_used.begin(), is_used.end(), false));
+  for (const int node : mesh_.node) is_used[index(node)] = true;
+  const auto unused = index(std::count(is_used.begin(), is_used.end(), false));
   if (unused > 0) notice(counted(unused, "node") + " of no element: dropped");
 }
 
@@ -245,7 +243,7 @@ void MeshBuilder::expect_unique_elements() const {
       if (mesh_.dimension(e) == dimension) ids.push_back(mesh_.element_id[e]), place.push_back(e);
     const int twice = IdMap(is_numbered_by_dimension_ ? ids : mesh_.element_id).repeated();
     if (twice < 0) continue;
-    const auto found = static_cast<std::size_t>(twice);
+    const auto found = index(twice);
     const std::size_t e = is_numbered_by_dimension_ ? place[found] : found;
     fail(mesh_.line_of(e),
          "element " + std::to_string(mesh_.element_id[e]) + " stands twice; numbers are unique");
@@ -259,7 +257,7 @@ FileMesh MeshBuilder::finish() {
   {
     const IdMap nodes(mesh_.node_id);
     if (const int twice = nodes.repeated(); twice >= 0) {
-      const auto node = static_cast<std::size_t>(twice);
+      const auto node = index(twice);
       fail(node_line_.empty() ? 0 : node_line_[node],
            "node " + std::to_string(mesh_.node_id[node]) + " stands twice; numbers are unique");
     }

@@ -7,6 +7,7 @@
 
 #include "io/mesh_file/mesh_file_error.hpp"
 #include "io/mesh_file/side_table.hpp"
+#include "src/base/index.hpp"
 #include "src/deck/element_quality.hpp"
 
 namespace brio {
@@ -15,8 +16,7 @@ namespace {
 
 int dimension_of(const FileMesh& file, const FileBlock& block) {
   int dimension = 0;
-  for (const int e : block.element)
-    dimension = std::max(dimension, file.dimension(static_cast<std::size_t>(e)));
+  for (const int e : block.element) dimension = std::max(dimension, file.dimension(index(e)));
   return dimension;
 }
 
@@ -42,9 +42,9 @@ class PartMesher {
 
   Mesh make(std::vector<std::string>& notices) {
     take_elements();
-    mesh_.nodes_per_element = nodes_of_dimension[static_cast<std::size_t>(dimension_)];
+    mesh_.nodes_per_element = nodes_of_dimension[index(dimension_)];
     take_nodes();
-    for (const int e : elements_) take_element(static_cast<std::size_t>(e));
+    for (const int e : elements_) take_element(index(e));
     take_volumes();
     check_elements();
     take_sets(notices);
@@ -61,7 +61,7 @@ class PartMesher {
   void take_elements() {
     dimension_ = dimension_of(file_, block_);
     for (const int place : block_.element) {
-      const auto e = static_cast<std::size_t>(place);
+      const auto e = index(place);
       if (file_.dimension(e) != dimension_) continue;
       if (file_.is_refused(e)) refuse_kind(e);
       elements_.push_back(place);
@@ -70,9 +70,8 @@ class PartMesher {
 
   [[noreturn]] void refuse_kind(std::size_t e) const {
     const RefusedKind& kind = file_.refused_kind(e);
-    const auto count = std::count_if(block_.element.begin(), block_.element.end(), [&](int other) {
-      return file_.shape[static_cast<std::size_t>(other)] == file_.shape[e];
-    });
+    const auto count = std::count_if(block_.element.begin(), block_.element.end(),
+                                     [&](int other) { return file_.shape[index(other)] == file_.shape[e]; });
     throw MeshFileError(file_.file, file_.line_of(e),
                         "block '" + block_.name + "' has " + std::to_string(count) + " " + kind.name +
                             ", which no part can be made of; " + kind.advice);
@@ -85,7 +84,7 @@ class PartMesher {
   void take_nodes() {
     place_.assign(file_.position.size(), -1);
     for (const int e : elements_)
-      for (const int node : nodes_of(static_cast<std::size_t>(e))) place_[static_cast<std::size_t>(node)] = 0;
+      for (const int node : nodes_of(index(e))) place_[index(node)] = 0;
     for (std::size_t n = 0; n < place_.size(); ++n) {
       if (place_[n] < 0) continue;
       place_[n] = static_cast<int>(mesh_.position.size());
@@ -97,9 +96,7 @@ class PartMesher {
 
   void take_element(std::size_t e) {
     const auto nodes = nodes_of(e);
-    const auto add = [&](int corner) {
-      mesh_.connectivity.push_back(place_[static_cast<std::size_t>(nodes[static_cast<std::size_t>(corner)])]);
-    };
+    const auto add = [&](int corner) { mesh_.connectivity.push_back(place_[index(nodes[index(corner)])]); };
     switch (static_cast<ElementShape>(file_.shape[e])) {
       case ElementShape::wedge:
         for (const int corner : wedge_as_hexahedron) add(corner);
@@ -117,7 +114,7 @@ class PartMesher {
   void take_volumes() {
     if (dimension_ != 0) return;
     for (const int place : elements_) {
-      const auto e = static_cast<std::size_t>(place);
+      const auto e = index(place);
       const double own = file_.volume.empty() ? 0 : file_.volume[e];
       const double cube = source_.scale * source_.scale * source_.scale;
       if (source_.particle_volume)
@@ -130,19 +127,17 @@ class PartMesher {
   }
 
   void check_elements() const {
-    const auto corners = static_cast<std::size_t>(mesh_.nodes_per_element);
+    const auto corners = index(mesh_.nodes_per_element);
     constexpr std::array<std::size_t, 4> fewest_nodes{1, 2, 3, 6};
     std::size_t inverted = 0, first = 0;
     std::array<Corner, 8> corner{};
     for (std::size_t i = 0; i < elements_.size(); ++i) {
       const std::span<const int> nodes(mesh_.connectivity.data() + corners * i, corners);
-      const auto e = static_cast<std::size_t>(elements_[i]);
-      if (const std::size_t count = distinct(nodes);
-          count < fewest_nodes[static_cast<std::size_t>(dimension_)])
+      const auto e = index(elements_[i]);
+      if (const std::size_t count = distinct(nodes); count < fewest_nodes[index(dimension_)])
         refuse(e, "has " + std::to_string(count) + " different nodes; expected are at least " +
-                      std::to_string(fewest_nodes[static_cast<std::size_t>(dimension_)]));
-      for (std::size_t k = 0; k < corners; ++k)
-        corner[k] = mesh_.position[static_cast<std::size_t>(nodes[k])];
+                      std::to_string(fewest_nodes[index(dimension_)]));
+      for (std::size_t k = 0; k < corners; ++k) corner[k] = mesh_.position[index(nodes[k])];
       if (!is_inverted({corner.data(), corners})) continue;
       if (inverted++ == 0) first = e;
     }
@@ -175,7 +170,7 @@ class PartMesher {
     if (dimension_ >= 2) table_.emplace(mesh_);
     element_place_.assign(dimension_ >= 2 ? file_.element_count() : 0, -1);
     for (std::size_t i = 0; i < elements_.size() && dimension_ >= 2; ++i)
-      element_place_[static_cast<std::size_t>(elements_[i])] = static_cast<int>(i);
+      element_place_[index(elements_[i])] = static_cast<int>(i);
     if (dimension_ >= 2) mesh_.side_sets["all"] = table_->exterior();
     for (const auto& [name, set] : file_.sets) {
       if (name == "all") {
@@ -193,7 +188,7 @@ class PartMesher {
   void add_nodes(const std::string& name, std::span<const int> nodes) {
     std::vector<int> found;
     for (const int node : nodes)
-      if (const int place = place_[static_cast<std::size_t>(node)]; place >= 0) found.push_back(place);
+      if (const int place = place_[index(node)]; place >= 0) found.push_back(place);
     if (found.empty()) return;
     std::vector<int>& set = mesh_.node_sets[name];
     set.insert(set.end(), found.begin(), found.end());
@@ -202,9 +197,9 @@ class PartMesher {
   void add_face(const std::string& name, const FileFace& face, std::vector<std::string>& notices) {
     if (!table_) return;
     std::array<int, 4> nodes{};
-    for (std::size_t k = 0; k < 4; ++k) nodes[k] = place_[static_cast<std::size_t>(face.node[k])];
+    for (std::size_t k = 0; k < 4; ++k) nodes[k] = place_[index(face.node[k])];
     if (std::find(nodes.begin(), nodes.end(), -1) != nodes.end()) return;
-    const int element = face.element < 0 ? -1 : element_place_[static_cast<std::size_t>(face.element)];
+    const int element = face.element < 0 ? -1 : element_place_[index(face.element)];
     if (face.element >= 0 && element < 0) return;
     const auto side = table_->find(nodes, element);
     if (!side) return;
@@ -221,7 +216,7 @@ class PartMesher {
   void take_block_as_set(const FileBlock& block) {
     std::vector<std::string> none;
     for (const int place : block.element) {
-      const auto e = static_cast<std::size_t>(place);
+      const auto e = index(place);
       if (&block == &block_ && file_.dimension(e) == dimension_) continue;
       const auto nodes = nodes_of(e);
       add_nodes(block.name, nodes);

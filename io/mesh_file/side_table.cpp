@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -26,23 +28,22 @@ SideTable::SideTable(const Mesh& mesh) : mesh_(mesh), sides_(mesh.nodes_per_elem
       if (make_key(key)) take(key, side);
     }
   };
-  each([&](const std::array<int, 4>& key, int) { ++first_[static_cast<std::size_t>(key[0]) + 1]; });
+  each([&](const std::array<int, 4>& key, int) { ++first_[index(key[0]) + 1]; });
   for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
   entries_.resize(first_.back());
   std::vector<std::size_t> next = first_;
   each([&](const std::array<int, 4>& key, int side) {
-    entries_[next[static_cast<std::size_t>(key[0])]++] = {{key[1], key[2], key[3]}, side};
+    entries_[next[index(key[0])]++] = {{key[1], key[2], key[3]}, side};
   });
 }
 
 std::array<int, 4> SideTable::nodes_of(const ElementSide& side) const {
-  const auto corners = static_cast<std::size_t>(mesh_.nodes_per_element);
-  const auto first = static_cast<std::size_t>(side.element) * corners;
+  const auto corners = index(mesh_.nodes_per_element);
+  const auto first = index(side.element) * corners;
   std::array<int, 4> nodes{};
   for (std::size_t k = 0; k < 4; ++k) {
-    const int corner =
-        corners == 8 ? sides_of_hex[static_cast<std::size_t>(side.side)][k] : static_cast<int>(k);
-    nodes[k] = mesh_.connectivity[first + static_cast<std::size_t>(corner)];
+    const int corner = corners == 8 ? sides_of_hex[index(side.side)][k] : static_cast<int>(k);
+    nodes[k] = mesh_.connectivity[first + index(corner)];
   }
   return nodes;
 }
@@ -76,7 +77,7 @@ bool SideTable::has_same_turn(const ElementSide& side, const std::array<int, 4>&
 std::optional<ElementSide> SideTable::find(const std::array<int, 4>& nodes, int element) const {
   std::array<int, 4> key = nodes;
   if (!make_key(key)) return {};
-  const auto least = static_cast<std::size_t>(key[0]);
+  const auto least = index(key[0]);
   std::optional<ElementSide> found;
   for (std::size_t i = first_[least]; i < first_[least + 1]; ++i) {
     if (entries_[i].further != std::array{key[1], key[2], key[3]}) continue;

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "io/mesh_file/mesh_file_error.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -52,7 +53,7 @@ std::vector<std::size_t> NetcdfFile::shape_of(const std::string& variable) const
   int count = 0;
   if (nc_inq_varndims(file_, id, &count) != NC_NOERR || count < 0 || count > 8)
     fail(variable, "has dimensions that cannot be read");
-  std::vector<int> dimensions(static_cast<std::size_t>(count));
+  std::vector<int> dimensions(index(count));
   if (count > 0 && nc_inq_vardimid(file_, id, dimensions.data()) != NC_NOERR)
     fail(variable, "has dimensions that cannot be read");
   std::vector<std::size_t> shape;

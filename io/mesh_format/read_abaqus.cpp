@@ -8,6 +8,7 @@
 #include "io/mesh_file/line_reader.hpp"
 #include "io/mesh_file/mesh_builder.hpp"
 #include "io/mesh_format/abaqus_types.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -172,7 +173,7 @@ class AbaqusReader {
     while (next_data(line)) {
       const std::uint32_t begin = lines_.line();
       numbers.clear();
-      const auto wanted = static_cast<std::size_t>(type->nodes) + 1;
+      const auto wanted = index(type->nodes) + 1;
       while (true) {  // an element goes on on the next line
         split_at_commas(line, fields_);
         for (const std::string_view field : fields_)

@@ -11,6 +11,7 @@
 #include "io/mesh_file/mesh_builder.hpp"
 #include "io/mesh_file/mesh_file_error.hpp"
 #include "io/mesh_format/netcdf_file.hpp"
+#include "src/base/index.hpp"
 #include "src/base/state_archive.hpp"
 
 namespace brio {
@@ -142,7 +143,7 @@ class ExodusReader {
     if (place < 1 || place > static_cast<std::int64_t>(node_id_.size()))
       in_.fail(variable,
                "names node " + std::to_string(place) + "; there are " + std::to_string(node_id_.size()));
-    return node_id_[static_cast<std::size_t>(place) - 1];
+    return node_id_[index(place) - 1];
   }
 
   void read_block(std::size_t b, const std::string& name, std::int64_t number) {
@@ -186,8 +187,7 @@ class ExodusReader {
     if (found == name.end()) return {};
     const std::vector<double> all = in_.reals(values, elements * count);
     std::vector<double> volume(elements);
-    for (std::size_t e = 0; e < elements; ++e)
-      volume[e] = all[e * count + static_cast<std::size_t>(found - name.begin())];
+    for (std::size_t e = 0; e < elements; ++e) volume[e] = all[e * count + index(found - name.begin())];
     return volume;
   }
 
@@ -226,8 +226,7 @@ class ExodusReader {
           in_.fail(variable, "names element " + std::to_string(elements[i]) + "; there are " +
                                  std::to_string(element_id_.size()));
         constexpr std::int64_t most_sides = 100;
-        mesh_.add_side(name_of_set(names[s], "side_set_", numbers[s]),
-                       element_id_[static_cast<std::size_t>(elements[i]) - 1],
+        mesh_.add_side(name_of_set(names[s], "side_set_", numbers[s]), element_id_[index(elements[i]) - 1],
                        static_cast<int>(std::clamp<std::int64_t>(sides[i], 0, most_sides)), exodus_sides, 0);
       }
     }

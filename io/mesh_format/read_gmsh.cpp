@@ -9,6 +9,7 @@
 #include "io/mesh_file/element_kinds.hpp"
 #include "io/mesh_file/mesh_builder.hpp"
 #include "io/mesh_format/gmsh_source.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -145,7 +146,7 @@ class GmshReader {
     std::array<std::int64_t, 4> count{};
     for (std::int64_t& number : count) number = in_.count("the number of entities");
     for (int dimension = 0; dimension < 4; ++dimension) {
-      const std::int64_t entities = count[static_cast<std::size_t>(dimension)];
+      const std::int64_t entities = count[index(dimension)];
       in_.expect_room(entities, 1, 1, dimension == 0 ? 3 : 6, "entities");
       for (std::int64_t i = 0; i < entities; ++i) read_entity(dimension);
     }
@@ -171,7 +172,7 @@ class GmshReader {
     in_.count("the largest tag");
     in_.expect_room(blocks, 3, 1, 0, "blocks of nodes");
     in_.expect_room(nodes, 0, 1, 3, "nodes");
-    mesh_.reserve(static_cast<std::size_t>(nodes), 0, 0);
+    mesh_.reserve(index(nodes), 0, 0);
     for (std::int64_t b = 0; b < blocks; ++b) read_node_block();
     if (static_cast<std::int64_t>(mesh_.node_count()) != nodes)
       in_.fail(std::to_string(nodes) + " nodes are announced, but there are " +
@@ -204,7 +205,7 @@ class GmshReader {
     in_.count("the largest tag");
     in_.expect_room(blocks, 3, 1, 0, "blocks of elements");
     in_.expect_room(elements, 0, 2, 0, "elements");
-    mesh_.reserve(mesh_.node_count(), static_cast<std::size_t>(elements), 0);
+    mesh_.reserve(mesh_.node_count(), index(elements), 0);
     for (std::int64_t b = 0; b < blocks; ++b) read_element_block();
     if (static_cast<std::int64_t>(mesh_.element_count()) != elements)
       in_.fail(std::to_string(elements) + " elements are announced, but there are " +
@@ -226,7 +227,7 @@ class GmshReader {
     const std::optional<RefusedKind> refused =
         type->shape == ElementShape::refused ? std::optional(refused_kind(*type)) : std::nullopt;
     std::array<std::int64_t, 27> nodes{};
-    const std::span<std::int64_t> corners(nodes.data(), static_cast<std::size_t>(type->nodes));
+    const std::span<std::int64_t> corners(nodes.data(), index(type->nodes));
     for (std::int64_t i = 0; i < count; ++i) {
       const std::int64_t tag = in_.count("the tag of an element");
       const std::uint32_t line = in_.line();
@@ -239,7 +240,7 @@ class GmshReader {
 
   /// Groups without a name are called by dimension and tag, since each dimension has tags of its own.
   std::vector<std::size_t> blocks_of(int dimension, int entity) {
-    const auto place = static_cast<std::size_t>(dimension);
+    const auto place = index(dimension);
     const auto found = groups_of_entity_.find({dimension, entity});
     if (found == groups_of_entity_.end() || found->second.empty())
       return {mesh_.block(names_without_group[place])};

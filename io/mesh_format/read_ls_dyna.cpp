@@ -7,6 +7,7 @@
 #include "io/mesh_file/element_kinds.hpp"
 #include "io/mesh_file/line_reader.hpp"
 #include "io/mesh_file/mesh_builder.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -27,7 +28,7 @@ class Card {
     fields_.clear();
     for (const int width : widths) {
       if (line.empty()) break;
-      const auto taken = std::min(line.size(), static_cast<std::size_t>(width));
+      const auto taken = std::min(line.size(), index(width));
       fields_.push_back(trimmed(line.substr(0, taken)));
       line.remove_prefix(taken);
     }

@@ -12,6 +12,7 @@
 #include "io/mesh_format/read_exodus.hpp"
 #include "io/mesh_format/read_gmsh.hpp"
 #include "io/mesh_format/read_ls_dyna.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -26,7 +27,7 @@ std::string contents_of(const std::string& path, const std::string& name) {
   file.seekg(0, std::ios::end);
   const std::streamoff size = file.tellg();
   file.seekg(0);
-  std::string text(static_cast<std::size_t>(std::max<std::streamoff>(size, 0)), '\0');
+  std::string text(index(std::max<std::streamoff>(size, 0)), '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(text.size())))
     throw MeshFileError(name, 0, "cannot be read");
   return text;

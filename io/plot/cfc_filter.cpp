@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "io/yaml/yaml_source.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -70,7 +71,7 @@ nlohmann::json parts_of_deck(const std::string& deck_text, std::int64_t count) {
   const YamlNode* map = value_of(tree.get(), "parts");
   json parts = json::array();
   for (std::int64_t i = 0; i < count; ++i) {
-    const auto place = static_cast<std::size_t>(i);
+    const auto place = index(i);
     if (map != nullptr && place < map->entries.size())
       parts.push_back(part_of(map->entries[place]));
     else

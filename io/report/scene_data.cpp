@@ -8,6 +8,7 @@
 #include "io/report/deck_labels.hpp"
 #include "io/report/quantize.hpp"
 #include "io/report/surface.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -73,17 +74,17 @@ std::vector<std::size_t> compacted(std::vector<std::int64_t>& used) {
 }
 
 void number_what_is_seen(Scene& scene) {
-  std::vector<std::int64_t> node(static_cast<std::size_t>(scene.info.points), -1);
+  std::vector<std::int64_t> node(index(scene.info.points), -1);
   std::vector<std::int64_t> cell(scene.cells.size(), -1);
   for (const Facet& facet : scene.facets) {
     cell[facet.cell] = 0;
-    for (const std::int64_t n : facet.node) node[static_cast<std::size_t>(n)] = 0;
+    for (const std::int64_t n : facet.node) node[index(n)] = 0;
   }
   scene.node = compacted(node);
   scene.cell = compacted(cell);
   for (Facet& facet : scene.facets) {
-    facet.cell = static_cast<std::size_t>(cell[facet.cell]);
-    for (std::int64_t& n : facet.node) n = node[static_cast<std::size_t>(n)];
+    facet.cell = index(cell[facet.cell]);
+    for (std::int64_t& n : facet.node) n = node[index(n)];
   }
 }
 
@@ -118,7 +119,7 @@ void add_cells(const Scene& scene, const json& parts, PageTables& tables) {
   const std::vector<double> sizes = sizes_of_cells(scene);
   ByteTable part, size;
   for (const std::size_t c : scene.cell) {
-    const auto number = static_cast<std::size_t>(scene.cells.part[c]);
+    const auto number = index(scene.cells.part[c]);
     const bool is_known = sizes[c] > 0 || scene.cells.corners(c) != 4;
     part.add(static_cast<std::uint16_t>(number));
     size.add(static_cast<float>(is_known ? sizes[c] : parts[number].value("thickness", 0.0)));
@@ -130,7 +131,7 @@ void add_cells(const Scene& scene, const json& parts, PageTables& tables) {
 // Coordinates of nodes that are seen, by axis.
 std::array<std::vector<double>, 3> positions_in(const Scene& scene, std::size_t frame) {
   const ReadField field = scene.reader.field("position", scene.frames[frame]);
-  expect(field.components == 3 && field.rows == static_cast<std::size_t>(scene.info.points), scene.info,
+  expect(field.components == 3 && field.rows == index(scene.info.points), scene.info,
          "numbers of points differ between dumps");
   std::array<std::vector<double>, 3> place;
   for (const std::size_t n : scene.node)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -35,8 +37,7 @@ Facet facet_of(const SceneCells& cells, std::size_t cell) {
   const int corners = cells.corners(cell);
   facet.kind = corners == 4 ? Facet::Kind::shell : corners == 2 ? Facet::Kind::line : Facet::Kind::vertex;
   for (int k = 0; k < 4; ++k)
-    facet.node[static_cast<std::size_t>(k)] =
-        cells.connectivity[static_cast<std::size_t>(cells.offset[cell] + std::min(k, corners - 1))];
+    facet.node[index(k)] = cells.connectivity[index(cells.offset[cell] + std::min(k, corners - 1))];
   return facet;
 }
 
@@ -46,7 +47,7 @@ void add_sides(const SceneCells& cells, std::size_t cell, std::vector<Side>& sid
     side.part = cells.part[cell];
     side.facet = {.cell = cell, .until = cells.until[cell]};
     for (std::size_t k = 0; k < 4; ++k)
-      side.facet.node[k] = cells.connectivity[static_cast<std::size_t>(cells.offset[cell]) + corners[k]];
+      side.facet.node[k] = cells.connectivity[index(cells.offset[cell]) + corners[k]];
     if (set_key(side)) sides.push_back(side);
   }
 }
@@ -110,8 +111,8 @@ std::vector<std::size_t> thinned(std::size_t dumps, std::size_t limit) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < count; ++i)
     kept.push_back(count == 1 ? dumps - 1
-                              : static_cast<std::size_t>(std::lround(static_cast<double>(i * (dumps - 1)) /
-                                                                     static_cast<double>(count - 1))));
+                              : index(std::lround(static_cast<double>(i * (dumps - 1)) /
+                                                  static_cast<double>(count - 1))));
   return kept;
 }
 

@@ -11,6 +11,7 @@
 #include "io/files/hdf5_file.hpp"
 #include "io/files/read_apart.hpp"
 #include "io/files/text_file.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -31,7 +32,7 @@ class BlockWriter : public std::streambuf {
     begin_block();
   }
   void finish() {
-    const auto size = static_cast<std::size_t>(pptr() - pbase());
+    const auto size = index(pptr() - pbase());
     if (size == 0) return;
     file_.append_rows(bytes_table, size, H5T_NATIVE_UCHAR, block_.data());
     const std::int64_t row[] = {static_cast<std::int64_t>(size),
@@ -75,7 +76,7 @@ class BlockReader : public std::streambuf {
   bool next_block() {
     if (next_ == blocks_.size()) return false;
     const std::int64_t size = blocks_[next_];
-    block_.resize(static_cast<std::size_t>(size));
+    block_.resize(index(size));
     file_.read_bytes(bytes_table, first_, size, block_.data());
     if (std::bit_cast<std::int64_t>(checksum(block_.data(), block_.size())) != blocks_[next_ + 1])
       throw FileError(file_.path(), "is damaged: checksum of block " + std::to_string(next_ / 2));

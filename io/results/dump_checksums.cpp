@@ -7,6 +7,7 @@
 
 #include "io/files/checksum.hpp"
 #include "io/files/run_record.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -58,7 +59,7 @@ void verify_dumps(const Hdf5File& file, std::vector<string>& faults) {
   if (complete == 0 && !file.contains(dump_table)) return;
   const std::vector<string> names = file.read_texts(name_table);
   const std::vector<std::int64_t> records = read_records(file, dump_table, dump_columns);
-  std::vector<bool> seen(static_cast<std::size_t>(complete), false);
+  std::vector<bool> seen(index(complete), false);
   for (std::size_t i = 0; i < records.size(); i += dump_columns) {
     const std::int64_t dump = records[i], table = records[i + 1];
     const bool is_known = dump >= 0 && table >= 0 && table < static_cast<std::int64_t>(names.size());
@@ -68,8 +69,8 @@ void verify_dumps(const Hdf5File& file, std::vector<string>& faults) {
       continue;
     }
     if (dump == complete) continue;  // the process was killed before this dump was complete
-    const string& name = names[static_cast<std::size_t>(table)];
-    if (name == time_table) seen[static_cast<std::size_t>(dump)] = true;
+    const string& name = names[index(table)];
+    if (name == time_table) seen[index(dump)] = true;
     const string fault = fault_of(file, name, records[i + 2], records[i + 3], records[i + 4]);
     if (!fault.empty())
       faults.push_back(

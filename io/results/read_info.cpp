@@ -12,6 +12,7 @@
 #include "io/files/hdf5_file.hpp"
 #include "io/files/text_file.hpp"
 #include "io/results/dump_checksums.hpp"
+#include "src/base/index.hpp"
 #include "src/output/snapshot.hpp"
 
 namespace brio {
@@ -72,7 +73,7 @@ FieldInfo field_info(const Hdf5File& file, const string& where, const string& gr
   const string table = "/VTKHDF/" + group + "/" + name;
   const std::int64_t first = number_at(file, "/VTKHDF/Steps/" + group + "Offsets/" + name, dump);
   const std::vector<double> values = file.read_rows(table, first, rows);
-  FieldInfo info{where, name, rows > 0 ? static_cast<int>(values.size() / static_cast<std::size_t>(rows)) : 0,
+  FieldInfo info{where, name, rows > 0 ? static_cast<int>(values.size() / index(rows)) : 0,
                  std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double value : values) {
     if (std::isnan(value)) continue;  // what does not have the field

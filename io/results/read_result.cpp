@@ -9,6 +9,7 @@
 
 #include "io/files/hdf5_file.hpp"
 #include "io/files/text_file.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -25,8 +26,7 @@ std::int64_t number(const Hdf5File& file, const std::string& table, std::size_t 
 
 // Numbers of points, cells and corners stand by part of the file, of which a new topology makes a new one.
 std::int64_t count(const Hdf5File& file, const std::string& what, std::size_t dump) {
-  return number(file, root_group + what,
-                static_cast<std::size_t>(number(file, steps_group + "PartOffsets", dump)));
+  return number(file, root_group + what, index(number(file, steps_group + "PartOffsets", dump)));
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -40,7 +40,7 @@ std::vector<double> ReadHistory::column(const std::string& name, const std::file
   if (found == columns.end())
     throw FileError(file, "the history has no column '" + name + "'; it has " + listed(columns));
   std::vector<double> result;
-  for (auto i = static_cast<std::size_t>(found - columns.begin()); i < values.size(); i += columns.size())
+  for (auto i = index(found - columns.begin()); i < values.size(); i += columns.size())
     result.push_back(values[i]);
   return result;
 }
@@ -60,7 +60,7 @@ std::vector<std::string> ResultReader::history_columns() const {
 
 std::size_t ResultReader::dump_at(double time) const {
   const auto farther = [&](double a, double b) { return std::abs(a - time) < std::abs(b - time); };
-  return static_cast<std::size_t>(std::min_element(times_.begin(), times_.end(), farther) - times_.begin());
+  return index(std::min_element(times_.begin(), times_.end(), farther) - times_.begin());
 }
 
 ReadField ResultReader::field(const std::string& name, std::size_t dump) const {
@@ -86,7 +86,7 @@ ReadField ResultReader::field(const std::string& name, std::size_t dump) const {
     result.values = file.read_rows(root_group + group + "/" + name,
                                    number(file, steps_group + group + "Offsets/" + name, dump), rows);
   }
-  result.rows = static_cast<std::size_t>(rows);
+  result.rows = index(rows);
   result.components = rows > 0 ? result.values.size() / result.rows : 1;
   return result;
 }

@@ -7,6 +7,7 @@
 #include "io/files/checksum.hpp"
 #include "io/files/hdf5_file.hpp"
 #include "io/results/dump_checksums.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -36,7 +37,7 @@ hid_t file_type(Storage storage) {
 }
 
 /// One dump of a small scene fills one chunk.
-hsize_t chunk_rows(std::int64_t rows_of_a_dump) {
+hsize_t chunk_rows_for(std::int64_t rows_of_a_dump) {
   return std::clamp(static_cast<hsize_t>(rows_of_a_dump), smallest_chunk_rows, largest_chunk_rows);
 }
 
@@ -102,8 +103,7 @@ std::vector<StoredPart> parts_of(const Snapshot& snapshot, std::int64_t row) {
   for (const SnapshotPart& part : snapshot.parts) {
     StoredPart& stored = parts.emplace_back(StoredPart{.range = part});
     if (part.cells == 0) continue;
-    const auto first = static_cast<std::size_t>(part.first_cell),
-               last = static_cast<std::size_t>(part.first_cell + part.cells);
+    const auto first = index(part.first_cell), last = index(part.first_cell + part.cells);
     stored.type = static_cast<CellType>(topology.cell_type[first]);
     assert(std::all_of(topology.cell_type.begin() + part.first_cell,
                        topology.cell_type.begin() + part.first_cell + part.cells,
@@ -138,7 +138,7 @@ void VtkhdfWriter::create_fields(Hdf5File& file, const string& group, const std:
     assert(!field.name.empty() && field.name.find('/') == string::npos && field.components > 0);
     const auto columns = static_cast<hsize_t>(field.components);
     file.create_table(inside(inside(root, group), field.name),
-                      {file_type(field.storage), columns, chunk_rows(rows), compression});
+                      {file_type(field.storage), columns, chunk_rows_for(rows), compression});
     file.create_table(inside(offsets_group(group), field.name), {H5T_STD_I64LE, 0, step_chunk_rows});
   }
 }
@@ -155,10 +155,10 @@ void VtkhdfWriter::create_layout(Hdf5File& file, const Snapshot& snapshot, const
   for (const char* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"}) {
     file.create_table(inside(root, name), {H5T_STD_I64LE, 0, step_chunk_rows});
   }
-  file.create_table(root + "/Points", {H5T_IEEE_F64LE, 3, chunk_rows(points), compression_});
-  file.create_table(root + "/Connectivity", {H5T_STD_I64LE, 0, chunk_rows(corners)});
-  file.create_table(root + "/Offsets", {H5T_STD_I64LE, 0, chunk_rows(cells + 1)});
-  file.create_table(root + "/Types", {H5T_STD_U8LE, 0, chunk_rows(cells)});
+  file.create_table(root + "/Points", {H5T_IEEE_F64LE, 3, chunk_rows_for(points), compression_});
+  file.create_table(root + "/Connectivity", {H5T_STD_I64LE, 0, chunk_rows_for(corners)});
+  file.create_table(root + "/Offsets", {H5T_STD_I64LE, 0, chunk_rows_for(cells + 1)});
+  file.create_table(root + "/Types", {H5T_STD_U8LE, 0, chunk_rows_for(cells)});
   for (const char* name : {"PartOffsets", "NumberOfParts", "PointOffsets"}) {
     file.create_table(inside(steps, name), {H5T_STD_I64LE, 0, step_chunk_rows});
   }
@@ -174,7 +174,7 @@ void VtkhdfWriter::create_layout(Hdf5File& file, const Snapshot& snapshot, const
   }
   if (!is_shown_by_parts(snapshot)) {
     file.create_group("/xdmf");
-    file.create_table(mixed_topology, {H5T_STD_I64LE, 0, chunk_rows(corners)});
+    file.create_table(mixed_topology, {H5T_STD_I64LE, 0, chunk_rows_for(corners)});
   }
   file.create_table(steps + "/Values", {H5T_IEEE_F64LE, 0, step_chunk_rows});
 }
@@ -282,7 +282,7 @@ StoredDump VtkhdfWriter::append(Hdf5File& file, const Snapshot& snapshot) {
   std::vector<FieldArray> zeros;
   if (nothing_left) {
     zeros = snapshot.cell_fields;
-    for (FieldArray& field : zeros) field.values.assign(static_cast<std::size_t>(field.components), 0.0);
+    for (FieldArray& field : zeros) field.values.assign(index(field.components), 0.0);
   }
   append_fields(file, "CellData", nothing_left ? zeros : snapshot.cell_fields, next.cells, new_topology,
                 next.fixed_cell_row, dump.cell_fields);

@@ -1,6 +1,7 @@
 #include "io/run/check_deck.hpp"
 
 #include "io/run/run_deck.hpp"
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 
 namespace brio {
@@ -35,10 +36,10 @@ CheckReport check_deck(const ForecastOptions& given, const std::function<void(co
   report.stable_step = model.control.stable;
   report.first_step = model.times.next;
   report.critical_part = model.parts[model.control.critical_block].name;
-  report.critical_element = static_cast<std::size_t>(
-      model.parts[model.control.critical_block].number_of_element(model.control.critical_element));
+  report.critical_element =
+      index(model.parts[model.control.critical_block].number_of_element(model.control.critical_element));
   if (const int spring = model.springs.critical; spring >= 0)
-    report.critical_spring = model.springs.spring[static_cast<std::size_t>(spring)].name;
+    report.critical_spring = model.springs.spring[index(spring)].name;
   report.active_features = active_features(model);
   report.not_built = features_not_built(model);
   report.warnings = scene_warnings(deck, model);

@@ -18,6 +18,7 @@
 #include "io/restart/deck_difference.hpp"
 #include "io/run/earlier_result.hpp"
 #include "io/yaml/deck_error.hpp"
+#include "src/base/index.hpp"
 #include "src/fields/cell_variables.hpp"
 
 namespace brio {
@@ -190,16 +191,16 @@ class PartStateReader {
 
   // Points of nodes, by the corners of elements.
   void find_points(const Mesh& mesh, std::int64_t number) {
-    constexpr std::size_t unknown = static_cast<std::size_t>(-1);
+    constexpr std::size_t unknown = index(-1);
     point_.assign(mesh.position.size(), unknown);
     const std::vector<std::int64_t> id = ids_of_points(mesh, number);
-    const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+    const auto corners = index(mesh.nodes_per_element);
     std::unordered_map<std::size_t, std::size_t> node_of;
     for (std::size_t e = 0; e < cell_.size(); ++e) {
-      const auto first = static_cast<std::size_t>(cells_.offset[cell_[e]]);
+      const auto first = index(cells_.offset[cell_[e]]);
       for (std::size_t corner = 0; corner < corners; ++corner) {
-        const auto node = static_cast<std::size_t>(mesh.connectivity[e * corners + corner]);
-        const auto point = static_cast<std::size_t>(cells_.connectivity[first + corner]);
+        const auto node = index(mesh.connectivity[e * corners + corner]);
+        const auto point = index(cells_.connectivity[first + corner]);
         const bool has_same_id = id.empty() || id[point] < 0 || id[point] == mesh.node_id[node];
         if (point_[node] == unknown) point_[node] = point;
         if (!has_same_id || point_[node] != point || node_of.emplace(point, node).first->second != node)
@@ -217,9 +218,8 @@ class PartStateReader {
       ids.push_back(static_cast<std::int64_t>(id));
     for (std::size_t c = 0; c < cells_.part.size(); ++c)
       if (cells_.part[c] != number)
-        for (auto k = static_cast<std::size_t>(cells_.offset[c]);
-             k < static_cast<std::size_t>(cells_.offset[c + 1]); ++k)
-          ids[static_cast<std::size_t>(cells_.connectivity[k])] = -1;
+        for (auto k = index(cells_.offset[c]); k < index(cells_.offset[c + 1]); ++k)
+          ids[index(cells_.connectivity[k])] = -1;
     return ids;
   }
 
@@ -285,7 +285,7 @@ std::uint64_t checksum_of_file(const fs::path& path) {
   std::vector<std::uint64_t> sums;
   while (file) {
     file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    sums.push_back(checksum(block.data(), static_cast<std::size_t>(file.gcount())));
+    sums.push_back(checksum(block.data(), index(file.gcount())));
   }
   return checksum(sums.data(), sums.size() * sizeof(std::uint64_t));
 }
@@ -308,8 +308,7 @@ std::vector<PartState> read_initial_states(const Deck& deck, std::span<Mesh> mes
   std::map<fs::path, EarlierResult> results;  // each is verified once
   for_each_source(deck, [&](std::size_t condition, const StateSource& source) {
     const std::string& name = deck.initial_conditions[condition].where.set;
-    const auto part =
-        static_cast<std::size_t>(std::ranges::find(deck.parts, name, &Part::name) - deck.parts.begin());
+    const auto part = index(std::ranges::find(deck.parts, name, &Part::name) - deck.parts.begin());
     for (const PartState& before : states)
       if (before.part == part)
         throw DeckError(source.place + ": part '" + name + "' begins with two states; one is accepted");

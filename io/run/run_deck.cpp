@@ -15,6 +15,7 @@
 #include "io/run/run_output.hpp"
 #include "io/run/scene_size.hpp"
 #include "io/yaml/deck_error.hpp"
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/run_warnings.hpp"
@@ -40,7 +41,7 @@ double peak_memory_mb() {
 
 std::string critical_of(const Model& model) {
   if (const int spring = model.springs.critical; spring >= 0)
-    return "spring " + model.springs.spring[static_cast<std::size_t>(spring)].name;
+    return "spring " + model.springs.spring[index(spring)].name;
   const PartInModel& part = model.parts[model.control.critical_block];
   return part.name + " " + std::to_string(part.number_of_element(model.control.critical_element));
 }
@@ -261,7 +262,7 @@ void make_first_step(const Deck& deck, Model& model, ThreadTeam& team) {
 int threads_of(const Model& model, int threads, bool by_size) {
   constexpr std::size_t nodes_a_thread = 1000;  // those of rigid parts too: they are in contact
   const std::size_t wanted = std::max<std::size_t>(model.nodes.size() / nodes_a_thread, 1);
-  return by_size && wanted < static_cast<std::size_t>(threads) ? static_cast<int>(wanted) : threads;
+  return by_size && wanted < index(threads) ? static_cast<int>(wanted) : threads;
 }
 
 RunOutcome run_deck(const RunOptions& options) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/schema/write_schema.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -147,7 +148,7 @@ void write_inner(const std::string& path, const Schema& object, int level, std::
 /// A section of the reference, and below it those of what stands inside.
 void write_schema(const std::string& path, const Schema& schema, int level, std::string& out) {
   const auto heading = [&](const std::string& text) {
-    out += fmt::format("\n{} {}\n", std::string(static_cast<std::size_t>(level), '#'), text);
+    out += fmt::format("\n{} {}\n", std::string(index(level), '#'), text);
   };
   if (schema.contains("properties")) {
     heading(path);

@@ -8,6 +8,7 @@
 
 #include "io/files/file_error.hpp"
 #include "io/results/read_result.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -36,7 +37,7 @@ double interpolated(const Values& time, const Values& value, double at) {
   const auto after = std::lower_bound(time.begin(), time.end(), at);
   if (after == time.begin()) return value.front();
   if (after == time.end()) return value.back();
-  const auto i = static_cast<std::size_t>(after - time.begin());
+  const auto i = index(after - time.begin());
   const double share = (at - time[i - 1]) / (time[i] - time[i - 1]);
   return value[i - 1] + share * (value[i] - value[i - 1]);
 }
@@ -118,8 +119,8 @@ class Measurement {
       return field.values;
     }
     const auto place = [&]() -> std::size_t {
-      const auto index = static_cast<std::size_t>(*quantity.component);
-      return index < 3 ? index : index - 3;
+      const std::size_t component = index(*quantity.component);
+      return component < 3 ? component : component - 3;
     }();
     const bool of_tensor = *quantity.component >= Component::xx && *quantity.component <= Component::xz;
     const bool whole = *quantity.component >= Component::magnitude;
@@ -169,8 +170,7 @@ class Measurement {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         double sum = 0;
         for (auto i = cells.offset[c]; i < cells.offset[c + 1]; ++i)
-          sum +=
-              position[3 * static_cast<std::size_t>(cells.connectivity[static_cast<std::size_t>(i)]) + axis];
+          sum += position[3 * index(cells.connectivity[index(i)]) + axis];
         result.push_back(sum / static_cast<double>(cells.offset[c + 1] - cells.offset[c]));
       }
     return result;
@@ -191,7 +191,7 @@ class Measurement {
       if (!field.of_points) result.push_back(c);
       if (field.of_points)
         for (auto i = cells.offset[c]; i < cells.offset[c + 1]; ++i)
-          result.push_back(static_cast<std::size_t>(cells.connectivity[static_cast<std::size_t>(i)]));
+          result.push_back(index(cells.connectivity[index(i)]));
     }
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());

@@ -21,6 +21,7 @@
 #include "io/study/measure_quantity.hpp"
 #include "io/study/read_study.hpp"
 #include "io/study/run_processes.hpp"
+#include "src/base/index.hpp"
 #include "src/forecast/pareto.hpp"
 
 namespace brio {
@@ -250,7 +251,7 @@ class StudyInRun {
   }
 
   void measure(StudyRow& row) {
-    const auto run = static_cast<std::size_t>(&row - table_.rows.data());
+    const auto run = index(&row - table_.rows.data());
     if (!row.has_run || row.exit_code != 0) return;
     try {
       std::vector<double> figures =

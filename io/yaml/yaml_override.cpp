@@ -2,6 +2,7 @@
 #include <charconv>
 
 #include "io/yaml/yaml_source.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -137,7 +138,7 @@ constexpr int block_depth = 3;
 
 void write_block(const YamlNode& map, int depth, std::string& out) {
   for (const YamlEntry& entry : map.entries) {
-    out.append(2 * static_cast<std::size_t>(depth), ' ');
+    out.append(2 * index(depth), ' ');
     write_scalar(entry.key, false, out);
     out += ':';
     const YamlNode& value = *entry.value;

@@ -14,6 +14,7 @@
 #include <unordered_set>
 
 #include "io/files/utf8.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -234,7 +235,7 @@ std::string read_text_file(const std::string& path) {
   std::string text;
   std::string piece(std::size_t{1} << 16, '\0');
   while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0) {
-    text.append(piece, 0, static_cast<std::size_t>(file.gcount()));
+    text.append(piece, 0, index(file.gcount()));
     if (text.size() > largest_deck)
       throw DeckError(path + ": is too long for a deck; at most 256 MiB are read");
   }

@@ -11,6 +11,7 @@
 
 #include "materials/hardening.hpp"
 #include "materials/tabulated/yield_table.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -110,7 +111,7 @@ struct TabulatedHardening {
 
   BRIO_INLINE double blend(const double* (YieldTable::*values)(std::size_t) const, std::size_t row,
                            int lane) const {
-    const auto first = static_cast<std::size_t>(curve[lane]);
+    const auto first = index(curve[lane]);
     const double value = tabulated::lane_of(lower, lane) * (table->*values)(first)[row];
     if (table->curves() == 1) return value;
     return value + tabulated::lane_of(upper, lane) * (table->*values)(first + 1)[row];
@@ -124,7 +125,7 @@ struct TabulatedHardening {
     const double* strain = table->strain();
     Piece piece;
     for (int lane = 0; lane < lanes; ++lane) {
-      const auto row = static_cast<std::size_t>(row_of_lane(lane));
+      const auto row = index(row_of_lane(lane));
       const bool is_last = row + 1 == table->size();
       tabulated::set_lane_of(piece.start, lane, strain[row]);
       tabulated::set_lane_of(piece.end, lane,

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 class DisjointSets {
@@ -23,7 +25,7 @@ class DisjointSets {
   }
 
  private:
-  int& at(int number) { return parent_[static_cast<std::size_t>(number)]; }
+  int& at(int number) { return parent_[index(number)]; }
   std::vector<int> parent_;
 };
 

@@ -6,6 +6,7 @@
 /// has been seen to let two of them that are in use share a place (held by the tests of the sweep;
 /// -fstack-reuse=none cures it too).
 
+#include "src/base/index.hpp"
 #include "src/base/lanes.hpp"
 #include "src/base/nodes.hpp"
 
@@ -148,7 +149,7 @@ BRIO_INLINE WideVector<Real> gather_rows(const double* first, std::size_t stride
     Row4 rows[8];
 #pragma GCC unroll 8
     for (int lane = 0; lane < 8; ++lane)
-      rows[lane] = load_row(first + stride * static_cast<std::size_t>(node[8 * group + lane]));
+      rows[lane] = load_row(first + stride * index(node[8 * group + lane]));
     transpose_rows(rows, wide.x[group], wide.y[group], wide.z[group]);
   }
   return wide;

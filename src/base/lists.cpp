@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 void Lists::loosen() {
@@ -19,10 +21,10 @@ void Lists::add_list() {
 }
 
 void Lists::make_room(int list, std::size_t size) {
-  const auto l = static_cast<std::size_t>(list);
-  const auto begin = static_cast<std::size_t>(first[l]);
-  if (begin + size <= static_cast<std::size_t>(room[l])) return;
-  const auto length = static_cast<std::size_t>(end[l]) - begin;
+  const auto l = index(list);
+  const auto begin = index(first[l]);
+  if (begin + size <= index(room[l])) return;
+  const auto length = index(end[l]) - begin;
   const std::size_t to = item.size();
   item.resize(to + size + size / 2 + 2);
   std::copy_n(item.begin() + first[l], length, item.begin() + static_cast<std::ptrdiff_t>(to));
@@ -34,9 +36,9 @@ void Lists::make_room(int list, std::size_t size) {
 bool Lists::insert(int list, int value) {
   const auto values = of(list);
   const auto at = std::lower_bound(values.begin(), values.end(), value) - values.begin();
-  if (at != std::ssize(values) && values[static_cast<std::size_t>(at)] == value) return false;
+  if (at != std::ssize(values) && values[index(at)] == value) return false;
   make_room(list, values.size() + 1);
-  const auto l = static_cast<std::size_t>(list);
+  const auto l = index(list);
   const auto place = item.begin() + first[l] + at;
   std::copy_backward(place, item.begin() + end[l], item.begin() + end[l] + 1);
   *place = value;
@@ -47,15 +49,15 @@ bool Lists::insert(int list, int value) {
 bool Lists::erase(int list, int value) {
   const auto values = of(list);
   const auto at = std::lower_bound(values.begin(), values.end(), value) - values.begin();
-  if (at == std::ssize(values) || values[static_cast<std::size_t>(at)] != value) return false;
-  const auto l = static_cast<std::size_t>(list);
+  if (at == std::ssize(values) || values[index(at)] != value) return false;
+  const auto l = index(list);
   std::copy(item.begin() + first[l] + at + 1, item.begin() + end[l], item.begin() + first[l] + at);
   --end[l];
   return true;
 }
 
 void Lists::assign(int list, std::span<const int> values) {
-  const auto l = static_cast<std::size_t>(list);
+  const auto l = index(list);
   end[l] = first[l];
   make_room(list, values.size());
   std::copy(values.begin(), values.end(), item.begin() + first[l]);

@@ -1,9 +1,12 @@
 #pragma once
-/// Lists of different lengths in one array.
+/// Lists of different lengths in one array; lists in ascending order.
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -16,9 +19,9 @@ struct Lists {
   std::vector<int> room;  ///< where the room of each list ends; empty while packed
 
   std::span<const int> of(int list) const {
-    const auto l = static_cast<std::size_t>(list);
-    const auto begin = static_cast<std::size_t>(first[l]);
-    return {item.data() + begin, static_cast<std::size_t>(end.empty() ? first[l + 1] : end[l]) - begin};
+    const auto l = index(list);
+    const auto begin = index(first[l]);
+    return {item.data() + begin, index(end.empty() ? first[l + 1] : end[l]) - begin};
   }
 
   /// Begin anew with packed lists, all of them empty.
@@ -32,7 +35,7 @@ struct Lists {
   void loosen();
   /// Of loosened lists: append an empty one; empty one.
   void add_list();
-  void clear(int list) { end[static_cast<std::size_t>(list)] = first[static_cast<std::size_t>(list)]; }
+  void clear(int list) { end[index(list)] = first[index(list)]; }
   /// Of loosened ascending lists: put in what is not yet in, take out what is in. \returns whether it
   /// changed.
   bool insert(int list, int value);
@@ -49,5 +52,12 @@ struct Lists {
  private:
   void make_room(int list, std::size_t size);
 };
+
+/// Ascending, each but once.
+template <class T>
+void sort_out(std::vector<T>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
 
 }  // namespace brio

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "src/base/aligned.hpp"
+#include "src/base/index.hpp"
 #include "src/base/tensor.hpp"
 
 namespace brio {
@@ -70,7 +71,7 @@ struct Nodes {
   /// Null: the global axes.
   const SupportAxes* own_axes(std::size_t node) const {
     if (axes_of.empty() || axes_of[node] < 0) return nullptr;
-    return &support_axes[static_cast<std::size_t>(axes_of[node])];
+    return &support_axes[index(axes_of[node])];
   }
   /// Bits 0 to 2 for the components of the translation, or of the rotation, that are prescribed.
   int prescribed_translations(std::size_t node) const {

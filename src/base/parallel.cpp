@@ -5,6 +5,8 @@
 #include <system_error>
 #include <utility>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -19,7 +21,7 @@ constexpr std::uint64_t ticket_of(std::uint32_t loop, std::uint64_t task) {
   return static_cast<std::uint64_t>(loop) << task_bits | task;
 }
 std::uint32_t loop_of(std::uint64_t ticket) { return static_cast<std::uint32_t>(ticket >> task_bits); }
-std::size_t task_of(std::uint64_t ticket) { return static_cast<std::size_t>(ticket & task_mask); }
+std::size_t task_of(std::uint64_t ticket) { return index(ticket & task_mask); }
 
 inline void pause_briefly() {
 #if defined(__x86_64__)
@@ -31,7 +33,7 @@ inline void pause_briefly() {
 
 ThreadTeam::ThreadTeam(int count) {
   assert(count >= 1);
-  workers_.reserve(static_cast<std::size_t>(count - 1));
+  workers_.reserve(index(count - 1));
   try {
     for (int i = 1; i < count; ++i) workers_.emplace_back([this] { work(); });
   } catch (const std::system_error& fault) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "elements/base/bad_element.hpp"
+#include "src/base/index.hpp"
 #include "src/build/build_loads.hpp"
 #include "src/build/build_rigid.hpp"
 #include "src/build/build_ties.hpp"
@@ -50,7 +51,7 @@ std::size_t place_parts(const Deck& deck, std::span<const Mesh> meshes, const Sh
   };
   for (std::size_t p = 0; p < deck.parts.size(); ++p) {
     const Mesh& mesh = meshes[p];
-    const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+    const auto corners = index(mesh.nodes_per_element);
     PartInModel part;
     part.name = deck.parts[p].name;
     part.block = p;
@@ -61,10 +62,10 @@ std::size_t place_parts(const Deck& deck, std::span<const Mesh> meshes, const Sh
     part.element_id = mesh.element_id;
     std::vector<int> nodes;
     for (std::size_t slot = 0; slot < part.element_order.size(); ++slot) {
-      const auto e = static_cast<std::size_t>(part.element_order[slot]);
+      const auto e = index(part.element_order[slot]);
       part.element_slot[e] = static_cast<int>(slot);
       for (std::size_t corner = 0; corner < corners; ++corner) {
-        const auto corner_node = static_cast<std::size_t>(mesh.connectivity[e * corners + corner]);
+        const auto corner_node = index(mesh.connectivity[e * corners + corner]);
         int& node = part.node[corner_node];
         if (node < 0) node = number_of(corner_node);
         nodes.push_back(node);
@@ -79,7 +80,7 @@ std::size_t place_parts(const Deck& deck, std::span<const Mesh> meshes, const Sh
     model.parts.push_back(std::move(part));
     offset += mesh.position.size();
   }
-  return static_cast<std::size_t>(next);
+  return index(next);
 }
 
 // Generated meshes go on after the largest numbers of mesh files, in the order of the deck.
@@ -111,8 +112,7 @@ void fill_nodes(const Deck& deck, std::span<const Mesh> meshes, const SharedNode
     for (std::size_t i = 0; i < meshes[p].position.size(); ++i) {
       if (!shared.same_as.empty() && shared.same_as[offset + i] != offset + i) continue;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        model.nodes.record[static_cast<std::size_t>(model.parts[p].node[i])].position[axis] =
-            meshes[p].position[i][axis];
+        model.nodes.record[index(model.parts[p].node[i])].position[axis] = meshes[p].position[i][axis];
     }
     offset += meshes[p].position.size();
   }
@@ -139,14 +139,14 @@ void make_blocks(const Deck& deck, const std::vector<std::vector<int>>& connecti
 // By place in the block.
 std::vector<double> particle_volumes(const Mesh& mesh, const PartInModel& part) {
   std::vector<double> volume;
-  for (const int e : part.element_order) volume.push_back(mesh.volume[static_cast<std::size_t>(e)]);
+  for (const int e : part.element_order) volume.push_back(mesh.volume[index(e)]);
   return volume;
 }
 
 void add_point_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
   for (const PointMass& point : deck.point_masses)
     for (const int entry : select_nodes(point.where, deck, meshes, model)) {
-      double& mass = model.nodes.mass[static_cast<std::size_t>(entry)];
+      double& mass = model.nodes.mass[index(entry)];
       if (!(mass > 0))
         throw BuildError("a point mass on a node of a rigid part; accepted are nodes of parts that deform",
                          point.where.place);
@@ -165,7 +165,7 @@ void start_elements(const Deck& deck, std::span<const Mesh> meshes, Model& model
       model.blocks[p].kernel.initialize(model.blocks[p], nodes);
     } catch (const BadElement& fault) {
       const PartInModel& part = model.parts[p];
-      const auto element = static_cast<std::size_t>(part.element_order[fault.place]);
+      const auto element = index(part.element_order[fault.place]);
       throw BuildError("element " + std::to_string(part.number_of_element(element)) + " of part '" +
                            part.name + "' " + fault.rule,
                        deck.parts[p].place);
@@ -198,7 +198,7 @@ void mark_joined(const Model& model, Surface& surface) {
   if (model.rigid.has_joints()) surface.rigid_of_node.resize(model.nodes.size(), -1);
   for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
     for (const std::size_t i : model.rigid.body[b].joint)
-      surface.rigid_of_node[static_cast<std::size_t>(model.rigid.body[b].node[i])] = static_cast<int>(b);
+      surface.rigid_of_node[index(model.rigid.body[b].node[i])] = static_cast<int>(b);
 }
 
 double debris_radius(const Part& part) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <utility>
 
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/build/build_rigid.hpp"
 #include "src/deck/part_index.hpp"
@@ -31,16 +32,14 @@ std::vector<PressureLoad> pressures_on(const Pressure& load_entry, const Deck& d
     const Mesh& mesh = meshes[p];
     const auto found = mesh.side_sets.find(side_set.substr(dot_at + 1));
     if (found == mesh.side_sets.end()) continue;
-    const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+    const auto corners = index(mesh.nodes_per_element);
     PressureLoad load{{}, load_entry.pressure, static_cast<int>(p), {}};
     for (const ElementSide& side : found->second) {
       std::array<int, 4> nodes{};
       for (std::size_t k = 0; k < 4; ++k) {
-        const int corner =
-            corners == 8 ? sides_of_hex[static_cast<std::size_t>(side.side)][k] : static_cast<int>(k);
-        const auto entry =
-            static_cast<std::size_t>(side.element) * corners + static_cast<std::size_t>(corner);
-        nodes[k] = model.parts[p].node[static_cast<std::size_t>(mesh.connectivity[entry])];
+        const int corner = corners == 8 ? sides_of_hex[index(side.side)][k] : static_cast<int>(k);
+        const auto entry = index(side.element) * corners + index(corner);
+        nodes[k] = model.parts[p].node[index(mesh.connectivity[entry])];
       }
       load.sides.push_back(nodes);
       load.element.push_back(side.element);
@@ -62,8 +61,7 @@ void turn_to_global(NodalLoad& load, const Deck& deck, const std::string& system
   const std::vector<SystemAxes> axes = axes_at_nodes(deck, system, load.nodes, place, model);
   for (std::size_t k = 0; k < axes.size(); ++k) {
     const bool across = components[0] != 0 || components[1] != 0;
-    if (across && is_zero(axes[k][0]))
-      refuse_on_axis(model, static_cast<std::size_t>(load.nodes[k]), system, place);
+    if (across && is_zero(axes[k][0])) refuse_on_axis(model, index(load.nodes[k]), system, place);
     load.own_force.push_back(from_components(axes[k], components));
   }
   if (std::ranges::adjacent_find(load.own_force, std::not_equal_to<>()) != load.own_force.end()) return;
@@ -85,7 +83,7 @@ GravityLoad gravity_of(const Gravity& entry, const Deck& deck) {
 }
 
 bool turns(int node, const Nodes& nodes) {
-  return nodes.has_rotations() && nodes.rotational_inertia[static_cast<std::size_t>(node)] > 0;
+  return nodes.has_rotations() && nodes.rotational_inertia[index(node)] > 0;
 }
 
 NodalLoad moment_on(const NodalMoment& entry, const Deck& deck, std::span<const Mesh> meshes,
@@ -122,11 +120,11 @@ std::vector<int> in_order_of_numbers(std::vector<int> nodes, const Model& model)
   std::vector<std::uint8_t> is_known(model.nodes.size(), 0);
   for (std::size_t p = 0; p < model.parts.size(); ++p)
     for (std::size_t i = 0; i < model.parts[p].node.size(); ++i) {
-      const auto node = static_cast<std::size_t>(model.parts[p].node[i]);
+      const auto node = index(model.parts[p].node[i]);
       if (is_known[node] == 0) key[node] = {static_cast<std::int64_t>(p), model.parts[p].number_of_node(i)};
       is_known[node] = 1;
     }
-  std::ranges::sort(nodes, {}, [&](int node) { return key[static_cast<std::size_t>(node)]; });
+  std::ranges::sort(nodes, {}, [&](int node) { return key[index(node)]; });
   return nodes;
 }
 
@@ -191,7 +189,7 @@ class Fastening {
 
   Vector3d place_of(const SpringAnchor& anchor) const {
     if (anchor.node < 0) return anchor.point;
-    return Vector3d(model_.nodes.record[static_cast<std::size_t>(anchor.node)].position);
+    return Vector3d(model_.nodes.record[index(anchor.node)].position);
   }
 
   /// \return the distance of its ends
@@ -298,7 +296,7 @@ class Fastening {
     if (is_new) masses.push_back({.node = anchor.node, .body = anchor.body});
     AnchoredMass& mass = masses[found->second];
     if (anchor.body >= 0 && !is_torsional) {  // a moment has no arm
-      const Vector3d centre = model_.rigid.body[static_cast<std::size_t>(anchor.body)].centre;
+      const Vector3d centre = model_.rigid.body[index(anchor.body)].centre;
       mass.arm = std::max(mass.arm, (place_of(anchor) - centre).norm());
     }
     return found->second;
@@ -346,7 +344,7 @@ void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, std:
     std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
     take_rigid(nodes, condition.where, model);
     for (int entry : nodes) {
-      const auto node = static_cast<std::size_t>(entry);
+      const auto node = index(entry);
       NodeRecord& record = model.nodes.record[node];
       Vector velocity = condition.velocity;
       if (condition.spin) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/deck/mass_properties.hpp"
 #include "src/motion/skew_supports.hpp"
@@ -45,8 +46,7 @@ MassProperties mass_of(const Part& part, const Rigid& rigid, const Mesh& mesh, c
 
 void measure_arms(const Nodes& nodes, RigidBody& body) {
   body.arm.clear();
-  for (int node : body.node)
-    body.arm.push_back(Vector3d(nodes.record[static_cast<std::size_t>(node)].position) - body.centre);
+  for (int node : body.node) body.arm.push_back(Vector3d(nodes.record[index(node)].position) - body.centre);
 }
 
 RigidBody make_body(std::size_t p, const Part& part, const Mesh& mesh, const Deck& deck, const Model& model) {
@@ -63,8 +63,7 @@ RigidBody make_body(std::size_t p, const Part& part, const Mesh& mesh, const Dec
   body.node = model.parts[p].node;
   std::sort(body.node.begin(), body.node.end());
   measure_arms(model.nodes, body);
-  for (int node : mesh.connectivity)
-    body.connectivity.push_back(model.parts[p].node[static_cast<std::size_t>(node)]);
+  for (int node : mesh.connectivity) body.connectivity.push_back(model.parts[p].node[index(node)]);
   return body;
 }
 
@@ -128,7 +127,7 @@ void join_nodes(Model& model) {
   std::vector<std::uint8_t> of_elements(model.nodes.size(), 0);
   for (const PartInModel& part : model.parts)
     if (part.rigid < 0)
-      for (const int node : part.node) of_elements[static_cast<std::size_t>(node)] = 1;
+      for (const int node : part.node) of_elements[index(node)] = 1;
   for (RigidBody& body : model.rigid.body) {
     for (const TiedNode& tied : model.ties.joined)
       if (tied.face_part == static_cast<int>(body.part)) body.node.push_back(tied.tie.node);
@@ -136,7 +135,7 @@ void join_nodes(Model& model) {
     body.node.erase(std::unique(body.node.begin(), body.node.end()), body.node.end());
     body.joint.clear();
     for (std::size_t i = 0; i < body.node.size(); ++i)
-      if (of_elements[static_cast<std::size_t>(body.node[i])] != 0) body.joint.push_back(i);
+      if (of_elements[index(body.node[i])] != 0) body.joint.push_back(i);
     body.joint_before.resize(body.joint.size());
     measure_arms(model.nodes, body);
   }
@@ -146,7 +145,7 @@ void join_masses(Model& model) {
   Nodes& nodes = model.nodes;
   for (RigidBody& body : model.rigid.body) {
     if (body.joint.empty()) continue;
-    const auto at = [&](std::size_t i) { return static_cast<std::size_t>(body.node[i]); };
+    const auto at = [&](std::size_t i) { return index(body.node[i]); };
     const auto place_of = [&](std::size_t i) { return Vector3d(nodes.record[at(i)].position); };
     body.mass = body.own.mass;
     Vector3d moment = body.own.mass * body.own.centre;
@@ -171,27 +170,27 @@ void release_joined(Model& model) {
   std::vector<int> body_of_node(model.rigid.has_joints() ? model.nodes.size() : 0, -1);
   for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
     for (const std::size_t i : model.rigid.body[b].joint) {
-      int& owner = body_of_node[static_cast<std::size_t>(model.rigid.body[b].node[i])];
+      int& owner = body_of_node[index(model.rigid.body[b].node[i])];
       if (owner >= 0)
         throw BuildError("a node would belong to the rigid parts '" +
-                         model.parts[model.rigid.body[static_cast<std::size_t>(owner)].part].name +
-                         "' and '" + model.parts[model.rigid.body[b].part].name + "'; accepted is one");
+                         model.parts[model.rigid.body[index(owner)].part].name + "' and '" +
+                         model.parts[model.rigid.body[b].part].name + "'; accepted is one");
       owner = static_cast<int>(b);
     }
   if (body_of_node.empty()) return;
   for (const TiedNode& tied : model.ties.node)
     for (const int node :
          {tied.tie.node, tied.tie.corner[0], tied.tie.corner[1], tied.tie.corner[2], tied.tie.corner[3]})
-      if (body_of_node[static_cast<std::size_t>(node)] >= 0)
+      if (body_of_node[index(node)] >= 0)
         throw BuildError(
             "a node tied to a part that deforms, or the face that it is tied to, is joined to a "
             "rigid part as well; accepted is one of both",
-            model.ties.found[static_cast<std::size_t>(tied.connection)].place);
+            model.ties.found[index(tied.connection)].place);
   for (PrescribedNodes& given : model.prescribed)
     for (std::size_t at = given.nodes.size(); at-- > 0;) {
-      const int body = body_of_node[static_cast<std::size_t>(given.nodes[at])];
+      const int body = body_of_node[index(given.nodes[at])];
       if (body < 0) continue;
-      if (!has_same_motion(model.rigid.body[static_cast<std::size_t>(body)], given, at))
+      if (!has_same_motion(model.rigid.body[index(body)], given, at))
         throw BuildError(
             "the motion of a node that is joined to a rigid part is prescribed, but not that of the "
             "part; accepted: the same for both, and no rotation of the part",
@@ -244,7 +243,7 @@ std::vector<Vector3d> velocities_of_joints(const Model& model) {
   std::vector<Vector3d> velocities;
   for (const RigidBody& body : model.rigid.body)
     for (const std::size_t i : body.joint)
-      velocities.push_back(Vector3d(model.nodes.record[static_cast<std::size_t>(body.node[i])].velocity));
+      velocities.push_back(Vector3d(model.nodes.record[index(body.node[i])].velocity));
   return velocities;
 }
 

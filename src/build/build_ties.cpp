@@ -6,6 +6,7 @@
 
 #include "contact/search/global_search.hpp"
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/deck/part_index.hpp"
 #include "src/motion/skew_supports.hpp"
@@ -104,14 +105,14 @@ std::vector<Found> closest_faces(const MainSurface& main_surface, std::span<cons
     const Face& face = main_surface.surface.face[f];
     const FaceVertices corners = vertices(nodes, face);
     for (int s : pairs.of_box(f)) {
-      const int node = slaves[static_cast<std::size_t>(s)];
+      const int node = slaves[index(s)];
       std::optional<Tie> tie = project(position(nodes, node), corners);
       if (!tie) continue;
       const double distance = std::max(std::abs(tie->gap) - main_surface.half_thickness, 0.0);
       if (!(distance <= tolerance)) continue;
       const double outside = -std::min(*std::min_element(tie->weight.begin(), tie->weight.end()), 0.0);
       const double rank = distance + beyond_weight * outside * (corners[2] - corners[0]).norm();
-      Found& best = closest[static_cast<std::size_t>(s)];
+      Found& best = closest[index(s)];
       if (best.face >= 0 && !(rank < best.rank)) continue;
       tie->node = node;
       tie->corner = face.node;
@@ -165,43 +166,42 @@ class Tying {
     std::vector<std::uint8_t> seen(model_.ties.node.size(), 0);
     for (int i = 0; i < static_cast<int>(seen.size()); ++i) visit(i, seen);
     std::vector<TiedNode> ordered;
-    for (std::size_t i = order_.size(); i-- > 0;)
-      ordered.push_back(model_.ties.node[static_cast<std::size_t>(order_[i])]);
+    for (std::size_t i = order_.size(); i-- > 0;) ordered.push_back(model_.ties.node[index(order_[i])]);
     model_.ties.node = std::move(ordered);
   }
 
  private:
   void tie_node(const Found& found, const MainSurface& main_surface, const TieToSurface& entry) {
     const int node = found.tie.node;
-    int& index = index_of_[static_cast<std::size_t>(node)];
+    int& number = index_of_[index(node)];
     const bool joins = model_.parts[main_surface.part].rigid >= 0;
     std::vector<TiedNode>& tied = joins ? model_.ties.joined : model_.ties.node;
-    if (index != untied) {
-      const TiedNode& before = index >= 0
-                                   ? model_.ties.node[static_cast<std::size_t>(index)]
+    if (number != untied) {
+      const TiedNode& before = number >= 0
+                                   ? model_.ties.node[index(number)]
                                    : *std::ranges::find(model_.ties.joined, node,
                                                         [](const TiedNode& one) { return one.tie.node; });
-      const TiedParts& first = model_.ties.found[static_cast<std::size_t>(before.connection)];
+      const TiedParts& first = model_.ties.found[index(before.connection)];
       throw BuildError("a node of '" + entry.names[0] + "' " + at(model_.nodes, node) + " is tied to '" +
                            first.surface + "' already; one tie is accepted per node",
                        entry.place);
     }
-    index = joins ? joined : static_cast<int>(tied.size());
-    const int slot = main_surface.surface.face[static_cast<std::size_t>(found.face)].element;
+    number = joins ? joined : static_cast<int>(tied.size());
+    const int slot = main_surface.surface.face[index(found.face)].element;
     tied.push_back({.tie = found.tie,
                     .face_part = static_cast<int>(main_surface.part),
-                    .element = model_.parts[main_surface.part].element_order[static_cast<std::size_t>(slot)],
+                    .element = model_.parts[main_surface.part].element_order[index(slot)],
                     .connection = static_cast<int>(model_.ties.found.size())});
   }
 
   enum : std::uint8_t { unseen, open, done };
 
   void visit(int i, std::vector<std::uint8_t>& seen) {
-    std::uint8_t& state = seen[static_cast<std::size_t>(i)];
+    std::uint8_t& state = seen[index(i)];
     if (state == done) return;
-    const TiedNode& tied = model_.ties.node[static_cast<std::size_t>(i)];
+    const TiedNode& tied = model_.ties.node[index(i)];
     if (state == open) {
-      const TiedParts& parts = model_.ties.found[static_cast<std::size_t>(tied.connection)];
+      const TiedParts& parts = model_.ties.found[index(tied.connection)];
       throw BuildError(
           "a node of '" + parts.nodes + "' " + at(model_.nodes, tied.tie.node) +
               " would be tied to a face whose nodes are tied to it; accepted are ties without cycles",
@@ -209,8 +209,8 @@ class Tying {
     }
     state = open;
     for (int corner : tied.tie.corner)
-      if (const int next = index_of_[static_cast<std::size_t>(corner)]; next >= 0) visit(next, seen);
-    seen[static_cast<std::size_t>(i)] = done;
+      if (const int next = index_of_[index(corner)]; next >= 0) visit(next, seen);
+    seen[index(i)] = done;
     order_.push_back(i);
   }
 
@@ -228,7 +228,7 @@ bool has_same_motion(const PrescribedNodes& given, int node, const PrescribedNod
   const auto found = std::lower_bound(given.nodes.begin(), given.nodes.end(), node);
   return given.kind == motion.kind && given.turns() == motion.turns() && given.curve == motion.curve &&
          found != given.nodes.end() && *found == node &&
-         is_along(given.direction_of(static_cast<std::size_t>(found - given.nodes.begin())), direction);
+         is_along(given.direction_of(index(found - given.nodes.begin())), direction);
 }
 
 bool all_corners_follow(const Tie& tie, const PrescribedNodes& motion, const Vector& direction,
@@ -254,8 +254,8 @@ void release_supports(const Ties& ties, Model& model) {
       if (given[i].turns() && !tied.tie.turning) continue;
       const auto found = std::lower_bound(given[i].nodes.begin(), given[i].nodes.end(), node);
       if (found == given[i].nodes.end() || *found != node) continue;
-      const TiedParts& parts = ties.found[static_cast<std::size_t>(tied.connection)];
-      const Vector along = given[i].direction_of(static_cast<std::size_t>(found - given[i].nodes.begin()));
+      const TiedParts& parts = ties.found[index(tied.connection)];
+      const Vector along = given[i].direction_of(index(found - given[i].nodes.begin()));
       if (!all_corners_follow(tied.tie, given[i], along, given))
         throw BuildError("the motion of a node of '" + parts.nodes + "' " + at(model.nodes, node) +
                              " is prescribed, but not that of the face of '" + parts.surface +
@@ -282,16 +282,15 @@ void make_ties(const Deck& deck, std::span<const Mesh> meshes, std::span<const s
 
 Ties ties_that_last(const Ties& ties) {
   Ties lasting = ties;
-  std::erase_if(lasting.node, [&](const TiedNode& tied) {
-    return ties.found[static_cast<std::size_t>(tied.connection)].can_fail();
-  });
+  std::erase_if(lasting.node,
+                [&](const TiedNode& tied) { return ties.found[index(tied.connection)].can_fail(); });
   number(lasting, ties.of_node.size());
   return lasting;
 }
 
 void tie_again(Model& model) {
   for (TiedNode& tied : model.ties.node) {
-    if (!model.ties.found[static_cast<std::size_t>(tied.connection)].can_fail()) continue;
+    if (!model.ties.found[index(tied.connection)].can_fail()) continue;
     const Tie before = tied.tie;
     const FaceVertices corners = corners_of(before, model.nodes);
     const std::optional<Tie> now = project(position(model.nodes, before.node), corners);
@@ -315,7 +314,7 @@ void start_ties(Model& model) {
     double fastest = given[i].norm();
     for (int corner : tie.corner) fastest = std::max(fastest, velocity(nodes, corner).norm());
     if ((given[i] - velocity(nodes, tie.node)).norm() <= same_velocity * fastest) continue;
-    const TiedParts& parts = ties.found[static_cast<std::size_t>(ties.node[i].connection)];
+    const TiedParts& parts = ties.found[index(ties.node[i].connection)];
     throw BuildError("a node of '" + parts.nodes + "' " + at(nodes, tie.node) +
                          " starts with another velocity than the face of '" + parts.surface +
                          "' that it is tied to; accepted: equal initial velocities",

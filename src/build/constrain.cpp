@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/build/build_rigid.hpp"
 #include "src/model/node_name.hpp"
@@ -36,7 +37,7 @@ Vector unit_normal(const RigidWall& wall) {
 
 Eigen::Matrix3d rows_of(const SystemAxes& axes) {
   Eigen::Matrix3d rows;
-  for (int i = 0; i < 3; ++i) rows.row(i) = Eigen::Vector3d(axes[static_cast<std::size_t>(i)].data());
+  for (int i = 0; i < 3; ++i) rows.row(i) = Eigen::Vector3d(axes[index(i)].data());
   return rows;
 }
 
@@ -62,7 +63,7 @@ std::vector<Vector> directions_of(const std::vector<SystemAxes>& axes, std::size
   std::vector<Vector> directions;
   for (std::size_t k = 0; k < axes.size(); ++k) {
     directions.push_back(axes[k][component]);
-    if (is_zero(directions.back())) refuse_on_axis(model, static_cast<std::size_t>(nodes[k]), system, place);
+    if (is_zero(directions.back())) refuse_on_axis(model, index(nodes[k]), system, place);
   }
   return directions;
 }
@@ -75,8 +76,8 @@ void constrain_nodes(const PrescribedMotion& motion, const Deck& deck, int numbe
     if (component.axis >= 3 && !model.nodes.has_rotations()) continue;  // solids have no rotations to hold
     model.prescribed.push_back(
         {nodes, motion.kind, component.axis, component.curve, component.place, number});
-    model.prescribed.back().direction = directions_of(axes, static_cast<std::size_t>(component.axis % 3),
-                                                      nodes, motion.system, component.place, model);
+    model.prescribed.back().direction =
+        directions_of(axes, index(component.axis % 3), nodes, motion.system, component.place, model);
   }
 }
 
@@ -109,8 +110,7 @@ std::vector<SystemAxes> axes_at_nodes(const Deck& deck, const std::string& name,
   const auto& round = std::get<CylindricalSystem>(system);
   const double least = on_axis(round, model);
   std::vector<SystemAxes> axes;
-  for (const int node : nodes)
-    axes.push_back(axes_at(round, position_of(model, static_cast<std::size_t>(node)), least));
+  for (const int node : nodes) axes.push_back(axes_at(round, position_of(model, index(node)), least));
   return axes;
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 #include "src/sweep/particles.hpp"
 
 namespace brio {
@@ -15,12 +16,12 @@ namespace {
 constexpr double largest_thickness = 20;  // mean edges
 
 double mean_edge(const Mesh& mesh) {
-  const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+  const auto corners = index(mesh.nodes_per_element);
   double sum = 0;
   for (std::size_t i = 0; i < mesh.connectivity.size(); ++i) {
     const std::size_t next = i % corners + 1 == corners ? i + 1 - corners : i + 1;
-    const auto& a = mesh.position[static_cast<std::size_t>(mesh.connectivity[i])];
-    const auto& b = mesh.position[static_cast<std::size_t>(mesh.connectivity[next])];
+    const auto& a = mesh.position[index(mesh.connectivity[i])];
+    const auto& b = mesh.position[index(mesh.connectivity[next])];
     sum += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
   }
   return sum / static_cast<double>(mesh.connectivity.size());

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 #include "src/deck/corner_times.hpp"
 #include "src/model/node_name.hpp"
 #include "src/motion/skew_supports.hpp"
@@ -123,7 +124,7 @@ double sign_of_start(MotionKind first) { return first == MotionKind::acceleratio
 
 std::string name_of(int axis) {
   std::string name("'");
-  name += component_name[static_cast<std::size_t>(axis)];
+  name += component_name[index(axis)];
   return name += "'";
 }
 
@@ -141,13 +142,13 @@ void check_nodes(const Model& model, int axis) {
     int compared = -1;
     Likeness likeness;
     for (const int entry : given[i].nodes) {
-      const auto node = static_cast<std::size_t>(entry);
+      const auto node = index(entry);
       int& first = motion_of[node];
       if (first < 0) {
         first = static_cast<int>(i);
         continue;
       }
-      const PrescribedNodes& other = given[static_cast<std::size_t>(first)];
+      const PrescribedNodes& other = given[index(first)];
       if (first != compared)
         likeness =
             compare(other.kind, other.curve, given[i].kind, given[i].curve, model.control.settings.end);
@@ -162,7 +163,7 @@ void check_nodes(const Model& model, int axis) {
 void check_dependent(const Model& model, std::span<const SupportPlace> before, const SupportPlace& place) {
   const PrescribedNodes& given = model.prescribed[place.entry];
   const Vector& direction = given.direction[place.at];
-  const auto node = static_cast<std::size_t>(place.node);
+  const auto node = index(place.node);
   const double* v =
       given.turns() ? model.nodes.angular_velocity[node].component : model.nodes.record[node].velocity;
   std::vector<Term> terms{{-1, given.kind, &given.curve}};

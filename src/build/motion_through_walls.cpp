@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 #include "src/deck/corner_times.hpp"
 #include "src/model/node_name.hpp"
 
@@ -132,9 +133,9 @@ std::vector<NodeMotions> motions_of_nodes(const Model& model) {
   for (std::size_t i = 0; i < model.prescribed.size(); ++i) {
     const PrescribedNodes& given = model.prescribed[i];
     for (std::size_t k = 0; k < given.nodes.size() && !given.turns(); ++k) {
-      NodeMotions& motions = motion_of[static_cast<std::size_t>(given.nodes[k])];
+      NodeMotions& motions = motion_of[index(given.nodes[k])];
       if (!given.is_skew()) {
-        motions[static_cast<std::size_t>(given.axis)] = {static_cast<int>(i), static_cast<int>(k)};
+        motions[index(given.axis)] = {static_cast<int>(i), static_cast<int>(k)};
       } else if (given.dual[k] != Vector{}) {
         *std::ranges::find(motions, none) = {static_cast<int>(i), static_cast<int>(k)};
       }
@@ -149,8 +150,8 @@ Motion motion_of_node(const Model& model, std::size_t node, const NodeMotions& m
   const double* v = model.nodes.record[node].velocity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (motions[axis][0] < 0) continue;
-    const PrescribedNodes& given = model.prescribed[static_cast<std::size_t>(motions[axis][0])];
-    const auto at = static_cast<std::size_t>(motions[axis][1]);
+    const PrescribedNodes& given = model.prescribed[index(motions[axis][0])];
+    const auto at = index(motions[axis][1]);
     motion[axis] = {given.is_skew() ? dot(wall.normal, given.dual[at]) : wall.normal[axis], given.kind,
                     &given.curve, &given.place, dot(given.direction_of(at), {v[0], v[1], v[2]})};
   }
@@ -198,7 +199,7 @@ void check_body(const Model& model, const WallInRun& wall, std::size_t b) {
   Vector free = to_vector(normal);
   for (const PrescribedRigid& given : body.given) {
     if (given.axis >= 3) continue;
-    const auto axis = static_cast<std::size_t>(given.axis);
+    const auto axis = index(given.axis);
     motion[axis] = {normal[given.axis], given.kind, &given.curve, &given.place,
                     body.axes.row(given.axis).dot(model.rigid.motion[b].velocity)};
     free[axis] = 0;

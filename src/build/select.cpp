@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/deck/part_index.hpp"
 
@@ -51,14 +52,14 @@ std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std:
       if (set == "all")
         chosen.insert(chosen.end(), node.begin(), node.end());
       else if (found != meshes[p].node_sets.end())
-        for (const int of_mesh : found->second) chosen.push_back(node[static_cast<std::size_t>(of_mesh)]);
+        for (const int of_mesh : found->second) chosen.push_back(node[index(of_mesh)]);
     }
     if (!is_there) throw BuildError("part '" + name + "' has no set '" + set + "'", where.place);
   } else {
     for (std::size_t p = 0; p < deck.parts.size(); ++p) {
       if (!where.part.empty() && deck.parts[p].name != where.part) continue;
       for (int node : model.parts[p].node) {
-        const double* x = model.nodes.record[static_cast<std::size_t>(node)].position;
+        const double* x = model.nodes.record[index(node)].position;
         if (std::visit([&](const auto& region) { return inside(region, {x[0], x[1], x[2]}); }, where.region))
           chosen.push_back(node);
       }

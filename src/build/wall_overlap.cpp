@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 #include "src/model/node_name.hpp"
 
 namespace brio {
@@ -33,7 +34,7 @@ class WallOverlap {
   WallOverlap(std::span<const Mesh> meshes, Model& model)
       : meshes_(meshes), model_(model), rigid_(model.nodes.size(), 0) {
     for (const RigidBody& body : model.rigid.body)
-      for (const int node : body.node) rigid_[static_cast<std::size_t>(node)] = 1;
+      for (const int node : body.node) rigid_[index(node)] = 1;
   }
 
   bool any() const {
@@ -70,7 +71,7 @@ class WallOverlap {
     }
     for (const PartInModel& part : model_.parts)
       for (const int node : part.node) {
-        const auto i = static_cast<std::size_t>(node);
+        const auto i = index(node);
         for (InitialOverlap& overlap : report)
           if (overlap.node_part == part.name) overlap.moved = std::max(overlap.moved, way(i, start[i]));
       }
@@ -83,7 +84,7 @@ class WallOverlap {
     edge_.assign(model_.nodes.size(), HUGE_VAL);
     for (std::size_t p = 0; p < model_.parts.size(); ++p) {
       const Mesh& mesh = meshes_[p];
-      const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+      const auto corners = index(mesh.nodes_per_element);
       for (std::size_t e = 0; e < mesh.element_count(); ++e) {
         const std::span corner(mesh.connectivity.data() + e * corners, corners);
         double shortest = corners == 1 ? std::cbrt(mesh.volume[e]) : HUGE_VAL;
@@ -93,7 +94,7 @@ class WallOverlap {
             if (length > 0) shortest = std::min(shortest, length);
           }
         for (const int c : corner) {
-          double& edge = edge_[static_cast<std::size_t>(model_.parts[p].node[static_cast<std::size_t>(c)])];
+          double& edge = edge_[index(model_.parts[p].node[index(c)])];
           edge = std::min(edge, shortest);
         }
       }
@@ -101,8 +102,8 @@ class WallOverlap {
   }
 
   static double distance(const Mesh& mesh, int a, int b) {
-    const auto& x = mesh.position[static_cast<std::size_t>(a)];
-    const auto& y = mesh.position[static_cast<std::size_t>(b)];
+    const auto& x = mesh.position[index(a)];
+    const auto& y = mesh.position[index(b)];
     return std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
   }
 
@@ -122,7 +123,7 @@ class WallOverlap {
     for (const PartInModel& part : model_.parts) {
       InitialOverlap found{.node_part = part.name, .face_part = wall};
       for (const int node : part.node) {
-        const auto i = static_cast<std::size_t>(node);
+        const auto i = index(node);
         const double depth = -start_height(model_.walls[w].wall, model_.nodes.record[i]);
         if (rigid_[i] || depth <= rounding(i)) continue;
         found.depth = std::max(found.depth, depth);

@@ -4,15 +4,17 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
 
 // Index of the first point after `time`, in [0, count].
 std::size_t next_point(const std::vector<std::array<double, 2>>& points, double time) {
-  return static_cast<std::size_t>(std::upper_bound(points.begin(), points.end(), time,
-                                                   [](double t, const auto& point) { return t < point[0]; }) -
-                                  points.begin());
+  return index(std::upper_bound(points.begin(), points.end(), time,
+                                [](double t, const auto& point) { return t < point[0]; }) -
+               points.begin());
 }
 
 }  // namespace

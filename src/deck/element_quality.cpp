@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/base/index.hpp"
 #include "src/deck/mesh.hpp"
 
 namespace brio {
@@ -22,7 +23,7 @@ using FaceCorners = std::array<Corner, 4>;
 FaceCorners face_of(std::span<const Corner> corners, std::size_t side) {
   FaceCorners face{};
   for (std::size_t k = 0; k < 4; ++k)
-    face[k] = corners[corners.size() == 8 ? static_cast<std::size_t>(sides_of_hex[side][k]) : k];
+    face[k] = corners[corners.size() == 8 ? index(sides_of_hex[side][k]) : k];
   return face;
 }
 
@@ -92,7 +93,7 @@ std::vector<double> edge_lengths(std::span<const Corner> corners) {
       lengths.push_back(length);
   };
   if (corners.size() == 8)
-    for (const auto& [a, b] : edges_of_hex) add(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    for (const auto& [a, b] : edges_of_hex) add(index(a), index(b));
   if (corners.size() == 4)
     for (std::size_t k = 0; k < 4; ++k) add(k, (k + 1) % 4);
   if (corners.size() == 2) add(0, 1);

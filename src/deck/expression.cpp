@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -100,7 +102,7 @@ void refuse_assignment(const std::string& text) {
 std::size_t position_of(const mu::ParserError& error, const std::string& text) {
   const int position = error.GetPos();
   // Of a missing end muParser counts what it has added.
-  return position < 0 ? 0 : std::min(static_cast<std::size_t>(position), text.size());
+  return position < 0 ? 0 : std::min(index(position), text.size());
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Eigen::Matrix3d;
@@ -40,12 +42,11 @@ Place place_of(const std::array<Vector3d, 8>& corner, std::size_t corners, const
   Place place;
   for (std::size_t k = 0; k < corners; ++k) {
     Vector3d factor = Vector3d::Ones();
-    for (int d = 0; d < dimensions; ++d)
-      factor[d] = 0.5 * (1 + corner_sign[k][static_cast<std::size_t>(d)] * parent[d]);
+    for (int d = 0; d < dimensions; ++d) factor[d] = 0.5 * (1 + corner_sign[k][index(d)] * parent[d]);
     place.point += factor.prod() * corner[k];
     for (int d = 0; d < dimensions; ++d) {
       Vector3d others = factor;
-      others[d] = 0.5 * corner_sign[k][static_cast<std::size_t>(d)];
+      others[d] = 0.5 * corner_sign[k][index(d)];
       place.gradient.col(d) += others.prod() * corner[k];
     }
   }
@@ -81,14 +82,14 @@ bool add_shell(const std::array<Vector3d, 8>& corner, double thickness, Moments&
 }  // namespace
 
 MassProperties mass_properties(const Mesh& mesh, double density, double thickness) {
-  const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+  const auto corners = index(mesh.nodes_per_element);
   const auto point = [&](std::size_t node) { return Vector3d(mesh.position[node].data()); };
   const Vector3d origin = point(0);  // near the mesh, so that moments do not cancel
   Moments moments;
   for (std::size_t e = 0; e < mesh.element_count(); ++e) {
     std::array<Vector3d, 8> corner;
     for (std::size_t k = 0; k < corners; ++k)
-      corner[k] = point(static_cast<std::size_t>(mesh.connectivity[e * corners + k])) - origin;
+      corner[k] = point(index(mesh.connectivity[e * corners + k])) - origin;
     if (!(corners == 8 ? add_hexahedron(corner, moments) : add_shell(corner, thickness, moments)))
       throw std::invalid_argument("element " + std::to_string(mesh.number_of_element(e)) +
                                   " is inverted or has no volume");

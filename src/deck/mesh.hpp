@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 /// A side of an element, for pressure: element index and local side (hex: 0..5 as in sides_of_hex; shell: 0).
@@ -30,9 +32,7 @@ struct Mesh {
   std::int64_t number_of_element(std::size_t element) const {
     return element_id.empty() ? static_cast<std::int64_t>(element) : element_id[element];
   }
-  std::size_t element_count() const {
-    return connectivity.size() / static_cast<std::size_t>(nodes_per_element);
-  }
+  std::size_t element_count() const { return connectivity.size() / index(nodes_per_element); }
 };
 
 /// Corners of the sides of a hexahedron in VTK order, each seen counter-clockwise from outside.

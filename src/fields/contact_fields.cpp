@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -71,7 +72,7 @@ double pushed_area(const Surface& surface, const Nodes& nodes, int slave, const 
   double pushed = 0;
   area = 0;
   for (int f : surface.faces_of.of(slave)) {
-    const Face& face = surface.face[static_cast<std::size_t>(f)];
+    const Face& face = surface.face[index(f)];
     if (!face.alive()) continue;
     const FaceVertices x = vertices(nodes, face);
     const bool is_triangle = face.node[2] == face.node[3];

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
 
 void rotation_of_node(const Model& model, int node, double* out) {
-  const Quaternion<double>& q = model.rotations[static_cast<std::size_t>(node)];
+  const Quaternion<double>& q = model.rotations[index(node)];
   const Eigen::Vector3d vector = rotation_vector({q.w, q.x, q.y, q.z});
   std::copy_n(vector.data(), 3, out);
 }

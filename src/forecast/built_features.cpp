@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "src/base/index.hpp"
 #include "src/deck/part_index.hpp"
 #include "src/forecast/memory.hpp"
 #include "src/output/observe.hpp"
@@ -115,8 +116,8 @@ void add_failure(const Deck& deck, const Model& model, Features& features) {
 
 void add_joints(const Deck& deck, const Model& model, Features& features) {
   std::size_t merged = 0, held = 0;
-  for (const MergedParts& entry : model.merged) merged += static_cast<std::size_t>(entry.nodes);
-  for (const TiedParts& entry : model.ties.found) held += static_cast<std::size_t>(entry.count);
+  for (const MergedParts& entry : model.merged) merged += index(entry.nodes);
+  for (const TiedParts& entry : model.ties.found) held += index(entry.count);
   std::vector<std::string> merges, ties;
   for (std::size_t i = 0; i < deck.connections.size(); ++i) {
     const bool tie = std::holds_alternative<TieToSurface>(deck.connections[i]);
@@ -128,8 +129,8 @@ void add_joints(const Deck& deck, const Model& model, Features& features) {
 }
 
 std::size_t bodies_with_given_motion(const RigidBodies& rigid) {
-  return static_cast<std::size_t>(std::count_if(rigid.body.begin(), rigid.body.end(),
-                                                [](const RigidBody& body) { return !body.given.empty(); }));
+  return index(std::count_if(rigid.body.begin(), rigid.body.end(),
+                             [](const RigidBody& body) { return !body.given.empty(); }));
 }
 
 void add_conditions(const Deck& deck, const Model& model, Features& features) {
@@ -171,8 +172,7 @@ void add_initial_states(const Deck& deck, Features& features) {
   const auto count = std::ranges::count_if(deck.initial_conditions,
                                            [](const InitialCondition& one) { return one.from.has_value(); });
   if (count > 0)
-    features.push_back(
-        {"initial states", "initial_conditions", counted(static_cast<std::size_t>(count), "part"), 0});
+    features.push_back({"initial states", "initial_conditions", counted(index(count), "part"), 0});
 }
 
 void add_damping(const Deck& deck, const Model& model, Features& features) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/deck/element_quality.hpp"
 #include "src/model/part_shape.hpp"
 
@@ -28,7 +29,7 @@ MeshQuality quality_of(const Model& model, std::size_t number) {
     std::vector<int> nodes = nodes_of_element(model, part, e);
     corners.clear();
     for (const int node : nodes) {
-      const double* x = model.nodes.record[static_cast<std::size_t>(node)].position;
+      const double* x = model.nodes.record[index(node)].position;
       corners.push_back({x[0], x[1], x[2]});
     }
     quality.aspect = std::max(quality.aspect, aspect_of(corners));

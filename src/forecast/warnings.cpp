@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/deck/part_index.hpp"
 #include "src/model/part_shape.hpp"
@@ -168,7 +169,7 @@ void warn_of_tiny_elements(const Deck& deck, const Model& model, const Shapes& s
   if (steps.empty()) return;
   const auto place = static_cast<std::ptrdiff_t>(few * static_cast<double>(steps.size()));
   std::nth_element(steps.begin(), steps.begin() + place, steps.end());
-  const double others = steps[static_cast<std::size_t>(place)];
+  const double others = steps[index(place)];
   if (!(others > worth_it * least)) return;
   const auto tiny =
       std::count_if(steps.begin(), steps.end(), [&](double s) { return s < others / worth_it; });
@@ -238,11 +239,10 @@ void warn_of_unused(const Deck& deck, const Model& model, Warnings& warnings) {
     const PartInModel& part = model.parts[p];
     const bool joined = joined_parts.contains(part.name);
     const bool moves = std::any_of(part.node.begin(), part.node.end(), [&](int node) {
-      const double* v = model.nodes.record[static_cast<std::size_t>(node)].velocity;
+      const double* v = model.nodes.record[index(node)].velocity;
       return v[0] != 0 || v[1] != 0 || v[2] != 0 || concerned.contains(node);
     });
-    const bool given =
-        part.rigid >= 0 && !model.rigid.body[static_cast<std::size_t>(part.rigid)].given.empty();
+    const bool given = part.rigid >= 0 && !model.rigid.body[index(part.rigid)].given.empty();
     if (gravity || joined || moves || given || is_in_contact(deck, part.name)) continue;
     const auto is_said = [&](const SceneWarning& other) {  // that something moves towards it
       return other.subject.find("'" + part.name + "'") != std::string::npos;

@@ -5,12 +5,13 @@
 
 #include "elements/element_state.hpp"
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
 namespace {
 
-NodeRecord& record_of(Model& model, int node) { return model.nodes.record[static_cast<std::size_t>(node)]; }
+NodeRecord& record_of(Model& model, int node) { return model.nodes.record[index(node)]; }
 
 void put(const std::array<double, 3>& values, double* place) {
   std::copy(values.begin(), values.end(), place);
@@ -45,7 +46,7 @@ template <class Visit>
 void for_each_element(const PartState& state, Model& model, const Visit& visit) {
   const PartInModel& part = model.parts[state.part];
   for (std::size_t e = 0; e < part.element_slot.size(); ++e)
-    visit(e, static_cast<std::size_t>(part.element_slot[e]), model.blocks[part.block]);
+    visit(e, index(part.element_slot[e]), model.blocks[part.block]);
 }
 
 }  // namespace
@@ -80,8 +81,7 @@ void set_velocities(const PartState& state, Model& model) {
   for (std::size_t i = 0; i < state.velocity.size(); ++i)
     put(state.velocity[i], record_of(model, part.node[i]).velocity);
   for (std::size_t i = 0; i < state.angular_velocity.size(); ++i)
-    put(state.angular_velocity[i],
-        model.nodes.angular_velocity[static_cast<std::size_t>(part.node[i])].component);
+    put(state.angular_velocity[i], model.nodes.angular_velocity[index(part.node[i])].component);
 }
 
 void add_energies(std::span<const PartState> states, Model& model) {

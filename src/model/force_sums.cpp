@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 #include "src/deck/part_index.hpp"
 #include "src/model/model.hpp"
 #include "src/model/part_shape.hpp"
@@ -19,7 +20,7 @@ constexpr std::array<const char*, 3> moment_axes{"_mx", "_my", "_mz"};
 constexpr std::size_t most_pairs = 200;
 
 Vector position_of(const Nodes& nodes, int node) {
-  const double* x = nodes.record[static_cast<std::size_t>(node)].position;
+  const double* x = nodes.record[index(node)].position;
   return {x[0], x[1], x[2]};
 }
 
@@ -38,7 +39,7 @@ Impulse force_ahead(const SectionSum& section, const Nodes& nodes) {
   const Vector about = sum_of(mean_position(section.cut, nodes), section.point);
   Impulse sum;
   for (const int entry : section.ahead) {
-    const auto node = static_cast<std::size_t>(entry);
+    const auto node = index(entry);
     const double* f = nodes.force[node].component;
     sum.add(difference(position_of(nodes, entry), about), {f[0], f[1], f[2]});
     if (!nodes.has_rotations()) continue;
@@ -53,7 +54,7 @@ std::vector<int> nodes_connected_to(std::size_t part, const Model& model) {
   std::vector<char> found(model.nodes.size(), 0), taken(model.parts.size(), 0);
   const auto take = [&](std::size_t p) {
     taken[p] = 1;
-    for (const int node : model.parts[p].node) found[static_cast<std::size_t>(node)] = 1;
+    for (const int node : model.parts[p].node) found[index(node)] = 1;
   };
   take(part);
   for (bool grows = !model.merged.empty(); grows;) {
@@ -61,8 +62,7 @@ std::vector<int> nodes_connected_to(std::size_t part, const Model& model) {
     for (std::size_t p = 0; p < model.parts.size(); ++p) {
       const std::vector<int>& own = model.parts[p].node;
       if (taken[p] != 0 || model.parts[p].rigid >= 0) continue;
-      if (std::ranges::none_of(own, [&](int node) { return found[static_cast<std::size_t>(node)] != 0; }))
-        continue;
+      if (std::ranges::none_of(own, [&](int node) { return found[index(node)] != 0; })) continue;
       take(p);
       grows = true;
     }
@@ -126,8 +126,7 @@ void find_conditions_of_nodes(const Model& model, ForceSums& sums) {
   for (const PrescribedNodes& given : model.prescribed)
     for (const int node : given.nodes)
       if (!given.turns() && !given.is_skew())
-        sums.condition_of_node[static_cast<std::size_t>(node)][static_cast<std::size_t>(given.axis)] =
-            given.condition;
+        sums.condition_of_node[index(node)][index(given.axis)] = given.condition;
 }
 void find_skew_conditions(const Model& model, ForceSums& sums) {
   for (const PrescribedNodes& given : model.prescribed)
@@ -140,7 +139,7 @@ void find_conditions_of_bodies(const Model& model, ForceSums& sums) {
   sums.condition_of_body.assign(model.rigid.body.size(), {-1, -1, -1});
   for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
     for (const PrescribedRigid& given : model.rigid.body[b].given)
-      if (given.axis < 3) sums.condition_of_body[b][static_cast<std::size_t>(given.axis)] = given.condition;
+      if (given.axis < 3) sums.condition_of_body[b][index(given.axis)] = given.condition;
 }
 
 /// Pairs of parts as the columns name them.
@@ -180,8 +179,7 @@ ImpulseLog make_impulse_log(const ForceOutput& wanted, const Deck& deck, const M
   ImpulseLog log;
   log.part_of_node.assign(model.nodes.size(), -1);
   for (std::size_t p = model.parts.size(); p-- > 0;)
-    for (const int node : model.parts[p].node)
-      log.part_of_node[static_cast<std::size_t>(node)] = static_cast<int>(p);
+    for (const int node : model.parts[p].node) log.part_of_node[index(node)] = static_cast<int>(p);
   for (const RigidBody& body : model.rigid.body) log.part_of_body.push_back(static_cast<int>(body.part));
   for (const std::array<int, 2>& pair : pairs_of(wanted.contact, deck, model))
     log.wanted.push_back(ascending(pair));
@@ -207,17 +205,16 @@ ForceSums make_force_sums(const ForceOutput& wanted, const Deck& deck, const Mod
   const ImpulseLog& log = *model.contacts.front().log;
   for (const std::array<int, 2>& pair : pairs_of(wanted.contact, deck, model)) {
     const auto at = std::ranges::lower_bound(log.wanted, ascending(pair));
-    sums.contacts.push_back({.name = deck.parts[static_cast<std::size_t>(pair[0])].name + "." +
-                                     deck.parts[static_cast<std::size_t>(pair[1])].name,
-                             .pair = static_cast<std::size_t>(at - log.wanted.begin()),
+    sums.contacts.push_back({.name = deck.parts[index(pair[0])].name + "." + deck.parts[index(pair[1])].name,
+                             .pair = index(at - log.wanted.begin()),
                              .sign = pair[0] > pair[1] ? -1.0 : 1.0});
   }
   return sums;
 }
 
 void ForceSums::add_reaction(int condition, const Vector& impulse) {
-  const int at = condition < 0 ? -1 : reaction_of_condition[static_cast<std::size_t>(condition)];
-  if (at >= 0) add_to(reactions[static_cast<std::size_t>(at)].impulse, impulse);
+  const int at = condition < 0 ? -1 : reaction_of_condition[index(condition)];
+  if (at >= 0) add_to(reactions[index(at)].impulse, impulse);
 }
 
 void ForceSums::add_skew_support(int node, const Vector& impulse) {
@@ -233,7 +230,7 @@ void ForceSums::add_skew_support(int node, const Vector& impulse) {
 void ForceSums::add_support_of_body(std::size_t body, const Vector& impulse) {
   const Eigen::Vector3d along = axes_of_body[body] * Eigen::Vector3d(impulse.data());
   for (int axis = 0; axis < 3; ++axis)
-    add_reaction(condition_of_body[body][static_cast<std::size_t>(axis)],
+    add_reaction(condition_of_body[body][index(axis)],
                  to_vector(along[axis] * axes_of_body[body].row(axis).transpose()));
 }
 
@@ -241,10 +238,10 @@ void ForceSums::add(const ImpulseLog& log) {
   for (const SupportImpulse& support : log.supports) {
     const Vector impulse = to_vector(support.impulse);
     if (support.node < 0) {
-      add_support_of_body(static_cast<std::size_t>(support.body), impulse);
+      add_support_of_body(index(support.body), impulse);
       continue;
     }
-    add_components(*this, condition_of_node[static_cast<std::size_t>(support.node)], impulse);
+    add_components(*this, condition_of_node[index(support.node)], impulse);
     add_skew_support(support.node, impulse);
   }
   for (ContactSum& contact : contacts)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 std::string name_of_node(const Model& model, std::size_t node) {
@@ -10,8 +12,8 @@ std::string name_of_node(const Model& model, std::size_t node) {
   for (const PartInModel& part : model.parts) {
     const auto found = std::find(part.node.begin(), part.node.end(), static_cast<int>(node));
     if (found == part.node.end()) continue;
-    text << "node " << part.number_of_node(static_cast<std::size_t>(found - part.node.begin()))
-         << " of part '" << part.name << "'";
+    text << "node " << part.number_of_node(index(found - part.node.begin())) << " of part '" << part.name
+         << "'";
     break;
   }
   const double* x = model.nodes.record[node].position;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 NodalDamping damping_of_parts(const Deck& deck, const Model& model) {
@@ -13,7 +15,7 @@ NodalDamping damping_of_parts(const Deck& deck, const Model& model) {
     const int corners = nodes_per_element(block.element);
     for (std::size_t e = 0; model.parts[p].rigid < 0 && e < block.element_count; ++e)
       for (int corner = 0; corner < corners; ++corner) {
-        const auto node = static_cast<std::size_t>(block.node(e, corner));
+        const auto node = index(block.node(e, corner));
         const double share = block.kernel.mass(block, e) / corners;
         mass[node] += share;
         damped[node] += deck.parts[p].damping * share;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "src/base/index.hpp"
 #include "src/deck/element_quality.hpp"
 #include "src/deck/mesh.hpp"
 
@@ -12,7 +13,7 @@ namespace brio {
 namespace {
 
 Vector position_of(const Model& model, int node) {
-  const double* x = model.nodes.record[static_cast<std::size_t>(node)].position;
+  const double* x = model.nodes.record[index(node)].position;
   return {x[0], x[1], x[2]};
 }
 
@@ -32,8 +33,7 @@ std::vector<double> edges_of(const Model& model, const std::vector<int>& nodes) 
 
 std::array<int, 4> sorted_side(const std::vector<int>& nodes, int side) {
   std::array<int, 4> found{};
-  for (std::size_t k = 0; k < 4; ++k)
-    found[k] = nodes[static_cast<std::size_t>(sides_of_hex[static_cast<std::size_t>(side)][k])];
+  for (std::size_t k = 0; k < 4; ++k) found[k] = nodes[index(sides_of_hex[index(side)][k])];
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -42,8 +42,7 @@ double length_along(const Model& model, const std::vector<int>& nodes, std::size
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto& [a, b] = edges_of_hex[4 * direction + k];
-    sum += 0.25 * distance(position_of(model, nodes[static_cast<std::size_t>(a)]),
-                           position_of(model, nodes[static_cast<std::size_t>(b)]));
+    sum += 0.25 * distance(position_of(model, nodes[index(a)]), position_of(model, nodes[index(b)]));
   }
   return sum;
 }
@@ -72,7 +71,7 @@ void take_nodes(const Model& model, const PartInModel& part, PartShape& shape) {
   shape.lower = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
   shape.upper = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (const int node : part.node) {
-    const NodeRecord& record = model.nodes.record[static_cast<std::size_t>(node)];
+    const NodeRecord& record = model.nodes.record[index(node)];
     for (std::size_t i = 0; i < 3; ++i) {
       shape.lower[i] = std::min(shape.lower[i], record.position[i]);
       shape.upper[i] = std::max(shape.upper[i], record.position[i]);
@@ -90,8 +89,8 @@ double PartShape::extent() const {
 std::vector<int> nodes_of_element(const Model& model, const PartInModel& part, std::size_t element) {
   std::vector<int> nodes;
   if (part.rigid >= 0) {
-    const RigidBody& body = model.rigid.body[static_cast<std::size_t>(part.rigid)];
-    const auto corners = static_cast<std::size_t>(body.nodes_per_element);
+    const RigidBody& body = model.rigid.body[index(part.rigid)];
+    const auto corners = index(body.nodes_per_element);
     nodes.assign(body.connectivity.begin() + static_cast<std::ptrdiff_t>(corners * element),
                  body.connectivity.begin() + static_cast<std::ptrdiff_t>(corners * (element + 1)));
     return nodes;
@@ -99,7 +98,7 @@ std::vector<int> nodes_of_element(const Model& model, const PartInModel& part, s
   const Block& block = model.blocks[part.block];
   const int slot = part.element_slot[element];
   for (int corner = 0; slot >= 0 && corner < nodes_per_element(block.element); ++corner)
-    nodes.push_back(block.node(static_cast<std::size_t>(slot), corner));
+    nodes.push_back(block.node(index(slot), corner));
   return nodes;
 }
 

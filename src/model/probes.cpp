@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "src/base/index.hpp"
 #include "src/deck/part_index.hpp"
 
 namespace brio {
@@ -21,7 +22,7 @@ std::size_t nearest_node(const Triple& point, const std::optional<std::string>& 
   double least = std::numeric_limits<double>::infinity();
   const auto look = [&](const PartInModel& of) {
     for (const int entry : of.node) {
-      const auto node = static_cast<std::size_t>(entry);
+      const auto node = index(entry);
       Vector distance = position_of(nodes, node);
       for (std::size_t i = 0; i < 3; ++i) distance[i] -= point[i];
       const double square = dot(distance, distance);

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <string_view>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 enum class Stage {
@@ -27,13 +29,13 @@ inline constexpr std::array<std::string_view, 11> stage_names{
 struct StageTimes {
   std::array<double, stage_names.size()> seconds{};
 
-  double& operator[](Stage stage) { return seconds[static_cast<std::size_t>(stage)]; }
+  double& operator[](Stage stage) { return seconds[index(stage)]; }
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
     archive(seconds);
   }
-  double operator[](Stage stage) const { return seconds[static_cast<std::size_t>(stage)]; }
+  double operator[](Stage stage) const { return seconds[index(stage)]; }
 };
 
 /// Adds the time of its own life to a stage.

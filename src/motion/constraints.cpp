@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -17,7 +19,7 @@ Reaction prescribe_skew(PrescribedNodes& given, const StepTimes& times, Nodes& n
   Reaction reaction;
   const GivenVelocity velocity_given = given_velocity(given.kind, given.curve, times);
   for (std::size_t k = 0; k < given.nodes.size(); ++k) {
-    const auto node = static_cast<std::size_t>(given.nodes[k]);
+    const auto node = index(given.nodes[k]);
     double* velocity = given.turns() ? nodes.angular_velocity[node].component : nodes.record[node].velocity;
     const double inertia = given.turns() ? nodes.rotational_inertia[node] : nodes.mass[node];
     const double* before =
@@ -47,7 +49,7 @@ constexpr double rounding_of_free_share = 1e-14;
 double work_after(const PrescribedNodes& given, const Nodes& nodes) {
   double sum = 0;
   for (std::size_t k = 0; k < given.impulse.size(); ++k) {
-    const auto node = static_cast<std::size_t>(given.nodes[k]);
+    const auto node = index(given.nodes[k]);
     const double* velocity =
         given.turns() ? nodes.angular_velocity[node].component : nodes.record[node].velocity;
     sum += dot(given.impulse[k], {velocity[0], velocity[1], velocity[2]});
@@ -77,10 +79,10 @@ Reaction prescribe(PrescribedNodes& given, const StepTimes& times, Nodes& nodes)
   if (given.is_skew()) return prescribe_skew(given, times, nodes);
   Reaction reaction;
   const bool turns = given.turns();
-  const auto axis = static_cast<std::size_t>(turns ? given.axis - 3 : given.axis);
+  const auto axis = index(turns ? given.axis - 3 : given.axis);
   const GivenVelocity velocity_given = given_velocity(given.kind, given.curve, times);
   for (int entry : given.nodes) {
-    const auto node = static_cast<std::size_t>(entry);
+    const auto node = index(entry);
     double& velocity =
         turns ? nodes.angular_velocity[node].component[axis] : nodes.record[node].velocity[axis];
     const double inertia = turns ? nodes.rotational_inertia[node] : nodes.mass[node];

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/ties/ties.hpp"
+#include "src/base/index.hpp"
 #include "src/deck/deck.hpp"
 #include "src/motion/energy_balance.hpp"
 
@@ -35,7 +36,7 @@ struct PrescribedNodes {
   Vector direction_of(std::size_t at) const {
     if (is_skew()) return direction[at];
     Vector unit{};
-    unit[static_cast<std::size_t>(axis % 3)] = 1;
+    unit[index(axis % 3)] = 1;
     return unit;
   }
 };

@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <span>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Vector = std::array<double, 3>;
@@ -174,7 +176,7 @@ inline std::size_t part_of_largest_ratio(std::span<const PartEnergy> parts) {
   const auto largest = std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
     return a.largest_ratio < b.largest_ratio;
   });
-  return static_cast<std::size_t>(largest - parts.begin());
+  return index(largest - parts.begin());
 }
 
 struct MomentumBalance {

@@ -1,11 +1,13 @@
 #include "src/motion/loads.hpp"
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
 
 Vector position_of(const Nodes& nodes, int node) {
-  const double* x = nodes.record[static_cast<std::size_t>(node)].position;
+  const double* x = nodes.record[index(node)].position;
   return {x[0], x[1], x[2]};
 }
 
@@ -67,15 +69,14 @@ void apply(ActiveLoad& load, double time, Nodes& nodes) {
   std::visit([&](const auto& kind) { forces_of(kind, time, nodes, load.applied); }, load.load);
   AlignedBuffer<NodeVector>& sum = load.is_moment() ? nodes.moment : nodes.force;
   for (const NodeForce& entry : load.applied)
-    for (std::size_t i = 0; i < 3; ++i)
-      sum[static_cast<std::size_t>(entry.node)].component[i] += entry.force[i];
+    for (std::size_t i = 0; i < 3; ++i) sum[index(entry.node)].component[i] += entry.force[i];
 }
 
 double power(const ActiveLoad& load, const Nodes& nodes) {
   double sum = 0;
   const bool is_moment = load.is_moment();
   for (const NodeForce& entry : load.applied) {
-    const auto node = static_cast<std::size_t>(entry.node);
+    const auto node = index(entry.node);
     const double* v = is_moment ? nodes.angular_velocity[node].component : nodes.record[node].velocity;
     sum += entry.force[0] * v[0] + entry.force[1] * v[1] + entry.force[2] * v[2];
   }

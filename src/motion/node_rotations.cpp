@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "elements/beam/beam_rotation.hpp"
+#include "src/base/index.hpp"
 #include "src/motion/motion.hpp"
 
 namespace brio {
@@ -14,7 +15,7 @@ NodeRotations start_rotations(std::span<const Block> blocks, const Nodes& nodes)
     for (std::size_t e = 0; e < block.element_count; ++e) {
       if (!(block.kernel.gyration(block, e) > 0)) continue;
       for (int corner = 0; corner < nodes_per_element(block.element); ++corner)
-        rotations[static_cast<std::size_t>(block.node(e, corner))] = {1, 0, 0, 0};
+        rotations[index(block.node(e, corner))] = {1, 0, 0, 0};
     }
   return rotations;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -143,7 +144,7 @@ void place_nodes(const RigidBody& body, Nodes& nodes, ThreadTeam& team) {
   team.for_ranges(body.node.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3d x = body.centre + turn * body.arm[i];
-      double* position = nodes.record[static_cast<std::size_t>(body.node[i])].position;
+      double* position = nodes.record[index(body.node[i])].position;
       for (int axis = 0; axis < 3; ++axis) position[axis] = x[axis];
     }
   });
@@ -159,7 +160,7 @@ void keep_joints(RigidBody& body) {
 
 void take_displacements(const RigidBody& body, double step, Nodes& nodes) {
   for (std::size_t j = 0; j < body.joint.size(); ++j) {
-    NodeRecord& record = nodes.record[static_cast<std::size_t>(body.node[body.joint[j]])];
+    NodeRecord& record = nodes.record[index(body.node[body.joint[j]])];
     for (std::size_t axis = 0; axis < 3; ++axis)
       record.velocity[axis] = (record.position[axis] - body.joint_before[j][axis]) / step;
   }
@@ -227,14 +228,14 @@ void gather_forces(RigidBodies& bodies, std::span<const ActiveLoad> loads, doubl
     body.moment = body.torque;
     if (!by_nodes) continue;
     for (int entry : body.node) {
-      const auto node = static_cast<std::size_t>(entry);
+      const auto node = index(entry);
       const Vector3d force(nodes.force[node].component);
       body.force += force;
       body.moment += (Vector3d(nodes.record[node].position) - body.centre).cross(force);
     }
     if (!nodes.has_rotations()) continue;
     for (const std::size_t i : body.joint)
-      body.moment += Vector3d(nodes.moment[static_cast<std::size_t>(body.node[i])].component);
+      body.moment += Vector3d(nodes.moment[index(body.node[i])].component);
   }
 }
 
@@ -310,7 +311,7 @@ void carry_velocities(const RigidBodies& bodies, Nodes& nodes, ThreadTeam& team)
     const RigidMotion& motion = bodies.motion[b];
     team.for_ranges(body.node.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        NodeRecord& record = nodes.record[static_cast<std::size_t>(body.node[i])];
+        NodeRecord& record = nodes.record[index(body.node[i])];
         const Vector3d velocity = motion.velocity_at(Vector3d(record.position) - body.centre);
         for (int axis = 0; axis < 3; ++axis) record.velocity[axis] = velocity[axis];
       }
@@ -318,8 +319,7 @@ void carry_velocities(const RigidBodies& bodies, Nodes& nodes, ThreadTeam& team)
     if (!nodes.has_rotations()) continue;
     for (const std::size_t i : body.joint)
       for (int axis = 0; axis < 3; ++axis)
-        nodes.angular_velocity[static_cast<std::size_t>(body.node[i])].component[axis] =
-            motion.angular_velocity[axis];
+        nodes.angular_velocity[index(body.node[i])].component[axis] = motion.angular_velocity[axis];
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/motion/rigid.hpp"
 
 namespace brio {
@@ -20,9 +21,7 @@ constexpr double overlap_recovery = 0.1;
 // rotate the body towards it.
 constexpr double approach_factor = 2;
 
-Vector3d point_of(const Nodes& nodes, int node) {
-  return Vector3d(nodes.record[static_cast<std::size_t>(node)].position);
-}
+Vector3d point_of(const Nodes& nodes, int node) { return Vector3d(nodes.record[index(node)].position); }
 
 void find_touches(const WallInRun& entry, const StepTimes& times, RigidBody& body, const RigidMotion& motion,
                   const Nodes& nodes) {

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -72,16 +73,16 @@ Tensor<double> axes_of(Basis basis) {
 
 SupportAxes& own_axes_of(int node, Nodes& nodes) {
   if (nodes.axes_of.empty()) nodes.axes_of.assign(nodes.size(), -1);
-  int& own = nodes.axes_of[static_cast<std::size_t>(node)];
+  int& own = nodes.axes_of[index(node)];
   if (own < 0) {
     own = static_cast<int>(nodes.support_axes.size());
     nodes.support_axes.push_back({identity<double>(), identity<double>()});
   }
-  return nodes.support_axes[static_cast<std::size_t>(own)];
+  return nodes.support_axes[index(own)];
 }
 
 void mark(int node, int bits, Nodes& nodes) {
-  nodes.prescribed[static_cast<std::size_t>(node)] |= static_cast<std::uint8_t>(bits);
+  nodes.prescribed[index(node)] |= static_cast<std::uint8_t>(bits);
 }
 
 /// All supports of one node, of translations or of rotations.
@@ -92,7 +93,7 @@ void combine(std::span<const SupportPlace> places, std::vector<PrescribedNodes>&
   for (const SupportPlace& place : places) {
     PrescribedNodes& given = prescribed[place.entry];
     given.dual[place.at] = {};
-    if (take(basis, given.direction[place.at], given, nodes.record[static_cast<std::size_t>(node)].position))
+    if (take(basis, given.direction[place.at], given, nodes.record[index(node)].position))
       dual.push_back(&given.dual[place.at]);
   }
   const Matrix3d duals = duals_of(basis);
@@ -111,10 +112,10 @@ void part_entries(std::vector<PrescribedNodes>& prescribed, bool turns, std::siz
   for (const PrescribedNodes& given : prescribed) {
     if (!given.is_skew() || !concerned(given)) continue;
     skew.resize(node_count);
-    for (const int node : given.nodes) skew[static_cast<std::size_t>(node)] = 1;
+    for (const int node : given.nodes) skew[index(node)] = 1;
   }
   if (skew.empty()) return;
-  const auto is_skew = [&](int node) { return skew[static_cast<std::size_t>(node)] != 0; };
+  const auto is_skew = [&](int node) { return skew[index(node)] != 0; };
   std::vector<PrescribedNodes> parted;
   for (PrescribedNodes& given : prescribed) {
     PrescribedNodes own = given;

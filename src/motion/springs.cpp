@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -10,19 +12,17 @@ using Eigen::Vector3d;
 namespace {
 
 Vector3d place_of(const SpringAnchor& anchor, const Nodes& nodes) {
-  return anchor.node < 0 ? anchor.point
-                         : Vector3d(nodes.record[static_cast<std::size_t>(anchor.node)].position);
+  return anchor.node < 0 ? anchor.point : Vector3d(nodes.record[index(anchor.node)].position);
 }
 
 Vector3d velocity_of(const SpringAnchor& anchor, const Nodes& nodes) {
-  return anchor.node < 0 ? Vector3d(Vector3d::Zero())
-                         : Vector3d(nodes.record[static_cast<std::size_t>(anchor.node)].velocity);
+  return anchor.node < 0 ? Vector3d(Vector3d::Zero()) : Vector3d(nodes.record[index(anchor.node)].velocity);
 }
 
 Vector3d spin_of(const SpringAnchor& anchor, const RigidBodies& bodies, const Nodes& nodes) {
   if (anchor.node < 0) return Vector3d::Zero();
-  if (anchor.body >= 0) return bodies.motion[static_cast<std::size_t>(anchor.body)].angular_velocity;
-  return Vector3d(nodes.angular_velocity[static_cast<std::size_t>(anchor.node)].component);
+  if (anchor.body >= 0) return bodies.motion[index(anchor.body)].angular_velocity;
+  return Vector3d(nodes.angular_velocity[index(anchor.node)].component);
 }
 
 double rate_of(const SpringInRun& spring, const RigidBodies& bodies, const Nodes& nodes) {
@@ -42,7 +42,7 @@ void measure(SpringInRun& spring, const Nodes& nodes) {
 /// Rotation vector of an end over the last step.
 Vector3d turn_of(SpringAnchor& anchor, double last_step, const RigidBodies& bodies, const Nodes& nodes) {
   if (anchor.body < 0) return last_step * spin_of(anchor, bodies, nodes);
-  const Eigen::Quaterniond& now = bodies.body[static_cast<std::size_t>(anchor.body)].attitude;
+  const Eigen::Quaterniond& now = bodies.body[index(anchor.body)].attitude;
   const Eigen::Quaterniond turn = now * anchor.attitude.conjugate();
   anchor.attitude = now;
   const double sine = turn.vec().norm();
@@ -64,24 +64,23 @@ void measure_angle(SpringInRun& spring, double last_step, const RigidBodies& bod
 }
 
 bool is_removed(const SpringAnchor& anchor, const Nodes& nodes) {
-  return anchor.node >= 0 && anchor.body < 0 &&
-         nodes.record[static_cast<std::size_t>(anchor.node)].inverse_mass == 0;
+  return anchor.node >= 0 && anchor.body < 0 && nodes.record[index(anchor.node)].inverse_mass == 0;
 }
 
 void add_force(const SpringAnchor& anchor, const Vector3d& force, Nodes& nodes) {
   if (anchor.node < 0) return;
-  double* sum = nodes.force[static_cast<std::size_t>(anchor.node)].component;
+  double* sum = nodes.force[index(anchor.node)].component;
   for (int axis = 0; axis < 3; ++axis) sum[axis] += force[axis];
 }
 
 void add_moment(const SpringAnchor& anchor, const Vector3d& moment, Nodes& nodes) {
   if (anchor.node < 0 || anchor.body >= 0) return;
-  double* sum = nodes.moment[static_cast<std::size_t>(anchor.node)].component;
+  double* sum = nodes.moment[index(anchor.node)].component;
   for (int axis = 0; axis < 3; ++axis) sum[axis] += moment[axis];
 }
 
 Vector3d arm_of(const SpringAnchor& anchor, const RigidBodies& bodies, const Nodes& nodes) {
-  return place_of(anchor, nodes) - bodies.body[static_cast<std::size_t>(anchor.body)].centre;
+  return place_of(anchor, nodes) - bodies.body[index(anchor.body)].centre;
 }
 
 /// Acceleration along a direction by the forces known so far, and by a unit force along it; or angular
@@ -95,14 +94,14 @@ Response response_of(const SpringAnchor& anchor, const Vector3d& direction, cons
                      const Nodes& nodes) {
   if (anchor.node < 0) return {};
   if (anchor.body >= 0) {
-    const RigidBody& body = bodies.body[static_cast<std::size_t>(anchor.body)];
-    const RigidMotion& motion = bodies.motion[static_cast<std::size_t>(anchor.body)];
+    const RigidBody& body = bodies.body[index(anchor.body)];
+    const RigidMotion& motion = bodies.motion[index(anchor.body)];
     const Vector3d arm = arm_of(anchor, bodies, nodes);
     const Vector3d turning = motion.inverse_inertia * body.moment;
     return {direction.dot(motion.free_inverse_mass() * body.force + turning.cross(arm)),
             motion.inverse_mass_along(direction, arm)};
   }
-  const auto node = static_cast<std::size_t>(anchor.node);
+  const auto node = index(anchor.node);
   const Vector along = nodes.free_inverse_mass(node) * to_vector(direction);
   const double* force = nodes.force[node].component;
   return {dot(along, {force[0], force[1], force[2]}), dot(along, to_vector(direction))};
@@ -112,11 +111,11 @@ Response turning_response_of(const SpringAnchor& anchor, const Vector3d& axis, c
                              const Nodes& nodes) {
   if (anchor.node < 0) return {};
   if (anchor.body >= 0) {
-    const RigidMotion& motion = bodies.motion[static_cast<std::size_t>(anchor.body)];
+    const RigidMotion& motion = bodies.motion[index(anchor.body)];
     const Vector3d along = motion.inverse_inertia * axis;
-    return {along.dot(bodies.body[static_cast<std::size_t>(anchor.body)].moment), along.dot(axis)};
+    return {along.dot(bodies.body[index(anchor.body)].moment), along.dot(axis)};
   }
-  const auto node = static_cast<std::size_t>(anchor.node);
+  const auto node = index(anchor.node);
   const Vector along = nodes.free_inverse_inertia(node) * to_vector(axis);
   const double* moment = nodes.moment[node].component;
   return {dot(along, {moment[0], moment[1], moment[2]}), dot(along, to_vector(axis))};
@@ -124,7 +123,7 @@ Response turning_response_of(const SpringAnchor& anchor, const Vector3d& axis, c
 
 void twist(const SpringAnchor& anchor, const Vector3d& moment, RigidBodies& bodies, Nodes& nodes) {
   if (anchor.body < 0) return add_moment(anchor, moment, nodes);
-  bodies.body[static_cast<std::size_t>(anchor.body)].moment += moment;
+  bodies.body[index(anchor.body)].moment += moment;
 }
 
 void pull(const SpringAnchor& anchor, const Vector3d& force, RigidBodies& bodies, Nodes& nodes) {
@@ -132,7 +131,7 @@ void pull(const SpringAnchor& anchor, const Vector3d& force, RigidBodies& bodies
     add_force(anchor, force, nodes);
     return;
   }
-  RigidBody& body = bodies.body[static_cast<std::size_t>(anchor.body)];
+  RigidBody& body = bodies.body[index(anchor.body)];
   body.force += force;
   body.moment += arm_of(anchor, bodies, nodes).cross(force);
 }
@@ -151,9 +150,9 @@ double dashpot_force(const SpringInRun& spring, double mean_step, const RigidBod
 }
 
 double largest_inverse_mass(const AnchoredMass& mass, const RigidBodies& bodies, const Nodes& nodes) {
-  if (const auto node = static_cast<std::size_t>(mass.node); mass.body < 0)
+  if (const auto node = index(mass.node); mass.body < 0)
     return nodes.prescribed_translations(node) == 7 ? 0 : nodes.record[node].inverse_mass;
-  const RigidMotion& motion = bodies.motion[static_cast<std::size_t>(mass.body)];
+  const RigidMotion& motion = bodies.motion[index(mass.body)];
   return motion.inverse_mass.maxCoeff() + mass.arm * mass.arm * motion.inverse_inertia.trace();
 }
 
@@ -161,10 +160,10 @@ double largest_inverse_mass(const AnchoredMass& mass, const RigidBodies& bodies,
 double largest_inverse_inertia(const AnchoredMass& mass, const RigidBodies& bodies, const Nodes& nodes) {
   if (mass.torsional_stiffness == 0 && mass.torsional_damping == 0) return 0;
   if (mass.body < 0) {
-    const auto node = static_cast<std::size_t>(mass.node);
+    const auto node = index(mass.node);
     return nodes.prescribed_rotations(node) == 7 ? 0 : nodes.angular_velocity[node].component[3];
   }
-  return bodies.motion[static_cast<std::size_t>(mass.body)].inverse_inertia.trace();
+  return bodies.motion[index(mass.body)].inverse_inertia.trace();
 }
 
 /// Of what resists the elongation and, in tension, a motion across it.
@@ -266,7 +265,7 @@ void turn_bodies(const Springs& springs, RigidBodies& bodies) {
     if (!spring.is_torsional || spring.is_broken) continue;
     for (const double sign : {1.0, -1.0})
       if (const int body = spring.end[sign > 0 ? 0 : 1].body; body >= 0)
-        bodies.body[static_cast<std::size_t>(body)].moment += sign * spring.force * spring.direction;
+        bodies.body[index(body)].moment += sign * spring.force * spring.direction;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/motion/constraints.hpp"
 
 namespace brio {
@@ -11,16 +12,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-const Tie& tie_of(const Ties& ties, int node) {
-  return ties.node[static_cast<std::size_t>(ties.of_node[static_cast<std::size_t>(node)])].tie;
-}
+const Tie& tie_of(const Ties& ties, int node) { return ties.node[index(ties.of_node[index(node)])].tie; }
 
 /// Calls visit(node, impulse, moment) for the independent nodes that get an impulse on a tied node.
 template <class Visit>
 void transfer(const Ties& ties, const Nodes& nodes, int node, const Vector3d& impulse, const Vector3d& moment,
               const Visit& visit) {
   if (!ties.is_tied(node)) {
-    visit(static_cast<std::size_t>(node), impulse, moment);
+    visit(index(node), impulse, moment);
     return;
   }
   const Tie& tie = tie_of(ties, node);
@@ -88,7 +87,7 @@ Reaction stop_tied_at(const WallInRun& entry, const StepTimes& times, Ties& ties
       normal.dot(Vector3d(entry.wall.point.data()) + (times.time + times.next) * wall_velocity);
   for (std::size_t i = ties.node.size(); i-- > 0;) {
     const Tie& tie = ties.node[i].tie;
-    const Vector3d x(nodes.record[static_cast<std::size_t>(tie.node)].position);
+    const Vector3d x(nodes.record[index(tie.node)].position);
     const Vector3d v = tied_velocity(tie, nodes, times.next);
     const double height = normal.dot(x + times.next * v) - offset;
     if (height >= 0) continue;
@@ -115,7 +114,7 @@ WallReaction reaction_of_tied(const Ties& ties, const StepTimes& times, Nodes& n
   WallReaction reaction;
   for (std::size_t i = 0; i < ties.node.size(); ++i) {
     if (ties.wall_impulse[i].isZero(0)) continue;
-    const auto node = static_cast<std::size_t>(ties.node[i].tie.node);
+    const auto node = index(ties.node[i].tie.node);
     const NodeRecord& record = nodes.record[node];
     const Vector3d before(nodes.velocity_before[node].component);
     const Vector3d after(record.velocity);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "elements/element_state.hpp"
+#include "src/base/index.hpp"
 #include "src/fields/strain.hpp"
 #include "src/output/result_order.hpp"
 
@@ -16,8 +17,7 @@ constexpr std::size_t points_per_range = 2048, elements_per_range = 256;
 
 FieldArray field(std::string name, int components, std::size_t count,
                  Storage storage = Storage::single_precision, bool fixed = false) {
-  return {std::move(name), components, std::vector<double>(static_cast<std::size_t>(components) * count),
-          storage, fixed};
+  return {std::move(name), components, std::vector<double>(index(components) * count), storage, fixed};
 }
 
 /// Whether any kind of element has that trait.
@@ -30,13 +30,12 @@ bool any_has(const Model& model, bool ElementTraits::*trait) {
 ElementSample sample_of(const Model& model, const PartInModel& part, std::size_t element, bool in_full) {
   if (part.rigid >= 0) {
     ElementSample sample{};
-    const double thickness = model.rigid.body[static_cast<std::size_t>(part.rigid)].thickness;
+    const double thickness = model.rigid.body[index(part.rigid)].thickness;
     if (thickness > 0) sample.thickness = thickness;
     return sample;
   }
   const Block& block = model.blocks[part.block];
-  return block.kernel.sample(block, model.nodes, static_cast<std::size_t>(part.element_slot[element]),
-                             in_full);
+  return block.kernel.sample(block, model.nodes, index(part.element_slot[element]), in_full);
 }
 
 bool is_of_points(std::string_view name) {
@@ -53,11 +52,9 @@ bool has_ids(const Model& model) {
 
 FieldObserver::FieldObserver(const Model& model, std::span<const std::string> variables)
     : point_of_node_(points_of_nodes(model)) {
-  node_of_point_.resize(model.nodes.size() -
-                        static_cast<std::size_t>(std::ranges::count(point_of_node_, std::int64_t{-1})));
+  node_of_point_.resize(model.nodes.size() - index(std::ranges::count(point_of_node_, std::int64_t{-1})));
   for (std::size_t node = 0; node < point_of_node_.size(); ++node)
-    if (point_of_node_[node] >= 0)
-      node_of_point_[static_cast<std::size_t>(point_of_node_[node])] = static_cast<int>(node);
+    if (point_of_node_[node] >= 0) node_of_point_[index(point_of_node_[node])] = static_cast<int>(node);
   snapshot_.points.resize(3 * node_of_point_.size());
   add_point_fields(model, variables);
   if (std::ranges::find(variables, state_variable) != variables.end()) add_state(model);
@@ -70,7 +67,7 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> va
 
 template <class Value>
 void FieldObserver::add_point_field(FieldArray field, Value value) {
-  const auto components = static_cast<std::size_t>(field.components);
+  const auto components = index(field.components);
   snapshot_.point_fields.push_back(std::move(field));
   point_values_.push_back([=](const Model& model, std::size_t begin, std::size_t end, double* values) {
     for (std::size_t point = begin; point < end; ++point) value(model, point, values + components * point);
@@ -97,12 +94,12 @@ void FieldObserver::add_point_fields(const Model& model, std::span<const std::st
   add_point_field(
       field("velocity", 3, points, with_state ? Storage::double_precision : Storage::single_precision),
       [this](const Model& now, std::size_t point, double* out) {
-        std::copy_n(now.nodes.record[static_cast<std::size_t>(node_of_point_[point])].velocity, 3, out);
+        std::copy_n(now.nodes.record[index(node_of_point_[point])].velocity, 3, out);
       });
   if (with_state && model.nodes.has_rotations())
     add_point_field(field("angular_velocity", 3, points, Storage::double_precision),
                     [this](const Model& now, std::size_t point, double* out) {
-                      const auto node = static_cast<std::size_t>(node_of_point_[point]);
+                      const auto node = index(node_of_point_[point]);
                       std::copy_n(now.nodes.angular_velocity[node].component, 3, out);
                     });
   if (!model.contacts.empty()) {
@@ -179,7 +176,7 @@ void FieldObserver::note_parts(const Model& model) {
   for (const PartInModel& part : model.parts) {
     std::int64_t first = part.node.empty() ? 0 : std::numeric_limits<std::int64_t>::max(), last = -1;
     for (const int node : part.node) {
-      const std::int64_t point = point_of_node_[static_cast<std::size_t>(node)];
+      const std::int64_t point = point_of_node_[index(node)];
       first = std::min(first, point);
       last = std::max(last, point);
     }
@@ -196,8 +193,7 @@ void FieldObserver::take_topology(const Model& model) {
     const PartInModel& part = model.parts[p];
     const std::size_t first_cell = topology.cell_type.size();
     const Block& block = model.blocks[part.block];
-    const RigidBody* rigid =
-        part.rigid >= 0 ? &model.rigid.body[static_cast<std::size_t>(part.rigid)] : nullptr;
+    const RigidBody* rigid = part.rigid >= 0 ? &model.rigid.body[index(part.rigid)] : nullptr;
     const int corners = rigid != nullptr ? rigid->nodes_per_element : nodes_per_element(block.element);
     const CellType cell = rigid != nullptr ? cell_with(corners) : traits_of(block.element).cell;
     for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
@@ -208,11 +204,10 @@ void FieldObserver::take_topology(const Model& model) {
       topology.cell_type.push_back(cell);
       topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
       for (int corner = 0; corner < corners; ++corner) {
-        const std::size_t entry = e * static_cast<std::size_t>(corners) + static_cast<std::size_t>(corner);
-        const int node = rigid != nullptr
-                             ? rigid->connectivity[entry]
-                             : block.node(static_cast<std::size_t>(part.element_slot[e]), corner);
-        topology.connectivity.push_back(point_of_node_[static_cast<std::size_t>(node)]);
+        const std::size_t entry = e * index(corners) + index(corner);
+        const int node =
+            rigid != nullptr ? rigid->connectivity[entry] : block.node(index(part.element_slot[e]), corner);
+        topology.connectivity.push_back(point_of_node_[index(node)]);
       }
     }
     snapshot_.parts[p].first_cell = static_cast<std::int64_t>(first_cell);
@@ -220,7 +215,7 @@ void FieldObserver::take_topology(const Model& model) {
   }
   topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
   for (FieldArray& cell_field : snapshot_.cell_fields)
-    cell_field.values.resize(static_cast<std::size_t>(cell_field.components) * topology.cell_type.size());
+    cell_field.values.resize(index(cell_field.components) * topology.cell_type.size());
   deleted_ = deleted_so_far(model);
   is_topology_new_ = true;
 }
@@ -233,7 +228,7 @@ void FieldObserver::follow(const Model& model) {
 
 void FieldObserver::take_positions(const Model& model, std::size_t begin, std::size_t end, double after) {
   for (std::size_t p = begin; p < end; ++p) {
-    const NodeRecord& record = model.nodes.record[static_cast<std::size_t>(node_of_point_[p])];
+    const NodeRecord& record = model.nodes.record[index(node_of_point_[p])];
     for (std::size_t i = 0; i < 3; ++i)
       snapshot_.points[3 * p + i] = record.position[i] + after * record.velocity[i];
   }
@@ -245,7 +240,7 @@ void FieldObserver::number_points(const Model& model) {
   std::vector<bool> is_known(point_number_.size());
   for (const PartInModel& part : model.parts)
     for (std::size_t i = 0; i < part.node.size(); ++i) {
-      const auto point = static_cast<std::size_t>(point_of_node_[static_cast<std::size_t>(part.node[i])]);
+      const auto point = index(point_of_node_[index(part.node[i])]);
       if (!is_known[point]) point_number_[point] = static_cast<double>(part.number_of_node(i));
       is_known[point] = true;
     }
@@ -268,8 +263,7 @@ void FieldObserver::note_thickness(const Model& model) {
 // Of hexahedra and shells that are not rigid; none of others.
 std::span<const std::int64_t> FieldObserver::strained_corners(const Model& model, const Cell& at) const {
   const Topology& topology = snapshot_.topology;
-  const auto first = static_cast<std::size_t>(topology.offset[at.number]),
-             count = static_cast<std::size_t>(topology.offset[at.number + 1]) - first;
+  const auto first = index(topology.offset[at.number]), count = index(topology.offset[at.number + 1]) - first;
   if (count < 4 || model.parts[at.part].rigid >= 0) return {};
   return std::span(topology.connectivity).subspan(first, count);
 }
@@ -280,7 +274,7 @@ SymmetricTensor<double> FieldObserver::strain_of(const Model& model, const Eleme
   if (corner.empty()) return ElementSample::undefined_tensor;
   std::array<Eigen::Vector3d, 8> before, now;
   for (std::size_t k = 0; k < corner.size(); ++k) {
-    const auto point = static_cast<std::size_t>(corner[k]);
+    const auto point = index(corner[k]);
     before[k] = Eigen::Vector3d(&reference_[3 * point]);
     now[k] = Eigen::Vector3d(&snapshot_.points[3 * point]);
   }
@@ -296,7 +290,7 @@ SymmetricTensor<double> FieldObserver::strain_rate_of(const Model& model, const 
   if (corner.empty()) return ElementSample::undefined_tensor;
   std::array<Eigen::Vector3d, 8> now, velocity;
   for (std::size_t k = 0; k < corner.size(); ++k) {
-    const auto node = static_cast<std::size_t>(node_of_point_[static_cast<std::size_t>(corner[k])]);
+    const auto node = index(node_of_point_[index(corner[k])]);
     const NodeRecord& record = model.nodes.record[node];
     velocity[k] = Eigen::Vector3d(record.velocity);
     now[k] = Eigen::Vector3d(record.position) + 0.5 * model.times.next * velocity[k];
@@ -308,7 +302,7 @@ SymmetricTensor<double> FieldObserver::strain_rate_of(const Model& model, const 
 
 void FieldObserver::fill_cell(const Model& model, const CellSource& source, const ElementSample& sample,
                               const Cell& at, FieldArray& field) const {
-  double* values = &field.values[static_cast<std::size_t>(field.components) * at.number];
+  double* values = &field.values[index(field.components) * at.number];
   switch (source.kind) {
     case CellSource::Kind::part:
       *values = static_cast<double>(at.part);
@@ -337,12 +331,11 @@ void FieldObserver::fill_cell(const Model& model, const CellSource& source, cons
 void FieldObserver::fill_state(const Model& model, const PartInModel& part, std::size_t element,
                                std::size_t cell) {
   FieldArray& field = snapshot_.cell_fields[state_field_];
-  const auto components = static_cast<std::size_t>(field.components);
+  const auto components = index(field.components);
   double* row = field.values.data() + cell * components;
   std::fill_n(row, components, ElementSample::undefined);
   const Block& block = model.blocks[part.block];
-  if (part.rigid < 0 && !block.cloud)
-    read_state(block, static_cast<std::size_t>(part.element_slot[element]), row);
+  if (part.rigid < 0 && !block.cloud) read_state(block, index(part.element_slot[element]), row);
 }
 
 void FieldObserver::fill_cells(const Model& model, const ElementRange& range) {

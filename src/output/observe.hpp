@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/base/parallel.hpp"
 #include "src/fields/cell_variables.hpp"
 #include "src/fields/contact_fields.hpp"
@@ -48,7 +49,7 @@ class FieldObserver {
   void follow(const Model& model);
 
  private:
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  static constexpr std::size_t none = index(-1);
 
   /// What fills a field of cells.
   struct CellSource {

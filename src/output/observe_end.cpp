@@ -2,6 +2,7 @@
 #include <array>
 #include <set>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/result_order.hpp"
 
@@ -34,10 +35,10 @@ namespace {
 
 Summary::DeepestContact described(const AuditPlace& place, double time, const Model& model) {
   const std::vector<std::string>& name = model.contacts.front().surface.part_name;
-  const auto part = [&](int number) { return number < 0 ? "" : name[static_cast<std::size_t>(number)]; };
+  const auto part = [&](int number) { return number < 0 ? "" : name[index(number)]; };
   return {.depth = place.depth,
           .time = time,
-          .node = points_of_nodes(model)[static_cast<std::size_t>(place.node)],
+          .node = points_of_nodes(model)[index(place.node)],
           .parts = {part(place.part[0]), part(place.part[1])}};
 }
 
@@ -71,7 +72,7 @@ Summary observe_end(Model& model) {
   for (const PartInModel& part : model.parts) {
     summary.mass.start += part.mass;
     if (part.rigid >= 0) {
-      rigid_mass += model.rigid.body[static_cast<std::size_t>(part.rigid)].mass;  // with joined nodes
+      rigid_mass += model.rigid.body[index(part.rigid)].mass;  // with joined nodes
       continue;
     }
     const std::string_view kind = traits_of(model.blocks[part.block].element).summary_key;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/part_energy_columns.hpp"
 #include "src/output/result_order.hpp"
@@ -17,14 +18,14 @@ constexpr std::size_t most_parts_in_history = 100;
 Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBodies& rigid,
                      std::span<const double> moved_mass) {
   if (part.rigid >= 0) {
-    const Eigen::Vector3d& v = rigid.motion[static_cast<std::size_t>(part.rigid)].velocity;
+    const Eigen::Vector3d& v = rigid.motion[index(part.rigid)].velocity;
     return {v[0], v[1], v[2]};
   }
   constexpr std::size_t sums = 4;  // that do not wait for each other
   std::array<Row4, sums> momentum{};
   std::array<double, sums> mass{};
   for (std::size_t i = 0; i < part.node.size(); ++i) {
-    const auto node = static_cast<std::size_t>(part.node[i]);
+    const auto node = index(part.node[i]);
     const double own = nodes.mass[node] + (moved_mass.empty() ? 0 : moved_mass[node]);
     mass[i % sums] += own;
     momentum[i % sums] += own * load_row(nodes.record[node].velocity);

@@ -1,5 +1,7 @@
 #include "src/output/part_energy_columns.hpp"
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -8,14 +10,14 @@ double square(const double* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
 
 double kinetic_energy_of(const Model& model, const PartInModel& part) {
   if (part.rigid >= 0) {
-    const auto body = static_cast<std::size_t>(part.rigid);
+    const auto body = index(part.rigid);
     const RigidMotion& motion = model.rigid.motion[body];
     return 0.5 * (model.rigid.body[body].mass * motion.velocity.squaredNorm() +
                   model.rigid.body[body].angular_momentum.dot(motion.angular_velocity));
   }
   double sum = 0;
   for (const int entry : part.node) {
-    const auto node = static_cast<std::size_t>(entry);
+    const auto node = index(entry);
     sum += 0.5 * model.nodes.mass[node] * square(model.nodes.record[node].velocity);
     if (model.nodes.has_rotations())
       sum +=

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 bool can_be_damaged(const Model& model) {
@@ -17,7 +19,7 @@ std::vector<std::int64_t> points_of_nodes(const Model& model) {
   for (const PartInModel& part : model.parts)
     for (int node : part.node)
       // One of a part before, which shares it, has its number.
-      if (std::int64_t& point = points[static_cast<std::size_t>(node)]; point < 0) point = count++;
+      if (std::int64_t& point = points[index(node)]; point < 0) point = count++;
   return points;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <variant>
 
+#include "src/base/index.hpp"
 #include "src/model/node_name.hpp"
 #include "src/step/diagnosis.hpp"
 
@@ -34,7 +35,7 @@ std::string warning_of_hourglassing(const Model& model, std::size_t part) {
 }
 
 std::string warning_of_crossing(const Model& model, const ContactScene::Unresolved& unresolved) {
-  const auto name = [&](int node) { return name_of_node(model, static_cast<std::size_t>(node)); };
+  const auto name = [&](int node) { return name_of_node(model, index(node)); };
   const std::string pair = unresolved.node[0] < 0
                                ? std::string("a node pushed behind a rigid wall")
                                : name(unresolved.node[0]) + " and " + name(unresolved.node[1]);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "src/base/index.hpp"
 #include "src/model/part_shape.hpp"
 
 namespace brio {
@@ -33,7 +34,7 @@ struct Fastest {
 Vector mean_velocity_of(const PartInModel& part, const Nodes& nodes) {
   Vector sum{};
   for (const int node : part.node)
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += nodes.record[static_cast<std::size_t>(node)].velocity[i];
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += nodes.record[index(node)].velocity[i];
   for (double& component : sum) component /= static_cast<double>(part.node.size());
   return sum;
 }
@@ -45,7 +46,7 @@ Fastest fastest_node(const Model& model) {
     const double sound = speed_of_sound(model.blocks[part.block]);
     const Vector mean = mean_velocity_of(part, model.nodes);
     for (const int node : part.node) {
-      const NodeRecord& record = model.nodes.record[static_cast<std::size_t>(node)];
+      const NodeRecord& record = model.nodes.record[index(node)];
       Vector velocity{};
       bool finite = true;
       for (std::size_t i = 0; i < 3; ++i) {
@@ -126,8 +127,7 @@ std::string element_name(const Model& model, std::size_t block, std::size_t elem
 
 std::string critical_name(const Model& model) {
   const Springs& springs = model.springs;
-  if (springs.critical >= 0)
-    return "spring '" + springs.spring[static_cast<std::size_t>(springs.critical)].name + "'";
+  if (springs.critical >= 0) return "spring '" + springs.spring[index(springs.critical)].name + "'";
   return element_name(model, model.control.critical_block, model.control.critical_element);
 }
 

@@ -6,6 +6,7 @@
 
 #include "contact/surface/face_geometry.hpp"
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -19,14 +20,12 @@ constexpr double driven_overlap = 1e-3;
 void expect_driven_bodies_apart(const Model& model, const ContactScene& scene) {
   if (model.rigid.body.size() < 2) return;
   for (const Contact& contact : scene.contacts) {
-    const auto own = static_cast<std::size_t>(contact.own);
-    const auto node_of = [&](std::size_t k) {
-      return scene.surface.node[static_cast<std::size_t>(contact.node[k])];
-    };
+    const auto own = index(contact.own);
+    const auto node_of = [&](std::size_t k) { return scene.surface.node[index(contact.node[k])]; };
     const int first_body = scene.surface.rigid_body(node_of(0));
     const int second_body = scene.surface.rigid_body(node_of(own));
     if (first_body < 0 || second_body < 0) continue;
-    const auto first = static_cast<std::size_t>(first_body), second = static_cast<std::size_t>(second_body);
+    const auto first = index(first_body), second = index(second_body);
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < own; ++k) point += contact.weight[k] * position(model.nodes, node_of(k));
     const RigidMotion &a = model.rigid.motion[first], &b = model.rigid.motion[second];

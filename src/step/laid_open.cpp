@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/pairs/laid_open.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -13,21 +14,21 @@ int place_of(const Model& model, std::size_t part, int surface_element) {
   const std::vector<int>& known = model.surface_numbers->element[part];
   const auto at = std::find(known.begin(), known.end(), surface_element);
   if (at == known.end()) return -1;
-  return model.parts[part].element_slot[static_cast<std::size_t>(at - known.begin())];
+  return model.parts[part].element_slot[index(at - known.begin())];
 }
 
 void give_up(Model& model, std::size_t b, std::span<const int> places) {
   Block& block = model.blocks[b];
-  const auto width = static_cast<std::size_t>(block.lanes);
+  const auto width = index(block.lanes);
   for (std::size_t t = 0; t < model.schedule.tasks.size(); ++t) {
     const SweepTask& task = model.schedule.tasks[t];
     if (task.block != b) continue;
     const std::size_t first = task.chunk.first_pack * width, end = first + task.chunk.element_count;
     SweepResult& result = model.sweep_results[t];
     for (int place : places) {
-      if (static_cast<std::size_t>(place) < first || static_cast<std::size_t>(place) >= end) continue;
+      if (index(place) < first || index(place) >= end) continue;
       block.lost.data()[first + result.lost++] = place;
-      ++result.lost_by[static_cast<std::size_t>(DeletionCause::distortion)];
+      ++result.lost_by[index(DeletionCause::distortion)];
     }
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 #include "src/step/diagnosis.hpp"
 #include "src/step/laid_open.hpp"
 #include "src/sweep/release_ties.hpp"
@@ -66,8 +67,7 @@ Contribution gather_results(Model& model, ThreadTeam& team) {
     if (!(result.stable_step < control.stable)) continue;
     control.stable = result.stable_step;
     control.critical_block = task.block;
-    control.critical_element =
-        static_cast<std::size_t>(model.parts[task.block].element_order[result.critical_element]);
+    control.critical_element = index(model.parts[task.block].element_order[result.critical_element]);
   }
   const bool are_any = bounds.stable_step > 0 && bounds.stable_step < HUGE_VAL;
   const double assembled =

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -11,14 +13,14 @@ namespace {
 constexpr double most_padding = 0.25;
 
 std::size_t packs_for(std::size_t elements, const Block& block) {
-  const auto width = static_cast<std::size_t>(block.lanes);
+  const auto width = index(block.lanes);
   return elements == 0 ? 0 : (elements + width - 1) / width;  // a rigid part's block has no lanes
 }
 
 void leave_nodes(Erosion& erosion, const Block& block, std::size_t place) {
   for (int corner = 0; corner < nodes_per_element(block.element); ++corner) {
     const int node = block.node(place, corner);
-    if (--erosion.elements_of_node[static_cast<std::size_t>(node)] > 0) continue;
+    if (--erosion.elements_of_node[index(node)] > 0) continue;
     erosion.freed.push_back(node);
     if (block.deletion.free_nodes == FreeNodes::drop) erosion.dropping.push_back(node);
   }
@@ -33,14 +35,14 @@ void account(const Block& block, std::size_t place, Contribution& sum) {
 
 // The last element of the chunk takes the place.
 void fill_place(Block& block, Chunk& chunk, std::size_t place, PartInModel& part) {
-  const auto width = static_cast<std::size_t>(block.lanes);
+  const auto width = index(block.lanes);
   const std::size_t last = chunk.first_pack * width + --chunk.element_count;
   --block.element_count;
-  part.element_slot[static_cast<std::size_t>(part.element_order[place])] = -1;
+  part.element_slot[index(part.element_order[place])] = -1;
   if (place != last) {
     copy_element(block, last, place);
     part.element_order[place] = part.element_order[last];
-    part.element_slot[static_cast<std::size_t>(part.element_order[place])] = static_cast<int>(place);
+    part.element_slot[index(part.element_order[place])] = static_cast<int>(place);
   }
   part.element_order[last] = -1;
 }
@@ -49,8 +51,7 @@ void fill_place(Block& block, Chunk& chunk, std::size_t place, PartInModel& part
 // last
 void fill_padding(Block& block, std::size_t first, std::size_t end) {
   if (end == first) return;
-  for (std::size_t place = end; place % static_cast<std::size_t>(block.lanes) != 0; ++place)
-    copy_element(block, end - 1, place);
+  for (std::size_t place = end; place % index(block.lanes) != 0; ++place) copy_element(block, end - 1, place);
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ Erosion make_erosion(std::span<const Block> blocks, std::size_t node_count) {
     if (block.loses_elements) elements += block.element_count;
     for (std::size_t e = 0; e < block.element_count; ++e)
       for (int corner = 0; corner < nodes_per_element(block.element); ++corner)
-        ++erosion.elements_of_node[static_cast<std::size_t>(block.node(e, corner))];
+        ++erosion.elements_of_node[index(block.node(e, corner))];
   }
   erosion.deleted.reserve(elements);
   erosion.freed.reserve(node_count);
@@ -92,10 +93,10 @@ Contribution erode(Erosion& erosion, SweepSchedule& schedule, std::span<const Sw
     SweepTask& task = schedule.tasks[t];
     Block& block = blocks[task.block];
     PartInModel& part = parts[task.block];
-    const int* lost = block.lost.data() + task.chunk.first_pack * static_cast<std::size_t>(block.lanes);
+    const int* lost = block.lost.data() + task.chunk.first_pack * index(block.lanes);
     // From the last on: what fills a place is never itself lost.
     for (std::size_t k = results[t].lost; k-- > 0;) {
-      const auto place = static_cast<std::size_t>(lost[k]);
+      const auto place = index(lost[k]);
       erosion.deleted.push_back({static_cast<int>(task.block), part.element_order[place]});
       erosion.mass_of_deleted += block.kernel.mass(block, place);
       ++erosion.deleted_count[task.block];
@@ -104,7 +105,7 @@ Contribution erode(Erosion& erosion, SweepSchedule& schedule, std::span<const Sw
       if (block.cloud) cut_particle(*block.cloud, block.node(place, 0) - block.cloud->first_node);
       fill_place(block, task.chunk, place, part);
     }
-    const std::size_t first = task.chunk.first_pack * static_cast<std::size_t>(block.lanes);
+    const std::size_t first = task.chunk.first_pack * index(block.lanes);
     fill_padding(block, first, first + task.chunk.element_count);
   }
   std::sort(erosion.deleted.begin(), erosion.deleted.end());
@@ -131,7 +132,7 @@ SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std
   for (const SweepTask& task : tasks) {
     Block& block = blocks[task.block];
     PartInModel& part = parts[task.block];
-    const std::size_t first = task.chunk.first_pack * static_cast<std::size_t>(block.lanes);
+    const std::size_t first = task.chunk.first_pack * index(block.lanes);
     for (std::size_t from = first; from < first + task.chunk.element_count; ++from) {
       const std::size_t to = next[task.block]++;
       if (from == to) continue;
@@ -139,7 +140,7 @@ SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std
       const int element = part.element_order[from];
       part.element_order[to] = element;
       part.element_order[from] = -1;
-      part.element_slot[static_cast<std::size_t>(element)] = static_cast<int>(to);
+      part.element_slot[index(element)] = static_cast<int>(to);
     }
   }
   for (Block& block : blocks) {
@@ -179,7 +180,7 @@ void remove_nodes(ActiveLoad& load, std::span<const int> dropping) {
 Contribution remove_nodes(Erosion& erosion, Nodes& nodes) {
   Contribution removed;
   for (const int entry : erosion.dropping) {
-    const auto node = static_cast<std::size_t>(entry);
+    const auto node = index(entry);
     NodeRecord& record = nodes.record[node];
     const double mass = nodes.mass[node];
     const Vector position{record.position[0], record.position[1], record.position[2]};

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "src/base/breakdown.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -34,7 +35,7 @@ void check_share(const AddedMass& mass, std::span<const PartInModel> parts) {
   if (!(mass.share() > mass.settings.largest_share)) return;
   const auto most = std::max_element(mass.added.begin(), mass.added.end()) - mass.added.begin();
   throw Breakdown("mass scaling has added " + std::to_string(100 * mass.share()) +
-                  " % to the mass, most to part '" + parts[static_cast<std::size_t>(most)].name +
+                  " % to the mass, most to part '" + parts[index(most)].name +
                   "'; accepted is up to time.mass_scaling.largest_share, or a shorter step");
 }
 
@@ -86,14 +87,14 @@ Contribution hand_out(AddedMass& mass, const SweepSchedule& schedule, std::span<
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
     const SweepTask& task = schedule.tasks[t];
     const Block& block = blocks[task.block];
-    const std::size_t first = task.chunk.first_pack * static_cast<std::size_t>(block.lanes);
+    const std::size_t first = task.chunk.first_pack * index(block.lanes);
     for (std::size_t i = 0; i < results[t].scaled; ++i) {
-      const auto element = static_cast<std::size_t>(block.scaled[first + i]);
+      const auto element = index(block.scaled[first + i]);
       const int corners = nodes_per_element(block.element);
       const double share = block.mass_gain[element] / corners;
       const double inertia = has_rotations(block.element) ? share * block.kernel.gyration(block, element) : 0;
       for (int corner = 0; corner < corners; ++corner)
-        give(share, inertia, static_cast<std::size_t>(block.node(element, corner)), nodes, given);
+        give(share, inertia, index(block.node(element, corner)), nodes, given);
       mass.added[task.block] += block.mass_gain[element];
     }
   }

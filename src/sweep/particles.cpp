@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "elements/particle/particle_pairs.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -14,7 +15,7 @@ namespace {
 constexpr double search_skin_share = 0.3;
 
 const double* position(const ParticleCloud& cloud, const Nodes& nodes, std::size_t i) {
-  return nodes.record[static_cast<std::size_t>(cloud.first_node) + i].position;
+  return nodes.record[index(cloud.first_node) + i].position;
 }
 
 // Points and boxes of the particles that live, which reach as far as the search must see.
@@ -62,7 +63,7 @@ void find_neighbours(Block& block, std::span<const double> volume, const Nodes& 
       2 * particle.smoothing() * edge_of_cube(*std::max_element(volume.begin(), volume.end()));
   ParticleSearch search{};
   for (std::size_t i = 0; i < volume.size(); ++i) {
-    const double* x = nodes.record[static_cast<std::size_t>(first_node) + i].position;
+    const double* x = nodes.record[index(first_node) + i].position;
     search.point.push_back({x[0], x[1], x[2]});
     search.box.push_back(
         {{x[0] - reach, x[1] - reach, x[2] - reach}, {x[0] + reach, x[1] + reach, x[2] + reach}});
@@ -95,10 +96,9 @@ double share_of_paired(const ParticleCloud& cloud, const Nodes& nodes) {
     ++alive;
     const double closest = PairedParticles::closer_than * cloud.smoothing_length[i] / cloud.smoothing;
     const double* x = position(cloud, nodes, i);
-    const std::span neighbours(cloud.neighbour.data() + cloud.first[i],
-                               static_cast<std::size_t>(cloud.count[i]));
+    const std::span neighbours(cloud.neighbour.data() + cloud.first[i], index(cloud.count[i]));
     const bool is_paired = std::any_of(neighbours.begin(), neighbours.end(), [&](int j) {
-      const double* other = position(cloud, nodes, static_cast<std::size_t>(j));
+      const double* other = position(cloud, nodes, index(j));
       return std::hypot(other[0] - x[0], other[1] - x[1], other[2] - x[2]) < closest;
     });
     if (is_paired) ++paired;

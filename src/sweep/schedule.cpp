@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 namespace {
@@ -32,9 +34,7 @@ struct CoordinateRange {
   int longest() const {
     int axis = 0;
     for (int i = 1; i < 3; ++i)
-      if (upper[static_cast<std::size_t>(i)] - lower[static_cast<std::size_t>(i)] >
-          upper[static_cast<std::size_t>(axis)] - lower[static_cast<std::size_t>(axis)])
-        axis = i;
+      if (upper[index(i)] - lower[index(i)] > upper[index(axis)] - lower[index(axis)]) axis = i;
     return axis;
   }
 };
@@ -64,7 +64,7 @@ std::uint64_t morton_code(const std::array<double, 3>& point, const CoordinateRa
 
 std::vector<int> locality_order(std::span<const std::array<double, 3>> position,
                                 std::span<const int> connectivity, int nodes_per_element) {
-  const auto corners = static_cast<std::size_t>(nodes_per_element);
+  const auto corners = index(nodes_per_element);
   const std::size_t count = connectivity.size() / corners;
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
@@ -74,25 +74,22 @@ std::vector<int> locality_order(std::span<const std::array<double, 3>> position,
   for (std::size_t e = 0; e < count; ++e)
     for (std::size_t corner = 0; corner < corners; ++corner)
       for (std::size_t i = 0; i < 3; ++i)
-        centre[e][i] +=
-            position[static_cast<std::size_t>(connectivity[e * corners + corner])][i] / nodes_per_element;
+        centre[e][i] += position[index(connectivity[e * corners + corner])][i] / nodes_per_element;
   const CoordinateRange extent = range_of(centre);
-  const auto axis = static_cast<std::size_t>(extent.longest());
+  const auto axis = index(extent.longest());
   // Round-off in the centres must not scatter a layer of equal coordinates: compare on a grid.
   const double grid = (extent.upper[axis] - extent.lower[axis]) * 1e-9;
   const auto layer = [&](int e) {
-    return grid > 0 ? std::llround((centre[static_cast<std::size_t>(e)][axis] - extent.lower[axis]) / grid)
-                    : 0LL;
+    return grid > 0 ? std::llround((centre[index(e)][axis] - extent.lower[axis]) / grid) : 0LL;
   };
   std::vector<std::uint64_t> code(count);
   for (std::size_t e = 0; e < count; ++e) code[e] = morton_code(centre[e], extent);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return layer(a) < layer(b); });
   const std::size_t chunks = chunk_count(count);
   for (std::size_t c = 0; c < chunks; ++c)
-    std::stable_sort(
-        order.begin() + static_cast<std::ptrdiff_t>(count * c / chunks),
-        order.begin() + static_cast<std::ptrdiff_t>(count * (c + 1) / chunks),
-        [&](int a, int b) { return code[static_cast<std::size_t>(a)] < code[static_cast<std::size_t>(b)]; });
+    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(count * c / chunks),
+                     order.begin() + static_cast<std::ptrdiff_t>(count * (c + 1) / chunks),
+                     [&](int a, int b) { return code[index(a)] < code[index(b)]; });
   return order;
 }
 
@@ -100,7 +97,7 @@ SweepSchedule make_schedule(std::span<const Block> blocks, std::size_t node_coun
   std::vector<SweepTask> tasks;
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t chunks = std::min(chunk_count(blocks[b].element_count), blocks[b].pack_count);
-    const auto width = static_cast<std::size_t>(blocks[b].lanes);
+    const auto width = index(blocks[b].lanes);
     for (std::size_t c = 0; c < chunks; ++c) {
       const std::size_t first = blocks[b].pack_count * c / chunks;
       const std::size_t last = blocks[b].pack_count * (c + 1) / chunks;
@@ -114,16 +111,15 @@ SweepSchedule make_schedule(std::span<const Block> blocks, std::size_t node_coun
   std::size_t colours = 0;
   for (std::size_t t = 0; t < tasks.size(); ++t) {
     const Block& block = blocks[tasks[t].block];
-    const auto entries =
-        static_cast<std::size_t>(nodes_per_element(block.element)) * static_cast<std::size_t>(block.lanes);
+    const auto entries = index(nodes_per_element(block.element)) * index(block.lanes);
     const std::span<const int> nodes(block.connectivity.data() + tasks[t].chunk.first_pack * entries,
                                      (tasks[t].chunk.last_pack - tasks[t].chunk.first_pack) * entries);
     std::uint64_t taken = 0;
-    for (int node : nodes) taken |= used[static_cast<std::size_t>(node)];
-    const auto free = static_cast<std::size_t>(std::countr_one(taken));
+    for (int node : nodes) taken |= used[index(node)];
+    const auto free = index(std::countr_one(taken));
     if (free < 64) {
       colour[t] = free;
-      for (int node : nodes) used[static_cast<std::size_t>(node)] |= std::uint64_t{1} << free;
+      for (int node : nodes) used[index(node)] |= std::uint64_t{1} << free;
     } else {
       colour[t] = std::max<std::size_t>(colours, 64);
     }

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "src/base/index.hpp"
+
 namespace {
 
 std::atomic<int> counters{0};

@@ -16,6 +16,7 @@
 #include "contact/scene.hpp"
 #include "contact/start/initial_gap.hpp"
 #include "contact/surface/surface.hpp"
+#include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
 
@@ -60,7 +61,7 @@ class SpringModel {
               at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)};
           for (int a : corner) {
             piece.connectivity.push_back(a);
-            mass_[static_cast<std::size_t>(a)] += mass;
+            mass_[index(a)] += mass;
           }
           for (int a = 0; a < 8; ++a)
             for (int b = 0; b < a; ++b) add_spring(corner[a], corner[b]);
@@ -101,7 +102,7 @@ class SpringModel {
   int count() const { return static_cast<int>(position_.size()); }
   /// Set the velocity of the nodes from `first` to the last one so far.
   void throw_from(int first, const Vector3d& velocity) {
-    for (std::size_t n = static_cast<std::size_t>(first); n < velocity_.size(); ++n) velocity_[n] = velocity;
+    for (std::size_t n = index(first); n < velocity_.size(); ++n) velocity_[n] = velocity;
   }
 
   /// After everything is added.
@@ -130,10 +131,10 @@ class SpringModel {
   /// Delete elements with their springs; mass stays on the nodes.
   void erode(std::span<const SurfaceElement> deleted) {
     for (const auto& [part, element] : deleted) {
-      const Piece& piece = pieces_[static_cast<std::size_t>(part)];
+      const Piece& piece = pieces_[index(part)];
       const int springs = piece.shell ? 6 : 28;
       for (int i = 0; i < springs; ++i)
-        springs_[static_cast<std::size_t>(piece.first_spring + springs * element + i)].broken = true;
+        springs_[index(piece.first_spring + springs * element + i)].broken = true;
       const int corners = piece.shell ? 4 : 8;
       const auto first = piece.connectivity.begin() + corners * element;
       const auto is_corner = [&](int node) {
@@ -168,8 +169,7 @@ class SpringModel {
   }
 
   void hold(int first, int end, int axes = 7) {
-    for (int n = first; n < end; ++n)
-      nodes.prescribed[static_cast<std::size_t>(n)] |= static_cast<std::uint8_t>(axes);
+    for (int n = first; n < end; ++n) nodes.prescribed[index(n)] |= static_cast<std::uint8_t>(axes);
   }
 
   void accelerate(double dt) {
@@ -179,8 +179,8 @@ class SpringModel {
       const Vector3d along = x(s.b) - x(s.a);
       const double length = along.norm();
       const Vector3d pull = stiffness / s.length * (length - s.length) / length * along;
-      force[static_cast<std::size_t>(s.a)] += pull;
-      force[static_cast<std::size_t>(s.b)] -= pull;
+      force[index(s.a)] += pull;
+      force[index(s.b)] -= pull;
     }
     for (std::size_t n = 0; n < nodes.size(); ++n)
       for (int axis = 0; axis < 3; ++axis) {
@@ -205,13 +205,12 @@ class SpringModel {
   }
   void step(double dt) { step(dt, alone_); }
 
-  Vector3d x(int n) const { return Vector3d(nodes.record[static_cast<std::size_t>(n)].position); }
-  Vector3d v(int n) const { return Vector3d(nodes.record[static_cast<std::size_t>(n)].velocity); }
+  Vector3d x(int n) const { return Vector3d(nodes.record[index(n)].position); }
+  Vector3d v(int n) const { return Vector3d(nodes.record[index(n)].velocity); }
   void set_velocity(int n, const Vector3d& value) {
-    for (int axis = 0; axis < 3; ++axis)
-      nodes.record[static_cast<std::size_t>(n)].velocity[axis] = value[axis];
+    for (int axis = 0; axis < 3; ++axis) nodes.record[index(n)].velocity[axis] = value[axis];
   }
-  double mass(int n) const { return nodes.mass[static_cast<std::size_t>(n)]; }
+  double mass(int n) const { return nodes.mass[index(n)]; }
 
   double kinetic_energy() const {
     double sum = 0;
@@ -284,7 +283,7 @@ class SpringModel {
         piece.thickness.push_back(thickness);
         for (int a : corner) {
           piece.connectivity.push_back(a);
-          mass_[static_cast<std::size_t>(a)] += mass;
+          mass_[index(a)] += mass;
         }
         for (int a = 0; a < 4; ++a)
           for (int b = 0; b < a; ++b) add_spring(corner[a], corner[b]);

@@ -3,6 +3,7 @@
 
 #include "contact/audit/audit.hpp"
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -22,7 +23,7 @@ double distance_to_surface(const SpringModel& model, int node) {
 
 double radius_of(const SpringModel& model, int node) {
   const Surface& surface = model.scene.surface;
-  return surface.slave(node) < 0 ? -1 : surface.radius[static_cast<std::size_t>(surface.slave(node))];
+  return surface.slave(node) < 0 ? -1 : surface.radius[index(surface.slave(node))];
 }
 
 TEST(Debris, FliesAgainstAPlateAndTurnsAtItsRadius) {

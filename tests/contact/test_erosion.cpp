@@ -6,6 +6,7 @@
 
 #include "contact/audit/audit.hpp"
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -121,7 +122,7 @@ TEST(Erosion, NodesOfAPinchedEdgeAreCarried) {
   const Surface& surface = model.scene.surface;
   const std::array<int, 2> edge{surface.slave(7), surface.slave(10)};
   for (int slave : edge) {
-    EXPECT_EQ(surface.pinched[static_cast<std::size_t>(slave)], 1);
+    EXPECT_EQ(surface.pinched[index(slave)], 1);
     EXPECT_LT(vertex_normal(surface, model.nodes, slave).dot(Vector3d::UnitZ()), 0.1);
   }
   model.step(0.02);

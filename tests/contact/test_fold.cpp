@@ -4,6 +4,7 @@
 
 #include "contact/audit/audit.hpp"
 #include "contact/geometry/closest_segments.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -55,9 +56,8 @@ TEST(WarpedCell, ASideOfANeighbourDoesNotPassTheCrossDiagonal) {
   const std::array<Vector3d, 9> place{Vector3d{0, 0, -2}, {1, 0, 0}, {0.5, -0.5, 1.5},
                                       {0, 1, 0},          {1, 1, 0}, {0.2, 0.2, 0.5},
                                       {0, 2, -1},         {1, 2, 0}, {-0.5, 0.5, 1.5}};
-  model.add_sheet({2, 2}, {2, 2}, 0.01, 1, [&](const Vector3d& x) {
-    return place[static_cast<std::size_t>(std::lround(x[0]) + 3 * std::lround(x[1]))];
-  });
+  model.add_sheet({2, 2}, {2, 2}, 0.01, 1,
+                  [&](const Vector3d& x) { return place[index(std::lround(x[0]) + 3 * std::lround(x[1]))]; });
   model.start({});
   for (const int held : {0, 2, 4, 5, 6, 7, 8}) model.hold(held, held + 1);
   model.set_velocity(5, {0, 0, -1});

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -20,7 +21,7 @@ TEST(Impact, NodeOnFaceReceivesTheExactImpulse) {
   model.step(1e-3);
   for (int n = block; n < block + 4; ++n) {
     EXPECT_NEAR(model.v(n)[2], 0, 1e-8 / 1e-3) << "what the gap was beyond touching, in a step";
-    const auto s = static_cast<std::size_t>(model.scene.surface.slave(n));
+    const auto s = index(model.scene.surface.slave(n));
     EXPECT_NEAR(model.scene.normal_impulse[s][2], 3 + model.v(n)[2], 1e-12);
   }
   for (int n = block + 4; n < block + 8; ++n) EXPECT_EQ(model.v(n)[2], -3);

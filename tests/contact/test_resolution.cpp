@@ -6,6 +6,7 @@
 #include "contact/scene.hpp"
 #include "contact/surface/face_geometry.hpp"
 #include "src/base/floating_point.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -94,7 +95,7 @@ class FreePieces {
     if (bodies.empty()) return;
     scene.surface.rigid_of_node.assign(nodes.size(), -1);
     for (std::size_t b = 0; b < bodies.size(); ++b)
-      for (int node : rigid_nodes_[b]) scene.surface.rigid_of_node[static_cast<std::size_t>(node)] = int(b);
+      for (int node : rigid_nodes_[b]) scene.surface.rigid_of_node[index(node)] = int(b);
     carry_bodies();
   }
 
@@ -174,7 +175,7 @@ class FreePieces {
   void carry_bodies() {
     for (std::size_t b = 0; b < bodies.size(); ++b)
       for (int node : rigid_nodes_[b]) {
-        const auto n = static_cast<std::size_t>(node);
+        const auto n = index(node);
         const Vector3d velocity = bodies[b].velocity_at(x(n) - bodies[b].centre);
         for (int axis = 0; axis < 3; ++axis) nodes.record[n].velocity[axis] = velocity[axis];
       }
@@ -340,7 +341,7 @@ TEST(Resolution, PushesWhatHoldsTiedNodes) {
       const ContactStep& did = model.scene.step;
       EXPECT_NEAR(model.kinetic_energy() - energy, did.normal_work() + did.friction_work(), 1e-12);
       for (int n = held; n < block; ++n)
-        if (model.scene.normal_impulse[static_cast<std::size_t>(surface.slave(n))].norm() > 0) pushed += 1;
+        if (model.scene.normal_impulse[index(surface.slave(n))].norm() > 0) pushed += 1;
       model.move(1e-3);
       place(ties, model.nodes, 1e-3);
     }

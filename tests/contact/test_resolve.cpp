@@ -3,6 +3,7 @@
 #include <random>
 
 #include "contact/audit/audit.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -254,7 +255,7 @@ TEST(Seams, AHitOnASeamIsOneContact) {
     double lowest = 10;
     for (int n = floor_end; n < single.count(); ++n) lowest = std::min(lowest, single.x(n)[2]);
     for (int n = floor_end; n < single.count(); ++n)
-      single.nodes.record[static_cast<std::size_t>(n)].position[2] -= lowest - 2 * single.scene.features.skin;
+      single.nodes.record[index(n)].position[2] -= lowest - 2 * single.scene.features.skin;
     single.step(1e-3);
     int of_corner = 0;
     for (const Contact& contact : single.scene.contacts)

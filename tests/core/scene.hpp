@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/mesh/generate_mesh.hpp"
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/step/advance.hpp"
 
@@ -91,8 +92,7 @@ inline Vector momentum_of(const Model& model) { return momentum(model.nodes).tot
 inline double mean_velocity(const Model& model, std::size_t part, std::size_t axis) {
   double sum = 0;
   for (int node : model.parts[part].node)
-    sum += model.nodes.mass[static_cast<std::size_t>(node)] *
-           model.nodes.record[static_cast<std::size_t>(node)].velocity[axis];
+    sum += model.nodes.mass[index(node)] * model.nodes.record[index(node)].velocity[axis];
   return sum / model.parts[part].mass;
 }
 

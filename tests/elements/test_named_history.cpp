@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "elements/block.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -29,7 +30,7 @@ ElementSample sample_at_start(const Element& element, const Material& material) 
   std::vector<int> connectivity;
   for (int n = 0; n < nodes_per_element(element); ++n) connectivity.push_back(n);
   for (int n = 0; n < 8; ++n) {
-    double* x = nodes.record[static_cast<std::size_t>(n)].position;
+    double* x = nodes.record[index(n)].position;
     x[0] = n % 4 == 1 || n % 4 == 2 ? 1 : 0;
     x[1] = n % 4 >= 2 ? 1 : 0;
     x[2] = n < 4 ? 0 : 1;

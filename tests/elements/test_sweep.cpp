@@ -5,6 +5,7 @@
 
 #include "elements/solid/hex8_kernel.hpp"
 #include "elements/sweep.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -31,7 +32,7 @@ void expect_gathered() {
       for (int k = 0; k < 3; ++k) {
         const auto at = [&](int c) {
           const int* node = connectivity.data() + c * width + lane;
-          return nodes.record[static_cast<std::size_t>(*node)];
+          return nodes.record[index(*node)];
         };
         const double x = at(corner).position[k], v = at(corner).velocity[k];
         const double origin = makes_relative<Kind, Real> ? at(0).position[k] : 0;
@@ -81,7 +82,7 @@ std::vector<double> forces_of_block(const ElasticPlastic& material) {
   std::vector<int> connectivity;
   for (int n = 0; n < 8; ++n) {
     connectivity.push_back(n);
-    NodeRecord& record = nodes.record[static_cast<std::size_t>(n)];
+    NodeRecord& record = nodes.record[index(n)];
     const int i = n % 4;
     record.position[0] = i == 1 || i == 2 ? 1 : 0;
     record.position[1] = i >= 2 ? 1 : 0;

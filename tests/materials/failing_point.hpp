@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "materials/failing.hpp"
+#include "src/base/index.hpp"
 #include "src/base/lanes.hpp"
 #include "tests/materials/paths.hpp"
 
@@ -79,7 +80,7 @@ void expect_lanes_agree(const Law& law, double tolerance) {
   typename Law::template History<T> history;
   std::memset(static_cast<void*>(&history), 0, sizeof history);
   law.start(history, T(1.0));
-  std::vector<Point<Law>> points(static_cast<std::size_t>(width), Point<Law>(law));
+  std::vector<Point<Law>> points(index(width), Point<Law>(law));
   for (int step = 0; step < 400; ++step) {
     SymmetricTensor<T> strain;
     T* component[6] = {&strain.xx, &strain.yy, &strain.zz, &strain.xy, &strain.yz, &strain.xz};
@@ -87,13 +88,13 @@ void expect_lanes_agree(const Law& law, double tolerance) {
       const SymmetricTensor<double> one = random.next();
       const double entries[6] = {one.xx, one.yy, one.zz, one.xy, one.yz, one.xz};
       for (int c = 0; c < 6; ++c) component[c]->set(lane, static_cast<Real>(entries[c]));
-      points[static_cast<std::size_t>(lane)].strain({component[0]->operator[](lane), (*component[1])[lane],
-                                                     (*component[2])[lane], (*component[3])[lane],
-                                                     (*component[4])[lane], (*component[5])[lane]});
+      points[index(lane)].strain({component[0]->operator[](lane), (*component[1])[lane],
+                                  (*component[2])[lane], (*component[3])[lane], (*component[4])[lane],
+                                  (*component[5])[lane]});
     }
     law.update(strain, stress, history);
     for (int lane = 0; lane < width; ++lane) {
-      const Point<Law>& point = points[static_cast<std::size_t>(lane)];
+      const Point<Law>& point = points[index(lane)];
       ASSERT_NEAR(history.damage[lane], point.history.damage, tolerance);
       if (point.failed() || static_cast<double>(history.damage[lane]) >= 0.9 - tolerance) continue;
       ASSERT_NEAR(stress.xx[lane], point.stress.xx, 100 * tolerance * law.yield_stress);

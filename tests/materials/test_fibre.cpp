@@ -4,6 +4,7 @@
 
 #include "materials/failing.hpp"
 #include "materials/material.hpp"
+#include "src/base/index.hpp"
 #include "tests/materials/paths.hpp"
 
 namespace brio {
@@ -125,7 +126,7 @@ TEST(Fibre, LanesDoWhatPlainNumbersDo) {
   for (int step = 0; step < 50; ++step) {
     FibreTensor<T> strain{T(0.0), T(0.0), T(0.0)};
     for (int lane = 0; lane < 8; ++lane) {
-      const auto k = static_cast<std::size_t>(lane);
+      const auto k = index(lane);
       const SymmetricTensor<double> random = paths[k].next();
       strain.xx.set(lane, random.xx);
       strain.xy.set(lane, random.xy);
@@ -133,8 +134,7 @@ TEST(Fibre, LanesDoWhatPlainNumbersDo) {
       law.update_fibre({random.xx, random.xy, random.xz}, plain[k], plain_history[k]);
     }
     law.update_fibre(strain, stress, history);
-    for (int lane = 0; lane < 8; ++lane)
-      ASSERT_NEAR(stress.xx[lane], plain[static_cast<std::size_t>(lane)].xx, 1e-3);
+    for (int lane = 0; lane < 8; ++lane) ASSERT_NEAR(stress.xx[lane], plain[index(lane)].xx, 1e-3);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "materials/material.hpp"
+#include "src/base/index.hpp"
 #include "tests/materials/paths.hpp"
 
 namespace brio {
@@ -276,7 +277,7 @@ void expect_lanes_follow_plain_numbers(const auto& law, double tolerance) {
     SymmetricTensor<T> strain;
     SymmetricTensor<double> plain[width];
     for (int lane = 0; lane < width; ++lane) {
-      SymmetricTensor<double> given = paths[static_cast<std::size_t>(lane)].next();
+      SymmetricTensor<double> given = paths[index(lane)].next();
       const auto put = [lane](T& x, double& value) {
         x.set(lane, static_cast<Real>(value));
         value = static_cast<double>(x[lane]);

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "materials/principal_stress.hpp"
+#include "src/base/index.hpp"
 #include "tests/materials/paths.hpp"
 
 namespace brio {
@@ -64,7 +65,7 @@ void expect_lanes(double tolerance) {
     SymmetricTensor<T> a;
     T* component[6] = {&a.xx, &a.yy, &a.zz, &a.xy, &a.yz, &a.xz};
     for (int lane = 0; lane < lane_count<Real>; ++lane) {
-      const auto& one = all_tensors[first + static_cast<std::size_t>(lane)];
+      const auto& one = all_tensors[first + index(lane)];
       const double entries[6] = {one.xx, one.yy, one.zz, one.xy, one.yz, one.xz};
       for (int c = 0; c < 6; ++c) component[c]->set(lane, static_cast<Real>(entries[c]));
     }

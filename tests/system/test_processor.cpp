@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/processor.hpp"
+#include "src/base/index.hpp"
 #include "tests/system/program.hpp"
 
 namespace brio {
@@ -28,7 +29,7 @@ Sets sets_of(const std::vector<std::string>& wanted) {
 
 std::string complaint(const Sets& needed, const Sets& present) {
   char line[complaint_size];
-  return {line, static_cast<std::size_t>(complain_of_processor(needed.has, present.has, line))};
+  return {line, index(complain_of_processor(needed.has, present.has, line))};
 }
 
 TEST(Processor, ThatHasWhatIsNeededOrMoreIsWelcome) {
@@ -49,7 +50,7 @@ TEST(Processor, ThatLacksSomethingIsToldWhat) {
 TEST(Processor, AllThatItMayLackFitsTheLine) {
   Sets all;
   std::fill(std::begin(all.has), std::end(all.has), true);
-  EXPECT_LT(complaint(all, {}).size(), static_cast<std::size_t>(complaint_size));
+  EXPECT_LT(complaint(all, {}).size(), index(complaint_size));
 }
 
 TEST(Processor, InstructionsAreThoseOfTheFlags) {

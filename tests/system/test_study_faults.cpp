@@ -7,6 +7,7 @@
 #include <functional>
 #include <thread>
 
+#include "src/base/index.hpp"
 #include "tests/system/bar_deck.hpp"
 #include "tests/system/program.hpp"
 

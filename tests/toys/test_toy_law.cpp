@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "elements/block.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -26,7 +27,7 @@ struct HeldCube {
     std::vector<int> connectivity;
     for (int n = 0; n < 8; ++n) {
       connectivity.push_back(n);
-      double* x = nodes.record[static_cast<std::size_t>(n)].position;
+      double* x = nodes.record[index(n)].position;
       x[0] = n % 4 == 1 || n % 4 == 2 ? 1 : 0;
       x[1] = n % 4 >= 2 ? 1 : 0;
       x[2] = n < 4 ? 0 : 1;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace brio::test {
 
 using Eigen::Vector3d;
@@ -89,7 +91,7 @@ std::string_view name_of(CrossingFamily family) {
   constexpr std::array<std::string_view, crossing_family_count> names{
       "random",  "through_inside", "through_edge",  "through_corner", "end_on_triangle", "coplanar",
       "lattice", "sliver",         "parallel_edge", "short_segment",  "far_from_origin"};
-  return names[static_cast<std::size_t>(family)];
+  return names[index(family)];
 }
 
 SegmentAndTriangle adversarial_crossing(CrossingFamily family, Random& random) {

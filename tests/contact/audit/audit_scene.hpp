@@ -7,6 +7,7 @@
 
 #include "contact/audit/audit.hpp"
 #include "contact/scene.hpp"
+#include "src/base/index.hpp"
 
 namespace brio::test {
 
@@ -77,11 +78,11 @@ class AuditScene {
     }
     return parts() - 1;
   }
-  void make_rigid(int part, int body) { piece_[static_cast<std::size_t>(part)].rigid = body; }
+  void make_rigid(int part, int body) { piece_[index(part)].rigid = body; }
 
   int count() const { return static_cast<int>(position_.size()); }
   int parts() const { return static_cast<int>(piece_.size()); }
-  int first_node(int part) const { return piece_[static_cast<std::size_t>(part)].connectivity.front(); }
+  int first_node(int part) const { return piece_[index(part)].connectivity.front(); }
   const std::vector<Vector3d>& positions() const { return position_; }
 
   /// After everything is added.
@@ -109,12 +110,11 @@ class AuditScene {
     resolve(scene, nodes, 1e-6, team);
   }
   void place(int node, const Vector3d& x) {
-    position_[static_cast<std::size_t>(node)] = x;
-    for (int axis = 0; axis < 3; ++axis)
-      nodes.record[static_cast<std::size_t>(node)].position[axis] = x[axis];
+    position_[index(node)] = x;
+    for (int axis = 0; axis < 3; ++axis) nodes.record[index(node)].position[axis] = x[axis];
   }
   void place_all(const Map& map) {
-    for (int n = 0; n < count(); ++n) place(n, map(position_[static_cast<std::size_t>(n)]));
+    for (int n = 0; n < count(); ++n) place(n, map(position_[index(n)]));
   }
 
   Audit found(int threads = 1) const {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/audit/audit.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -10,8 +11,7 @@ namespace {
 
 void move_nodes(SpringModel& model, int first, int end, const Vector3d& by) {
   for (int n = first; n < end; ++n)
-    for (int axis = 0; axis < 3; ++axis)
-      model.nodes.record[static_cast<std::size_t>(n)].position[axis] += by[axis];
+    for (int axis = 0; axis < 3; ++axis) model.nodes.record[index(n)].position[axis] += by[axis];
 }
 
 TEST(AuditBodies, FindsAPlantedPenetrationHoweverShallow) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contact/ties/ties.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/audit/audit_scene.hpp"
 #include "tests/contact/audit/exact_crossing.hpp"
 #include "tests/contact/geometry/adversarial_queries.hpp"
@@ -133,7 +134,7 @@ TEST(AuditCrossings, CountsNothingBesideAFlakeTurnedInsideOut) {
   scene.add_box({1, 1, 1}, one, moved({0, 0, 1.3}));
   scene.start();
   for (int n = 0; n < 8; ++n) {
-    const Vector3d x = scene.positions()[static_cast<std::size_t>(n)];
+    const Vector3d x = scene.positions()[index(n)];
     scene.place(n, {x[0], x[1], 1 - x[2]});
   }
   EXPECT_EQ(scene.found().missed(), 0);
@@ -162,7 +163,7 @@ TEST(AuditCrossings, FindsAShellThatCrossesItself) {
   scene.start();
   const std::vector<Vector3d> flat = scene.positions();
   const auto place = [&](const AuditScene::Map& map) {
-    for (int n = 0; n < scene.count(); ++n) scene.place(n, map(flat[static_cast<std::size_t>(n)]));
+    for (int n = 0; n < scene.count(); ++n) scene.place(n, map(flat[index(n)]));
   };
   place(bent(0.9));
   EXPECT_EQ(scene.found().missed(), 0);
@@ -238,15 +239,14 @@ TEST(AuditCrossings, LeavesOutWhatATieHolds) {
 // ---- everything with everything, exactly
 
 bool intersect(const AuditScene& scene, const Face& own, const Face& other) {
-  const auto x = [&](int node) { return scene.positions()[static_cast<std::size_t>(node)]; };
+  const auto x = [&](int node) { return scene.positions()[index(node)]; };
   for (std::size_t a = 0; a < 4; ++a)
     for (std::size_t b = 0; b < a; ++b) {
       if (own.node[a] == own.node[b] || other.has(own.node[a]) || other.has(own.node[b])) continue;
       const std::array segment{x(own.node[a]), x(own.node[b])};
       for (const auto& [p, q, r] : {std::array{0, 1, 2}, std::array{0, 2, 3}})
-        if (judge_crossing(segment, {x(other.node[static_cast<std::size_t>(p)]),
-                                     x(other.node[static_cast<std::size_t>(q)]),
-                                     x(other.node[static_cast<std::size_t>(r)])})
+        if (judge_crossing(segment,
+                           {x(other.node[index(p)]), x(other.node[index(q)]), x(other.node[index(r)])})
                 .crosses({}))
           return true;
     }
@@ -276,7 +276,7 @@ AuditScene heap(std::uint64_t seed) {
   scene.start();
   const double shaken = 0.2 * static_cast<double>(seed % 3);
   for (int n = 0; n < scene.count(); ++n)
-    scene.place(n, scene.positions()[static_cast<std::size_t>(n)] + random.vector(0.5 * shaken));
+    scene.place(n, scene.positions()[index(n)] + random.vector(0.5 * shaken));
   return scene;
 }
 

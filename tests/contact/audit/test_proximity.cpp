@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/audit/distance.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/audit/audit_scene.hpp"
 #include "tests/contact/geometry/adversarial_queries.hpp"
 
@@ -66,7 +67,7 @@ TEST(AuditProximity, CountsNodesOfShellsTooClose) {
   EXPECT_EQ(scene.found().missed(), 0);
   const auto lower = [&](double by) {
     for (int n = first; n < scene.count(); ++n)
-      scene.place(n, scene.positions()[static_cast<std::size_t>(n)] - Vector3d(0, 0, by));
+      scene.place(n, scene.positions()[index(n)] - Vector3d(0, 0, by));
   };
   lower(0.009);
   EXPECT_EQ(scene.found().missed(), 0) << "by less than a tenth";
@@ -92,7 +93,7 @@ TEST(AuditProximity, CountsParticlesInFacesBeamsAndParticles) {
   for (int n = first; n < scene.first_node(other); ++n) {
     AuditScene closer = scene;
     const double down = n + 1 == scene.first_node(other) ? -0.05 : 0.05;
-    closer.place(n, scene.positions()[static_cast<std::size_t>(n)] - Vector3d(0, 0, down));
+    closer.place(n, scene.positions()[index(n)] - Vector3d(0, 0, down));
     EXPECT_EQ(closer.found().too_close, 1) << n;
     EXPECT_EQ(closer.found().missed(), 1) << n;
     EXPECT_NEAR(closer.found().deepest_too_close.depth, 0.05, 1e-12) << n;
@@ -111,7 +112,7 @@ TEST(AuditProximity, CountsCrossedBeamsAndEdges) {
   const auto depths = [&](int node_count, int first, double by) {
     AuditScene closer = scene;
     for (int n = first; n < first + node_count; ++n)
-      closer.place(n, scene.positions()[static_cast<std::size_t>(n)] - Vector3d(0, 0, by));
+      closer.place(n, scene.positions()[index(n)] - Vector3d(0, 0, by));
     return closer.found();
   };
   EXPECT_EQ(depths(4, scene.first_node(2), 0.02).too_close, 1) << "rim on rim";

@@ -17,13 +17,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int pairs_of_family = 100000;  // of eleven: more than a million in all
+constexpr int segments_of_family = 100000;  // of eleven: more than a million in all
 
 SurfaceTriangle triangle_of(const SegmentAndTriangle& pair, const Continuation& continues) {
   return {pair.triangle[0], pair.triangle[1], pair.triangle[2], continues};
 }
 
-constexpr Continuation everywhere{.edge = {true, true, true}, .corner = {true, true, true}};
+constexpr Continuation continued_everywhere{.edge = {true, true, true}, .corner = {true, true, true}};
 
 Continuation any_continuation(Random& random) {
   Continuation continues;
@@ -36,20 +36,20 @@ TEST(AuditPredicate, AgreesWithExactArithmetic) {
   for (int family = 0; family < crossing_family_count; ++family) {
     Random random(static_cast<std::uint64_t>(family) + 1);
     int crossing = 0, touching = 0, wrong = 0;
-    for (int i = 0; i < pairs_of_family; ++i) {
+    for (int i = 0; i < segments_of_family; ++i) {
       const SegmentAndTriangle pair = adversarial_crossing(static_cast<CrossingFamily>(family), random);
       const ExactCrossing exact = judge_crossing(pair.segment, pair.triangle);
       const Continuation continues = any_continuation(random);
       const bool expected = exact.crosses(continues);
       crossing += expected ? 1 : 0;
-      touching += exact.crosses(everywhere) && !exact.crosses({}) ? 1 : 0;
+      touching += exact.crosses(continued_everywhere) && !exact.crosses({}) ? 1 : 0;
       const SurfaceTriangle triangle = triangle_of(pair, continues);
       wrong += crosses(pair.segment[0], pair.segment[1], triangle) != expected ? 1 : 0;
       wrong += crosses(pair.segment[1], pair.segment[0], triangle) != expected ? 1 : 0;
     }
     std::printf("%s: %d of %d cross, %d of them through an edge or a corner\n",
-                std::string(name_of(static_cast<CrossingFamily>(family))).c_str(), crossing, pairs_of_family,
-                touching);
+                std::string(name_of(static_cast<CrossingFamily>(family))).c_str(), crossing,
+                segments_of_family, touching);
     EXPECT_EQ(wrong, 0) << name_of(static_cast<CrossingFamily>(family));
     EXPECT_GT(crossing, 0) << name_of(static_cast<CrossingFamily>(family));
     if (family == static_cast<int>(CrossingFamily::lattice)) {
@@ -62,7 +62,7 @@ TEST(AuditPredicate, AgreesWithExactArithmetic) {
 TEST(AuditPredicate, BoundsTheErrorOfVolumes) {
   Random random(77);
   int certain = 0;
-  for (int i = 0; i < pairs_of_family; ++i) {
+  for (int i = 0; i < segments_of_family; ++i) {
     const auto family = static_cast<CrossingFamily>(random.integer(0, crossing_family_count - 1));
     const SegmentAndTriangle pair = adversarial_crossing(family, random);
     const SurfaceTriangle::Volume volume = triangle_of(pair, {}).volume(pair.segment[0]);
@@ -70,12 +70,12 @@ TEST(AuditPredicate, BoundsTheErrorOfVolumes) {
     ++certain;
     ASSERT_EQ(volume.value > 0 ? 1 : -1, judge_crossing(pair.segment, pair.triangle).start);
   }
-  EXPECT_GT(certain, pairs_of_family / 2);
+  EXPECT_GT(certain, segments_of_family / 2);
 }
 
 TEST(AuditPredicate, OrientsTheSameWithAndWithoutFloatingPoint) {
   Random random(78);
-  for (int i = 0; i < pairs_of_family; ++i) {
+  for (int i = 0; i < segments_of_family; ++i) {
     const auto family = static_cast<CrossingFamily>(random.integer(0, crossing_family_count - 1));
     const auto& [segment, triangle] = adversarial_crossing(family, random);
     const int known = exact_orientation(triangle[0], triangle[1], triangle[2], segment[0]);

@@ -3,6 +3,7 @@
 
 #include "contact/pairs/feature_pairs.hpp"
 #include "contact/surface/exclusion.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/geometry/adversarial_queries.hpp"
 
 namespace brio {
@@ -90,8 +91,7 @@ struct RandomScene {
       part.name = name;
       part.nodes_per_element = per_element;
       part.connectivity = connectivity;
-      if (thickness > 0)
-        part.thickness.assign(connectivity.size() / static_cast<std::size_t>(per_element), thickness);
+      if (thickness > 0) part.thickness.assign(connectivity.size() / index(per_element), thickness);
     };
     add_part("cubes", 8, cube, 0);
     add_part("sheets", 4, sheet, 0.05);

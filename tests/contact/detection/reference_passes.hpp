@@ -10,6 +10,7 @@
 #include "contact/detection/proximity_filter.hpp"
 #include "contact/geometry/closest_on_segments.hpp"
 #include "contact/geometry/hull_point.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/detection/packs.hpp"
 #include "tests/contact/detection/random_scene.hpp"
 
@@ -38,9 +39,8 @@ class Reference {
     for (std::size_t i = 0; i < all_.node_face.size(); ++i) {
       if (all_.node_face.spacing(i) == Spacing::none) continue;
       const NearPair<4> near = closest_node_face(i);
-      const double ahead =
-          longest_approach(std::array{all_.node_face.first(i)},
-                           scene_.features.face_node[static_cast<std::size_t>(all_.node_face.second(i))]);
+      const double ahead = longest_approach(std::array{all_.node_face.first(i)},
+                                            scene_.features.face_node[index(all_.node_face.second(i))]);
       if (is_near(near.distance, near.reach, ahead)) filter.node_and_face(near, found);
     }
     take_over(found, contacts);
@@ -81,7 +81,7 @@ class Reference {
   }
 
  private:
-  const EdgeFeature& edge(int e) const { return scene_.features.edge[static_cast<std::size_t>(e)]; }
+  const EdgeFeature& edge(int e) const { return scene_.features.edge[index(e)]; }
   template <std::size_t N, std::size_t M>
   double longest_approach(const std::array<int, N>& first, const std::array<int, M>& second) const {
     double longest = 0;
@@ -99,8 +99,7 @@ class Reference {
     const PairList& list = all_.node_face;
     const int s = list.first(i), f = list.second(i);
     FaceVertices at;
-    for (std::size_t k = 0; k < 4; ++k)
-      at[k] = motion_.start(scene_.features.face_node[static_cast<std::size_t>(f)][k]);
+    for (std::size_t k = 0; k < 4; ++k) at[k] = motion_.start(scene_.features.face_node[index(f)][k]);
     const bool spaced = list.has_radii(i);
     const Vector3<double> x = components(motion_.start(s));
     std::array<double, 4> weights{};
@@ -123,9 +122,9 @@ class Reference {
       offset = first ? p.offset : q.offset;
     }
     const double distance = std::sqrt(dot(offset, offset));
-    const double reach = spaced ? scene_.features.node_radius[static_cast<std::size_t>(s)] +
-                                      scene_.features.face_radius[static_cast<std::size_t>(f)]
-                                : 2 * scene_.features.skin;
+    const double reach = spaced
+                             ? scene_.features.node_radius[index(s)] + scene_.features.face_radius[index(f)]
+                             : 2 * scene_.features.skin;
     return {static_cast<int>(i), weights, eigen((1 / distance) * offset), distance, reach};
   }
 

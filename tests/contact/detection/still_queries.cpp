@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -53,8 +55,8 @@ FaceVertices any_face(Random& random) {
       break;
     default:
       face = square(random, 1);
-      face[static_cast<std::size_t>(random.integer(0, 3))] =
-          face[static_cast<std::size_t>(random.integer(0, 3))] + small(random) * random.vector(1);
+      face[index(random.integer(0, 3))] =
+          face[index(random.integer(0, 3))] + small(random) * random.vector(1);
       break;
   }
   if (random.integer(0, 4) == 0) face[3] = face[2];
@@ -141,8 +143,7 @@ SegmentQuery any_segment_query(Random& random) {
     }
     default:
       a = {random.vector(1), random.vector(1)};
-      b = {a[static_cast<std::size_t>(random.integer(0, 1))] + small(random) * random.vector(1),
-           random.vector(1)};
+      b = {a[index(random.integer(0, 1))] + small(random) * random.vector(1), random.vector(1)};
       break;
   }
   if (random.integer(0, 5) == 0) a[1] = a[0] + small(random) * along;

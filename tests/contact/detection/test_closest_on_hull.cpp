@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/contact/detection/exact_distance.hpp"
 #include "tests/contact/detection/packs.hpp"
 #include "tests/contact/detection/still_queries.hpp"
@@ -115,7 +116,7 @@ TEST(ClosestOnHull, LanesGiveTheBitsOfPlainNumbers) {
     Vector3<Pack> node;
     std::array<Vector3<Pack>, 4> face;
     for (int lane = 0; lane < 8; ++lane) {
-      FaceQuery& query = queries[static_cast<std::size_t>(lane)];
+      FaceQuery& query = queries[index(lane)];
       query = any_face_query(random);
       put(node, lane, query.node);
       for (std::size_t k = 0; k < 4; ++k) put(face[k], lane, query.face[k]);
@@ -123,7 +124,7 @@ TEST(ClosestOnHull, LanesGiveTheBitsOfPlainNumbers) {
     const auto packed = closest_on_hull(node, face);
     const auto of_triangle = closest_on_triangle(node, face[0], face[1], face[2]);
     for (int lane = 0; lane < 8; ++lane) {
-      const FaceQuery& query = queries[static_cast<std::size_t>(lane)];
+      const FaceQuery& query = queries[index(lane)];
       const auto result = closest(query);
       ASSERT_TRUE(same_bits(packed.offset, lane, result.offset)) << i;
       ASSERT_TRUE(same_bits(packed.squared_distance[lane], result.squared_distance)) << i;
@@ -155,7 +156,7 @@ TEST(ClosestOnHull, MirrorImagesAreMirrorImages) {
     ASSERT_EQ(seen.inside, result.inside) << i;
     if (query.face[3] == query.face[2]) continue;
     FaceQuery relisted = mirrored;
-    const auto first = static_cast<std::size_t>(random.integer(0, 3));
+    const auto first = index(random.integer(0, 3));
     for (std::size_t k = 0; k < 4; ++k) relisted.face[k] = mirrored.face[(first + 4 - k) % 4];
     const double rounding = 2 * roundings * unit_roundoff * largest_difference(query);
     ASSERT_NEAR(eigen(closest(relisted).offset).norm(), eigen(result.offset).norm(), rounding) << i;

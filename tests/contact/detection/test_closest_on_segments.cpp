@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/contact/detection/exact_distance.hpp"
 #include "tests/contact/detection/packs.hpp"
 #include "tests/contact/detection/still_queries.hpp"
@@ -73,7 +74,7 @@ TEST(ClosestOnSegments, LanesExchangeAndMirrorGiveTheSameBits) {
     std::array<SegmentQuery, 8> queries;
     std::array<Vector3<Pack>, 4> ends;
     for (int lane = 0; lane < 8; ++lane) {
-      SegmentQuery& query = queries[static_cast<std::size_t>(lane)];
+      SegmentQuery& query = queries[index(lane)];
       query = any_segment_query(random);
       for (std::size_t k = 0; k < 2; ++k) {
         put(ends[k], lane, query.a[k]);
@@ -82,7 +83,7 @@ TEST(ClosestOnSegments, LanesExchangeAndMirrorGiveTheSameBits) {
     }
     const auto packed = closest_on_segments(ends[0], ends[1], ends[2], ends[3]);
     for (int lane = 0; lane < 8; ++lane) {
-      const SegmentQuery& query = queries[static_cast<std::size_t>(lane)];
+      const SegmentQuery& query = queries[index(lane)];
       const auto result = closest(query.a, query.b);
       ASSERT_TRUE(same_bits(packed.offset, lane, result.offset)) << i;
       ASSERT_TRUE(same_bits(packed.on_a[lane], result.on_a)) << i;

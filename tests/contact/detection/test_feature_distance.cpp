@@ -6,6 +6,7 @@
 
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/geometry/hull_point.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/geometry/adversarial_queries.hpp"
 
 namespace brio {
@@ -71,7 +72,7 @@ TEST(FeatureDistance, IsNoMoreThanThatOfAnyPairOfFeatures) {
     for (Vector3d& x : node) x = random.vector(1);
     const auto at = [&](const Numbers& numbers) {
       Corners x;
-      for (std::size_t k = 0; k < 4; ++k) x[k] = node[static_cast<std::size_t>(numbers[k])];
+      for (std::size_t k = 0; k < 4; ++k) x[k] = node[index(numbers[k])];
       return x;
     };
     if (random.coin())

@@ -10,6 +10,7 @@
 
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/geometry/hull_point.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -53,12 +54,11 @@ void expect_as_collected_anew(const ContactScene& scene) {
       const int mine = mended.edge_of_face[f][k], other = anew.edge_of_face[f][k];
       ASSERT_EQ(mine < 0, other < 0);
       if (mine < 0) continue;
-      ASSERT_EQ(name_of(mended.edge[static_cast<std::size_t>(mine)]),
-                name_of(anew.edge[static_cast<std::size_t>(other)]));
+      ASSERT_EQ(name_of(mended.edge[index(mine)]), name_of(anew.edge[index(other)]));
     }
   }
   for (int s = 0; s < static_cast<int>(scene.surface.slaves()); ++s) {
-    ASSERT_EQ(mended.node_radius[static_cast<std::size_t>(s)], anew.node_radius[static_cast<std::size_t>(s)]);
+    ASSERT_EQ(mended.node_radius[index(s)], anew.node_radius[index(s)]);
     const auto mine = mended.ring.of(s), other = anew.ring.of(s);
     ASSERT_TRUE(std::equal(mine.begin(), mine.end(), other.begin(), other.end())) << "ring of " << s;
   }
@@ -74,9 +74,9 @@ std::set<std::pair<int, int>> listed(const PairList& pairs) {
 
 // Whether an edge is the diagonal of a face that is flat for what keeps its radii, or two skins.
 bool is_flat(const ContactScene& scene, const FeatureMotion& still, int e, bool radii) {
-  const EdgeFeature& edge = scene.features.edge[static_cast<std::size_t>(e)];
+  const EdgeFeature& edge = scene.features.edge[index(e)];
   if (!edge.is_diagonal()) return false;
-  const auto f = static_cast<std::size_t>(edge.face[0]);
+  const auto f = index(edge.face[0]);
   const std::array<int, 4>& corner = scene.features.face_node[f];
   const double thickness = flat_thickness(scene.features, f, radii ? Flatness::radii : Flatness::all);
   return flat_slack(
@@ -103,7 +103,7 @@ void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
   };
   const auto all_nodes = listed(scene.pairs.node_face);
   for (const PairRecord& pair : near.node_face.records()) {
-    const auto s = static_cast<std::size_t>(pair.first), f = static_cast<std::size_t>(pair.second);
+    const auto s = index(pair.first), f = index(pair.second);
     const std::array<int, 4>& corner = features.face_node[f];
     const bool spaced = pair.spacing == Spacing::radii;
     const HullPoint seen = closest_on_face(
@@ -119,23 +119,22 @@ void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
     const bool radii = pair.spacing == Spacing::radii;
     if (is_flat(scene, still, pair.first, radii) || is_flat(scene, still, pair.second, radii)) continue;
     const auto segment = [&](int e) -> Segment {
-      const std::array<int, 2>& node = features.edge_node[static_cast<std::size_t>(e)];
+      const std::array<int, 2>& node = features.edge_node[index(e)];
       return {still.start(node[0]), still.start(node[1])};
     };
     const ClosestSegments seen = closest_points_of_segments(segment(pair.first), segment(pair.second));
-    const double both = features.edge_radius[static_cast<std::size_t>(pair.first)] +
-                        features.edge_radius[static_cast<std::size_t>(pair.second)];
+    const double both = features.edge_radius[index(pair.first)] + features.edge_radius[index(pair.second)];
     if (touches(seen.squared_distance, both, radii)) {
       EXPECT_EQ(all_edges.count({pair.first, pair.second}), 1U);
     }
   }
   for (const auto& [s, f] : all_nodes) {
-    ASSERT_GE(scene.surface.node[static_cast<std::size_t>(s)], 0);
-    ASSERT_TRUE(scene.surface.face[static_cast<std::size_t>(f)].alive());
+    ASSERT_GE(scene.surface.node[index(s)], 0);
+    ASSERT_TRUE(scene.surface.face[index(f)].alive());
   }
   for (const auto& [a, b] : all_edges) {
-    ASSERT_TRUE(scene.features.edge[static_cast<std::size_t>(a)].alive());
-    ASSERT_TRUE(scene.features.edge[static_cast<std::size_t>(b)].alive());
+    ASSERT_TRUE(scene.features.edge[index(a)].alive());
+    ASSERT_TRUE(scene.features.edge[index(b)].alive());
   }
 }
 

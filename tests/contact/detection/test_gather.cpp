@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "tests/contact/detection/packs.hpp"
 #include "tests/contact/geometry/adversarial_queries.hpp"
 
@@ -32,7 +33,7 @@ void expect_positions() {
     for (int& each : node) each = random.integer(0, 99);
     const Vector3<Pack> packed = gather<Pack>(&rows[0], node);
     for (int lane = 0; lane < 8; ++lane) {
-      const double* expected = position(rows, static_cast<std::size_t>(node[lane]));
+      const double* expected = position(rows, index(node[lane]));
       EXPECT_EQ(packed.x[lane], expected[0]);
       EXPECT_EQ(packed.y[lane], expected[1]);
       EXPECT_EQ(packed.z[lane], expected[2]);

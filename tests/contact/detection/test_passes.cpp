@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "src/base/index.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/contact/detection/reference_passes.hpp"
 
@@ -46,7 +47,7 @@ struct Detector {
     corrected.resize(scene.surface.slaves(), Eigen::Vector3d::Zero());
     for (std::size_t s = 0; s < scene.surface.slaves(); ++s) {
       if (random.coin()) continue;
-      NodeRecord& node = scene.nodes.record[static_cast<std::size_t>(scene.surface.node[s])];
+      NodeRecord& node = scene.nodes.record[index(scene.surface.node[s])];
       const Eigen::Vector3d change = random.vector(random.integer(0, 9) == 0 ? 8 * speed : 0.5 * speed);
       for (int axis = 0; axis < 3; ++axis)
         corrected[s][axis] = node.velocity[axis] = node.velocity[axis] + change[axis];
@@ -153,7 +154,7 @@ TEST(Passes, SameBitsForAnyNumberOfThreads) {
   };
   for (int threads : {2, 3, 8})
     run(threads, [&](int step, const Detector& d) {
-      const State& state = expected[static_cast<std::size_t>(step)];
+      const State& state = expected[index(step)];
       ASSERT_EQ(d.contacts.size(), state.contacts.size());
       for (std::size_t i = 0; i < d.contacts.size(); ++i)
         EXPECT_TRUE(Reference::same(d.contacts[i], state.contacts[i]));
@@ -216,16 +217,15 @@ TEST(Passes, WhatIsNotCheckedCannotCrossWithinTheLimits) {
       ASSERT_TRUE(std::includes(before.begin(), before.end(), kept.begin(), kept.end()));
       checked += kept.size();
       const auto way = [](const PathAndAhead& ways, int i) {
-        return ways.ahead[static_cast<std::size_t>(i)] - ways.path[static_cast<std::size_t>(i)];
+        return ways.ahead[index(i)] - ways.path[index(i)];
       };
       for (int i : before) {
         if (std::binary_search(kept.begin(), kept.end(), i)) continue;
         ++dropped;
-        const PairRecord& pair = list[static_cast<std::size_t>(i)];
+        const PairRecord& pair = list[index(i)];
         const double approach = way(first, pair.first) + way(second, pair.second) +
                                 way(detector.motion.groups.relation, pair.relation);
-        ASSERT_GT(distance(static_cast<std::size_t>(i)), approach + 2 * allowed_surplus(scene.features))
-            << step << ' ' << i;
+        ASSERT_GT(distance(index(i)), approach + 2 * allowed_surplus(scene.features)) << step << ' ' << i;
       }
     };
     const FeatureMotion& motion = detector.motion;
@@ -263,9 +263,7 @@ std::size_t expect_near_ones_are_listed(RandomScene& scene, const Detector& dete
       EXPECT_EQ(known.count({list.first(i), list.second(i)}), 1U) << list.first(i) << ' ' << list.second(i);
     }
   };
-  const auto of = [](const std::vector<double>& values, int i) {
-    return values[static_cast<std::size_t>(i)];
-  };
+  const auto of = [](const std::vector<double>& values, int i) { return values[index(i)]; };
   judge(
       all.node_face, detector.pairs.node_face, [&](std::size_t i) { return reference.node_face_distance(i); },
       [&](const PairRecord& p) {
@@ -279,8 +277,7 @@ std::size_t expect_near_ones_are_listed(RandomScene& scene, const Detector& dete
       },
       [&](const PairRecord& p) {
         const auto paired = [&](int e) {
-          return detector.pairs.flatness().pairs(features.edge[static_cast<std::size_t>(e)],
-                                                 p.spacing == Spacing::radii);
+          return detector.pairs.flatness().pairs(features.edge[index(e)], p.spacing == Spacing::radii);
         };
         return paired(p.first) && paired(p.second);
       });
@@ -322,16 +319,16 @@ TEST(Passes, WhatSleepsIsNotNear) {
           nf, detector.proximity.node_face, [&](std::size_t i) { return reference.node_face_distance(i); },
           [&](std::size_t i) {
             return !nf.has_radii(i) ? skins
-                                    : scene.features.node_radius[static_cast<std::size_t>(nf.first(i))] +
-                                          scene.features.face_radius[static_cast<std::size_t>(nf.second(i))];
+                                    : scene.features.node_radius[index(nf.first(i))] +
+                                          scene.features.face_radius[index(nf.second(i))];
           },
           [](std::size_t) { return false; });
       judge(
           ee, detector.proximity.edge_edge, [&](std::size_t i) { return reference.edge_edge_distance(i); },
           [&](std::size_t i) {
             return !ee.has_radii(i) ? skins
-                                    : scene.features.edge[static_cast<std::size_t>(ee.first(i))].radius +
-                                          scene.features.edge[static_cast<std::size_t>(ee.second(i))].radius;
+                                    : scene.features.edge[index(ee.first(i))].radius +
+                                          scene.features.edge[index(ee.second(i))].radius;
           },
           // Of faces and closest at an end: a node keeps the distance there.
           [&](std::size_t i) { return reference.closest_at_an_end(i); });

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "contact/geometry/closest_on_segments.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/detection/exact_distance.hpp"
 #include "tests/contact/detection/packs.hpp"
 #include "tests/contact/detection/still_queries.hpp"
@@ -131,7 +132,7 @@ TEST(Separation, LanesGiveTheBitsOfPlainNumbers) {
     std::array<Vector3<Pack>, 4> face_start, face_end;
     std::array<Features, 8> all;
     for (int lane = 0; lane < 8; ++lane) {
-      Features& f = all[static_cast<std::size_t>(lane)];
+      Features& f = all[index(lane)];
       f = features(random, 1, 4, random.power_of_ten(-18, 0));
       put(d, lane, f.d);
       put(node_start[0], lane, f.first_start[0]);
@@ -143,7 +144,7 @@ TEST(Separation, LanesGiveTheBitsOfPlainNumbers) {
     }
     const auto packed = separation(d, node_start[0], node_end[0], face_start, face_end);
     for (int lane = 0; lane < 8; ++lane) {
-      const Features& f = all[static_cast<std::size_t>(lane)];
+      const Features& f = all[index(lane)];
       const auto result =
           separation(components(f.d), components(f.first_start[0]), components(f.first_end[0]),
                      points<4>(f.second_start), points<4>(f.second_end));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/enforcement/impulse_solver.hpp"
+#include "src/base/index.hpp"
 
 namespace brio::test {
 
@@ -102,9 +103,9 @@ struct RandomFace {
     for (int k = 0; k < corners; ++k) {
       foot.block[k] = first + k;
       foot.weight[k] = weight[k];
-      point = point + weight[k] * corner[static_cast<std::size_t>(k)];
+      point = point + weight[k] * corner[index(k)];
     }
-    const auto count = static_cast<std::size_t>(corners);
+    const auto count = index(corners);
     set_gradients(foot, corner, {along, count}, {across, count});
   }
 };

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "contact/enforcement/impulse_work.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/enforcement/row_scenes.hpp"
 
 namespace brio {
@@ -29,7 +30,7 @@ class Rows : public testing::Test {
         return;
       }
       total.impulse = total.impulse + given;
-      total.moment = total.moment + cross(position[static_cast<std::size_t>(block)], given);
+      total.moment = total.moment + cross(position[index(block)], given);
     });
     return total;
   }
@@ -57,7 +58,7 @@ TEST_F(Rows, SpreadIsTheTransposeOfVelocity) {
     const Vector impulse = random.vector();
     double power = 0;
     RowMap(rows, last()).spread(impulse, [&](int block, const Vector& given) {
-      power += dot(given, blocks[static_cast<std::size_t>(block)].velocity);
+      power += dot(given, blocks[index(block)].velocity);
     });
     EXPECT_NEAR(power, dot(impulse, RowMap(rows, last()).relative_velocity(blocks)), 1e-13);
   }
@@ -92,9 +93,7 @@ TEST_F(Rows, SolidFaceMovesAsABodyInRigidMotion) {
     new_row(normal);
     rows.add_face(face.foot, 0.4, Side::first);
     const Vector spin = random.vector();
-    const Vector v = RowMap(rows, last()).velocity([&](int b) {
-      return cross(spin, face.corner[static_cast<std::size_t>(b)]);
-    });
+    const Vector v = RowMap(rows, last()).velocity([&](int b) { return cross(spin, face.corner[index(b)]); });
     EXPECT_LT(norm(v - cross(spin, face.point + 0.4 * normal)), 2e-14);
   }
 }
@@ -132,8 +131,7 @@ TEST_F(Rows, ABlockIsNamedOnce) {
   rows.add_rotation(3, {1, 0, 0});
   EXPECT_EQ(last().translation.size(), 3U);
   EXPECT_EQ(last().rotation.size(), 1U);
-  const Vector v =
-      RowMap(rows, last()).velocity([&](int b) { return blocks[static_cast<std::size_t>(b)].velocity; });
+  const Vector v = RowMap(rows, last()).velocity([&](int b) { return blocks[index(b)].velocity; });
   const Vector expected = 0.5 * blocks[0].velocity - 0.5 * blocks[1].velocity - 0.25 * blocks[2].velocity +
                           cross(blocks[3].velocity, Vector{2, 2, 3});
   EXPECT_LT(norm(v - expected), 1e-15);
@@ -143,8 +141,7 @@ TEST_F(Rows, ABlockIsNamedOnce) {
   rows.add_point(1, Side::first, 0.125);
   EXPECT_EQ(last().translation.size(), 2U);
   EXPECT_EQ(last().matrix.size(), 1U);
-  const Vector w =
-      RowMap(rows, last()).velocity([&](int b) { return blocks[static_cast<std::size_t>(b)].velocity; });
+  const Vector w = RowMap(rows, last()).velocity([&](int b) { return blocks[index(b)].velocity; });
   EXPECT_LT(norm(w - (expected + matrix * blocks[1].velocity + 0.125 * blocks[1].velocity)), 1e-14);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/impact_zone.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio {
@@ -32,7 +33,7 @@ class Zone : public testing::TestWithParam<int> {
   static Vector3d velocity_after(const ZoneMember& one) {
     Vector3d velocity = one.velocity + one.impulse / one.mass;
     for (int axis = 0; axis < 3; ++axis)
-      if (one.prescribed[static_cast<std::size_t>(axis)]) velocity[axis] = one.velocity[axis];
+      if (one.prescribed[index(axis)]) velocity[axis] = one.velocity[axis];
     return velocity;
   }
   double kinetic_energy(bool after) const {
@@ -163,9 +164,8 @@ TEST(ImpactZone, AccountsForWhatSupportsTake) {
   const std::array<Vector3d, 9> place{Vector3d{0, 0, -2}, {1, 0, 0}, {0.5, -0.5, 1.5},
                                       {0, 1, 0},          {1, 1, 0}, {0.2, 0.2, 0.5},
                                       {0, 2, 0},          {1, 2, 0}, {-0.5, 0.5, 1.5}};
-  model.add_sheet({2, 2}, {2, 2}, 0.01, 1, [&](const Vector3d& x) {
-    return place[static_cast<std::size_t>(std::lround(x[0]) + 3 * std::lround(x[1]))];
-  });
+  model.add_sheet({2, 2}, {2, 2}, 0.01, 1,
+                  [&](const Vector3d& x) { return place[index(std::lround(x[0]) + 3 * std::lround(x[1]))]; });
   model.start({});
   for (const int held : {0, 2, 4, 5, 6, 7, 8}) model.hold(held, held + 1, 4);
   model.set_velocity(5, {0.02, 0.01, -1});

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "src/base/index.hpp"
 #include "tests/contact/enforcement/row_scenes.hpp"
 
 namespace brio {
@@ -95,11 +96,11 @@ TEST(Impulses, AgreeWithTheExactSolutionOfTheComplementarityProblem) {
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(count, 18);
     Eigen::VectorXd free(count);
     for (int i = 0; i < count; ++i) {
-      const ConstraintRow& row = scene.rows.row[static_cast<std::size_t>(i)];
+      const ConstraintRow& row = scene.rows.row[index(i)];
       const RowMap map(scene.rows, row);
       free[i] = dot(row.normal, map.relative_velocity(scene.blocks)) - row.target_velocity;
       map.spread(row.normal, [&](int b, const Vector& v) {
-        const double scale = std::sqrt(scene.blocks[static_cast<std::size_t>(b)].inverse_mass.xx);
+        const double scale = std::sqrt(scene.blocks[index(b)].inverse_mass.xx);
         jacobian.row(i).segment<3>(3 * b) += scale * Eigen::RowVector3d(v.x, v.y, v.z);
       });
     }
@@ -110,8 +111,7 @@ TEST(Impulses, AgreeWithTheExactSolutionOfTheComplementarityProblem) {
     ASSERT_EQ(expected.size(), count);
     EXPECT_TRUE(solve(scene, to_the_end()).converged);
     for (int i = 0; i < count; ++i)
-      EXPECT_NEAR(scene.rows.row[static_cast<std::size_t>(i)].impulse, expected[i],
-                  1e-9 * (1 + expected.norm()));
+      EXPECT_NEAR(scene.rows.row[index(i)].impulse, expected[i], 1e-9 * (1 + expected.norm()));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "src/base/index.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/contact/enforcement/row_scenes.hpp"
 
@@ -86,9 +87,9 @@ class MixedScene : public RowScene {
     const double stretch = 0.7;
     inertia = inertia + stretch * SymmetricTensor<double>{axis.x * axis.x, axis.y * axis.y, axis.z * axis.z,
                                                           axis.x * axis.y, axis.y * axis.z, axis.x * axis.z};
-    inertia_[static_cast<std::size_t>(turn)] = inertia;
+    inertia_[index(turn)] = inertia;
     // Sherman and Morrison: the inverse of 2 + stretch axis axis.
-    blocks[static_cast<std::size_t>(turn)].inverse_mass =
+    blocks[index(turn)].inverse_mass =
         isotropic(0.5) - (0.25 * stretch / (1 + 0.5 * stretch)) *
                              SymmetricTensor<double>{axis.x * axis.x, axis.y * axis.y, axis.z * axis.z,
                                                      axis.x * axis.y, axis.y * axis.z, axis.x * axis.z};
@@ -198,10 +199,9 @@ TEST(SolverInvariants, MirrorSymmetryIsKept) {
   const int half = 100;
   for (int side = 0; side < 2; ++side)
     for (int b = 0; b < half; ++b)
-      scene.blocks.push_back(side == 0
-                                 ? moving(random.between(0.5, 2), random.vector() + Vector{1, 0, 0})
-                                 : VelocityBlock{mirrored(scene.blocks[static_cast<std::size_t>(b)].velocity),
-                                                 scene.blocks[static_cast<std::size_t>(b)].inverse_mass});
+      scene.blocks.push_back(side == 0 ? moving(random.between(0.5, 2), random.vector() + Vector{1, 0, 0})
+                                       : VelocityBlock{mirrored(scene.blocks[index(b)].velocity),
+                                                       scene.blocks[index(b)].inverse_mass});
   for (int i = 0; i < 150; ++i) {
     const Vector normal = random.direction();
     const int a = random.below(half);
@@ -285,8 +285,7 @@ RowScene resting_stack(int count, double pull, double friction) {
     if (b > 0) scene.rows.add_point(b - 1, Side::second);
   }
   double above = 0;
-  for (int b = count; b-- > 0;)
-    scene.rows.row[static_cast<std::size_t>(b)].impulse = above += pull * (1 + 0.1 * b);
+  for (int b = count; b-- > 0;) scene.rows.row[index(b)].impulse = above += pull * (1 + 0.1 * b);
   return scene;
 }
 
@@ -434,7 +433,7 @@ TEST(SolverInvariants, RowsMayBeAdded) {
   std::vector<Vector> given(all.blocks.size(), Vector{0, 0, 0});
   for (const ConstraintRow& row : later.rows.row)
     RowMap(later.rows, row).spread(impulse_of(row), [&](int b, const Vector& impulse) {
-      given[static_cast<std::size_t>(b)] = given[static_cast<std::size_t>(b)] + impulse;
+      given[index(b)] = given[index(b)] + impulse;
     });
   for (std::size_t b = 0; b < all.blocks.size(); ++b)
     EXPECT_LT(norm(later.blocks[b].velocity - all.blocks[b].velocity - all.blocks[b].inverse_mass * given[b]),

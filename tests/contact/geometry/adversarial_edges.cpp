@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "contact/geometry/closest_point.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -71,7 +72,7 @@ Vector3d lattice_vector(Random& random, int most) {
 }
 
 // Multiples of 64 with times of eighths and parameters of quarters: every hit is exact.
-EdgeQuery lattice(Random& random) {
+EdgeQuery edges_of_lattice(Random& random) {
   EdgeQuery query;
   const int most = random.integer(1, 4);
   for (MovingEdge* edge : {&query.a, &query.b}) {
@@ -147,7 +148,7 @@ EdgeQuery becoming_parallel(Random& random) {
 }
 
 EdgeQuery coplanar(Random& random) {
-  EdgeQuery query = lattice(random);
+  EdgeQuery query = edges_of_lattice(random);
   const bool level = random.coin();
   const bool odd = random.coin();
   for (MovingEdge* edge : {&query.a, &query.b}) {
@@ -163,8 +164,8 @@ EdgeQuery coplanar(Random& random) {
 
 EdgeQuery shared_end(Random& random) {
   EdgeQuery query{random_edge(random, 1), random_edge(random, 1)};
-  const auto i = static_cast<std::size_t>(random.integer(0, 1));
-  const auto j = static_cast<std::size_t>(random.integer(0, 1));
+  const auto i = index(random.integer(0, 1));
+  const auto j = index(random.integer(0, 1));
   query.a.start[i] = query.b.start[j];
   query.a.displacement[i] = query.b.displacement[j];
   if (random.coin()) return query;
@@ -208,7 +209,7 @@ EdgeQuery any_aimed(Random& random) {
     case 4:
       return parallel(random);
     default:
-      return lattice(random);
+      return edges_of_lattice(random);
   }
 }
 
@@ -216,7 +217,7 @@ double size_of(const EdgeQuery& query) {
   return std::max(along(query.a, 0).norm(), along(query.b, 0).norm());
 }
 
-// Multiples of a power of two keep lattice hits exact; others are rounded like any mesh far away.
+// Multiples of a power of two keep edges_of_lattice hits exact; others are rounded like any mesh far away.
 EdgeQuery far_from_origin(Random& random) {
   EdgeQuery query = any_aimed(random);
   const Vector3d far =
@@ -321,7 +322,7 @@ EdgeQuery plain(EdgeFamily family, Random& random) {
     case EdgeFamily::near_miss:
       return near_miss(random);
     case EdgeFamily::lattice:
-      return lattice(random);
+      return edges_of_lattice(random);
     case EdgeFamily::grazing:
       return grazing(random);
     case EdgeFamily::parallel:
@@ -354,11 +355,13 @@ EdgeQuery plain(EdgeFamily family, Random& random) {
 
 std::string_view name_of(EdgeFamily family) {
   static constexpr std::array<std::string_view, edge_family_count> names = {
-      "random",     "crossing", "end on inside",   "end on end",        "near miss",
-      "lattice",    "grazing",  "parallel",        "becoming parallel", "coplanar",
-      "shared end", "sliver",   "far from origin", "moving frame",      "fast",
-      "still",      "radius",   "radius near miss"};
-  return names[static_cast<std::size_t>(family)];
+      "random",          "crossing",     "end on inside",
+      "end on end",      "near miss",    "edges_of_lattice",
+      "grazing",         "parallel",     "becoming parallel",
+      "coplanar",        "shared end",   "sliver",
+      "far from origin", "moving frame", "fast",
+      "still",           "radius",       "radius near miss"};
+  return names[index(family)];
 }
 
 EdgeQuery adversarial_edges(EdgeFamily family, Random& random) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "src/base/index.hpp"
+
 namespace brio {
 
 using Eigen::Vector3d;
@@ -11,8 +13,6 @@ using Eigen::Vector3d;
 namespace {
 
 using Weights = std::array<double, 4>;
-
-std::size_t index(int k) { return static_cast<std::size_t>(k % 4); }
 
 MovingFace random_face(Random& random, double motion) {
   // A warped unit square, turned at will, or four points anywhere.
@@ -38,7 +38,7 @@ Weights blend(const Weights& a, const Weights& b, double share) {
 
 Weights at_corner(int k) {
   Weights weights{0, 0, 0, 0};
-  weights[index(k)] = 1;
+  weights[index(k % 4)] = 1;
   return weights;
 }
 
@@ -222,8 +222,8 @@ Query sliver(Random& random) {
   }
   if (random.integer(0, 7) == 0) {  // two vertices in one
     const int k = random.integer(0, 3);
-    query.face.start[index(k)] = query.face.start[index(k + 1)];
-    query.face.displacement[index(k)] = query.face.displacement[index(k + 1)];
+    query.face.start[index(k)] = query.face.start[index((k + 1) % 4)];
+    query.face.displacement[index(k)] = query.face.displacement[index((k + 1) % 4)];
   }
   const int k = random.integer(0, 3);
   const Weights on_edge = blend(at_corner(k), at_corner(k + 1), random.uniform(0, 1));
@@ -350,7 +350,7 @@ std::string_view name_of(Family family) {
   static constexpr std::array<std::string_view, family_count> names = {
       "random",          "outer edge",   "corner", "seam", "near edge", "lattice", "grazing",
       "far from origin", "moving frame", "sliver", "fast", "coplanar",  "still",   "triangle"};
-  return names[static_cast<std::size_t>(family)];
+  return names[index(family)];
 }
 
 Query adversarial_query(Family family, Random& random) {

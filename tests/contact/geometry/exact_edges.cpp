@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/contact/geometry/exact_geometry.hpp"
 
 namespace brio::exact {
@@ -158,7 +159,7 @@ class ExtendedFilter {
       : reach_(static_cast<long double>(a.radius) + b.radius), largest_(reach_) {
     for (std::size_t k = 0; k < 4; ++k) {
       for (int i = 0; i < 3; ++i) {
-        const auto c = static_cast<std::size_t>(i);
+        const auto c = index(i);
         start_[k][c] = static_cast<long double>(a.start[k / 2][i]) - b.start[k % 2][i];
         displacement_[k][c] = static_cast<long double>(a.displacement[k / 2][i]) - b.displacement[k % 2][i];
         largest_ = std::max(largest_, std::abs(start_[k][c]) + std::abs(displacement_[k][c]));

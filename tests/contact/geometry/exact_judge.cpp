@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/contact/geometry/exact_geometry.hpp"
 
 namespace brio::exact {
@@ -136,7 +137,7 @@ class ExtendedFilter {
   ExtendedFilter(const MovingNode& node, const MovingFace& face) {
     for (std::size_t k = 0; k < 4; ++k) {
       for (int i = 0; i < 3; ++i) {
-        const auto c = static_cast<std::size_t>(i);
+        const auto c = index(i);
         start_[k][c] = static_cast<long double>(face.start[k][i]) - node.start[i];
         displacement_[k][c] = static_cast<long double>(face.displacement[k][i]) - node.displacement[i];
         largest_ = std::max(largest_, std::abs(start_[k][c]) + std::abs(displacement_[k][c]));
@@ -297,7 +298,7 @@ bool point_within(const MovingNode& node, const MovingFace& face, const std::arr
 int side_at(const MovingNode& node, const MovingFace& face, int sub_triangle, double time) {
   const auto parts = triangles(node, face, scaled_for(node, face));
   const Dyadic moment = dyadic(time);
-  const std::array<Path, 3>& part = parts[static_cast<std::size_t>(sub_triangle)];
+  const std::array<Path, 3>& part = parts[index(sub_triangle)];
   const IntegerVector to = at(part[0], moment);
   const IntegerVector area = cross(at(part[1], moment) - to, at(part[2], moment) - to);
   return -sgn(dot(to, area));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "src/base/index.hpp"
+
 namespace brio::exact {
 
 Polynomial::Polynomial(const Integer& constant) {
@@ -170,8 +172,7 @@ Coefficients bernstein(const Polynomial& p) {
       {1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}, {1, 4, 6, 4, 1}, {1, 5, 10, 10, 5, 1}, {1, 6, 15, 20, 15, 6, 1}};
   Coefficients b;
   for (int i = 0; i <= p.degree; ++i)
-    for (int k = 0; k <= i; ++k)
-      b[static_cast<std::size_t>(i)] += p[k] * (binomial[i][k] * 60 / binomial[p.degree][k]);
+    for (int k = 0; k <= i; ++k) b[index(i)] += p[k] * (binomial[i][k] * 60 / binomial[p.degree][k]);
   return b;
 }
 
@@ -181,7 +182,7 @@ Coefficients bernstein(const Polynomial& p) {
 bool isolated(const Polynomial& p, Coefficients b, const Integer& low, unsigned exponent,
               std::vector<Number>& found) {
   constexpr unsigned deepest = 8;
-  const auto last = static_cast<std::size_t>(p.degree);
+  const auto last = index(p.degree);
   const int sign_last = sgn(b[last]);
   int before = sgn(b[0]);
   if (before == 0 || sign_last == 0) return false;

@@ -7,6 +7,8 @@
 #include <array>
 #include <vector>
 
+#include "src/base/index.hpp"
+
 namespace brio::exact {
 
 using Integer = mpz_class;
@@ -28,8 +30,8 @@ class Polynomial {
   explicit Polynomial(const Integer& constant);
   Polynomial(const Integer& constant, const Integer& slope);
   bool is_zero() const { return degree < 0; }
-  const Integer& operator[](int k) const { return coefficients[static_cast<std::size_t>(k)]; }
-  Integer& operator[](int k) { return coefficients[static_cast<std::size_t>(k)]; }
+  const Integer& operator[](int k) const { return coefficients[index(k)]; }
+  Integer& operator[](int k) { return coefficients[index(k)]; }
   void trim();
   Polynomial derivative() const;
   void make_primitive();  // divides by the content, keeps the sign

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string>
 
+#include "src/base/index.hpp"
 #include "tests/contact/geometry/adversarial_edges.hpp"
 #include "tests/contact/geometry/exact_edges.hpp"
 #include "tests/contact/geometry/exact_geometry.hpp"
@@ -34,7 +35,7 @@ using Extended = std::array<long double, 3>;
 
 Extended difference(const Vector3d& a, const Vector3d& b) {
   Extended result;
-  for (int k = 0; k < 3; ++k) result[static_cast<std::size_t>(k)] = static_cast<long double>(a[k]) - b[k];
+  for (int k = 0; k < 3; ++k) result[index(k)] = static_cast<long double>(a[k]) - b[k];
   return result;
 }
 
@@ -51,7 +52,7 @@ double promised_tolerance(const EdgeQuery& query) {
   return static_cast<double>(1.5e-14L * (scale + query.a.radius + query.b.radius));
 }
 
-Vector3d along(const MovingEdge& edge, double time) {
+Vector3d place_along(const MovingEdge& edge, double time) {
   Vector3d result;
   const Extended start = difference(edge.start[1], edge.start[0]);
   const Extended displacement = difference(edge.displacement[1], edge.displacement[0]);
@@ -71,14 +72,14 @@ bool side_was_seen(const EdgeQuery& query, const EdgeContact& contact) {
   return false;
 }
 
-// A unit vector; without a distance, along the common perpendicular to the side that a comes from.
+// A unit vector; without a distance, place_along the common perpendicular to the side that a comes from.
 bool normal_is_right(const EdgeQuery& query, const EdgeContact& contact, double tolerance) {
   if (std::abs(contact.normal.norm() - 1) > 1e-14) return false;
   const bool insides =
       contact.features[0] == SegmentFeature::inside && contact.features[1] == SegmentFeature::inside;
   if (!insides || contact.side == 0 || contact.distance > 8 * tolerance) return true;
-  const Vector3d a = along(query.a, contact.time);
-  const Vector3d b = along(query.b, contact.time);
+  const Vector3d a = place_along(query.a, contact.time);
+  const Vector3d b = place_along(query.b, contact.time);
   const Vector3d perpendicular = a.cross(b);
   if (perpendicular.norm() < 1e-6 * a.norm() * b.norm()) return true;
   return contact.side * contact.normal.dot(perpendicular) > (1 - 1e-9) * perpendicular.norm();

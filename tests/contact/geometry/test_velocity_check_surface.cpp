@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "tests/contact/geometry/adversarial_queries.hpp"
 #include "tests/contact/geometry/exact_judge.hpp"
 
@@ -71,7 +72,7 @@ TEST(VelocityCheckSurface, AFanLetsNothingThrough) {
       vertices.push_back(riser(radius * std::cos(angle), radius * std::sin(angle), random));
     }
     // At the common vertex, or on an edge that leads to it.
-    const MovingNode& spoke = vertices[static_cast<std::size_t>(1 + 2 * random.integer(0, quads - 1))];
+    const MovingNode& spoke = vertices[index(1 + 2 * random.integer(0, quads - 1))];
     const double share = random.integer(0, 3) == 0 ? 0 : random.uniform(0, 0.4);
     const double time = random.uniform(0.2, 0.8);
     const Vector3d drift(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0);
@@ -83,8 +84,8 @@ TEST(VelocityCheckSurface, AFanLetsNothingThrough) {
     for (MovingNode& vertex : vertices) vertex = frame(vertex);
     std::vector<MovingFace> faces;
     for (int k = 0; k < quads; ++k) {
-      const auto first = static_cast<std::size_t>(1 + 2 * k);
-      const auto last = static_cast<std::size_t>(1 + (2 * k + 2) % (2 * quads));
+      const auto first = index(1 + 2 * k);
+      const auto last = index(1 + (2 * k + 2) % (2 * quads));
       faces.push_back(face_of(vertices, {0, first, first + 1, last}, random));
     }
     EXPECT_TRUE(touches_any(frame(node), faces)) << i;
@@ -99,7 +100,7 @@ TEST(VelocityCheckSurface, AStripLetsNothingThrough) {
       vertices.push_back(riser(k + random.uniform(-0.2, 0.2), random.uniform(-0.2, 0), random));
       vertices.push_back(riser(k + random.uniform(-0.2, 0.2), 1 + random.uniform(0, 0.2), random));
     }
-    const auto rung = static_cast<std::size_t>(2 * random.integer(1, 3));  // an edge between two faces
+    const auto rung = index(2 * random.integer(1, 3));  // an edge between two faces
     const double share = random.uniform(0.3, 0.7);
     const double time = random.uniform(0.2, 0.8);
     const Vector3d drift(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 0);

@@ -4,6 +4,7 @@
 
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 // The start of contact by distances: what touches or overlaps a little is moved apart to its radii.
@@ -31,7 +32,7 @@ class RestingScene {
   void begin(const std::function<void(std::vector<SurfacePart>&, Nodes&)>& prepare = {}) {
     ContactOptions options;
     model.start(options);
-    const auto first = static_cast<std::size_t>(model.count());
+    const auto first = index(model.count());
     nodes = Nodes(first + extra.size(), false);
     nodes.prescribed = AlignedBuffer<std::uint8_t>(nodes.size());
     for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -48,7 +49,7 @@ class RestingScene {
   }
 
   Vector3d x(int n) const { return position(nodes, n); }
-  Vector3d moved(int n) const { return x(n) - start[static_cast<std::size_t>(n)]; }
+  Vector3d moved(int n) const { return x(n) - start[index(n)]; }
   double most_moved() const {
     double most = 0;
     for (int n = 0; n < static_cast<int>(nodes.size()); ++n) most = std::max(most, moved(n).norm());
@@ -60,7 +61,7 @@ class RestingScene {
   double missing() const {
     const SurfaceFeatures& features = scene.features;
     const Surface& surface = scene.surface;
-    const auto at = [&](int slave) { return x(surface.node[static_cast<std::size_t>(slave)]); };
+    const auto at = [&](int slave) { return x(surface.node[index(slave)]); };
     double most = -1;
     for (std::size_t s = 0; s < surface.slaves(); ++s)
       for (std::size_t f = 0; f < surface.face.size(); ++f) {
@@ -353,8 +354,7 @@ TEST(InitialGap, OfMirrorImagesIsAMirrorImage) {
   for (int n = 0; n < count; ++n) {
     int image = -1;
     for (int m = 0; m < count; ++m) {
-      const Vector3d &a = scene.start[static_cast<std::size_t>(n)],
-                     &b = scene.start[static_cast<std::size_t>(m)];
+      const Vector3d &a = scene.start[index(n)], &b = scene.start[index(m)];
       const auto box_of = [](int k) { return k < 30 ? 0 : k < 66 ? 1 : 2; };
       if (std::abs(a[0] + b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]) < 1e-12 &&
           box_of(n) == box_of(m))

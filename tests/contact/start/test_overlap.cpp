@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -105,7 +106,7 @@ TEST(InitialOverlap, BetweenPartsThatAreBothHeldIsRefusedAtOnce) {
     EXPECT_NE(std::string(error.what()).find("which moving nodes does not remove"), std::string::npos)
         << error.what();
   }
-  for (int n = 0; n < model.count(); ++n) EXPECT_EQ(model.x(n), start[static_cast<std::size_t>(n)]) << n;
+  for (int n = 0; n < model.count(); ++n) EXPECT_EQ(model.x(n), start[index(n)]) << n;
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "contact/surface/surface_topology.hpp"
+#include "src/base/index.hpp"
 
 namespace brio::test {
 
@@ -37,14 +38,14 @@ struct ErodingMesh {
                  {node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
                   node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)})
               grid.connectivity.push_back(corner);
-    grid.alive.assign(static_cast<std::size_t>(grid.count()), 1);
+    grid.alive.assign(index(grid.count()), 1);
   }
   void add_block(int nx, int ny, int nz) {
     const int first = static_cast<int>(nodes);
     add_grid(
         nx, ny, nz, [&](int i, int j, int k) { return first + i + (nx + 1) * (j + (ny + 1) * k); },
         [](int, int, int) { return true; });
-    nodes += static_cast<std::size_t>((nx + 1) * (ny + 1) * (nz + 1));
+    nodes += index((nx + 1) * (ny + 1) * (nz + 1));
   }
   void add_shells(const std::vector<std::array<int, 4>>& shells, std::mt19937& random) {
     Part& sheet = part.emplace_back();
@@ -69,13 +70,12 @@ struct ErodingMesh {
   std::vector<SurfaceElement> living() const {
     std::vector<SurfaceElement> all;
     for (int p = 0; p < static_cast<int>(part.size()); ++p)
-      for (int e = 0; e < part[static_cast<std::size_t>(p)].count(); ++e)
-        if (part[static_cast<std::size_t>(p)].alive[static_cast<std::size_t>(e)] != 0) all.push_back({p, e});
+      for (int e = 0; e < part[index(p)].count(); ++e)
+        if (part[index(p)].alive[index(e)] != 0) all.push_back({p, e});
     return all;
   }
   void mark(std::span<const SurfaceElement> deleted) {
-    for (const auto& [p, e] : deleted)
-      part[static_cast<std::size_t>(p)].alive[static_cast<std::size_t>(e)] = 0;
+    for (const auto& [p, e] : deleted) part[index(p)].alive[index(e)] = 0;
   }
 };
 
@@ -92,31 +92,30 @@ struct RebuiltSurface {
       auto& nodes = connectivity.emplace_back();
       parts[p].thickness.clear();
       for (int e = 0; e < whole.count(); ++e) {
-        if (whole.alive[static_cast<std::size_t>(e)] == 0) continue;
+        if (whole.alive[index(e)] == 0) continue;
         const auto begin = whole.connectivity.begin() + whole.corners() * e;
         nodes.insert(nodes.end(), begin, begin + whole.corners());
-        if (whole.shell) parts[p].thickness.push_back(whole.thickness[static_cast<std::size_t>(e)]);
+        if (whole.shell) parts[p].thickness.push_back(whole.thickness[index(e)]);
         element[p].push_back(e);
       }
     }
     for (std::size_t p = 0; p < parts.size(); ++p) parts[p].connectivity = connectivity[p];
     surface = make_surface(parts, mesh.nodes);
-    for (Face& face : surface.face)
-      face.element = element[static_cast<std::size_t>(face.part)][static_cast<std::size_t>(face.element)];
+    for (Face& face : surface.face) face.element = element[index(face.part)][index(face.element)];
   }
 };
 
 using FaceName = std::tuple<int, int, int>;  ///< part, element, side
 inline FaceName name_of(const Surface& surface, int face) {
   if (face < 0) return {-1, -1, -1};
-  const Face& f = surface.face[static_cast<std::size_t>(face)];
+  const Face& f = surface.face[index(face)];
   return {f.part, f.element, f.side};
 }
 template <class Faces>
 std::set<FaceName> names_of(const Surface& surface, const Faces& faces) {
   std::set<FaceName> names;
   for (int f : faces)
-    if (surface.face[static_cast<std::size_t>(f)].alive()) names.insert(name_of(surface, f));
+    if (surface.face[index(f)].alive()) names.insert(name_of(surface, f));
   return names;
 }
 
@@ -125,8 +124,7 @@ inline bool same_bodies(const Surface& a, const Surface& b, const std::map<FaceN
   std::map<int, int> to_b, to_a;
   for (const Face& face : a.face) {
     if (!face.alive()) continue;
-    const int other =
-        b.face[static_cast<std::size_t>(face_of_b.at({face.part, face.element, face.side}))].body;
+    const int other = b.face[index(face_of_b.at({face.part, face.element, face.side}))].body;
     if (to_b.try_emplace(face.body, other).first->second != other) return false;
     if (to_a.try_emplace(other, face.body).first->second != face.body) return false;
   }
@@ -149,8 +147,8 @@ inline void expect_same_surface(const Surface& mended, const Surface& rebuilt) {
   ASSERT_EQ(mine.size(), other.size());
   for (const auto& [name, g] : other) {
     ASSERT_EQ(mine.count(name), 1U);
-    const auto a = static_cast<std::size_t>(mine.at(name));
-    const auto b = static_cast<std::size_t>(g);
+    const auto a = index(mine.at(name));
+    const auto b = index(g);
     ASSERT_EQ(mended.face[a].node, rebuilt.face[b].node);
     ASSERT_EQ(mended.face[a].shell, rebuilt.face[b].shell);
     ASSERT_EQ(mended.thickness[a], rebuilt.thickness[b]);
@@ -162,8 +160,8 @@ inline void expect_same_surface(const Surface& mended, const Surface& rebuilt) {
     const int other_s = rebuilt.slave_of[n];
     ASSERT_EQ(mine_s < 0, other_s < 0) << "node " << n;
     if (mine_s < 0) continue;
-    const auto a = static_cast<std::size_t>(mine_s);
-    const auto b = static_cast<std::size_t>(other_s);
+    const auto a = index(mine_s);
+    const auto b = index(other_s);
     ASSERT_EQ(mended.node[a], static_cast<int>(n));
     ASSERT_EQ(mended.radius[a], rebuilt.radius[b]);
     ASSERT_EQ(mended.of_solid[a], rebuilt.of_solid[b]);
@@ -172,8 +170,8 @@ inline void expect_same_surface(const Surface& mended, const Surface& rebuilt) {
     ASSERT_TRUE(std::is_sorted(faces.begin(), faces.end()));
     ASSERT_EQ(names_of(mended, faces), names_of(rebuilt, rebuilt.faces_of.of(other_s)));
     for (int f : faces) {
-      ASSERT_TRUE(mended.face[static_cast<std::size_t>(f)].alive());
-      ASSERT_EQ(mended.face[static_cast<std::size_t>(f)].body, mended.body[a]);
+      ASSERT_TRUE(mended.face[index(f)].alive());
+      ASSERT_EQ(mended.face[index(f)].body, mended.body[a]);
     }
   }
   for (std::size_t s = 0; s < mended.slaves(); ++s) {

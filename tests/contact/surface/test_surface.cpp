@@ -8,6 +8,7 @@
 
 #include "contact/surface/exclusion.hpp"
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
 
 namespace brio::test {
@@ -69,8 +70,7 @@ TEST(Surface, DegenerateSidesVanishOrBecomeTriangles) {
   for (const Face& face : surface.face) triangles += face.corners() == 3;
   EXPECT_EQ(triangles, 2);
   for (std::size_t f = 0; f < 5; ++f)
-    for (int k = 0; k < surface.face[f].corners(); ++k)
-      EXPECT_GE(surface.neighbor[f][static_cast<std::size_t>(k)], 0);
+    for (int k = 0; k < surface.face[f].corners(); ++k) EXPECT_GE(surface.neighbor[f][index(k)], 0);
 }
 
 TEST(Surface, TrianglesBetweenWedgesAreInside) {
@@ -117,7 +117,7 @@ TEST(Exclusion, OfAShellReachesAsFarAsItsTightestFold) {
     const int middle = cells / 2 * (cells + 1) + cells / 2;
     const double fold = 0.5 * std::numbers::pi * 0.25;
     for (int f = 0; f < static_cast<int>(surface.face.size()); ++f) {
-      const Face& face = surface.face[static_cast<std::size_t>(f)];
+      const Face& face = surface.face[index(f)];
       const double distance =
           std::sqrt(closest_point_on_quad(model.x(middle), vertices(model.nodes, face)).squared_distance);
       EXPECT_EQ(is_excluded(model.scene.excluded, surface.slave(middle), f), distance < fold) << refine;

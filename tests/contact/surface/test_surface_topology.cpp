@@ -4,6 +4,7 @@
 
 #include "contact/surface/exclusion.hpp"
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 #include "tests/contact/surface/eroding_mesh.hpp"
 
 namespace brio::test {
@@ -22,9 +23,7 @@ ErodingMesh random_mesh(std::mt19937& random) {
     const std::size_t step = std::array<std::size_t, 3>{1, 5, 25}[random() % 3];
     merged[at] = merged[at >= step ? at - step : at + step];
   }
-  const auto node = [&](int i, int j, int k) {
-    return merged[static_cast<std::size_t>(i + 5 * (j + 5 * k))];
-  };
+  const auto node = [&](int i, int j, int k) { return merged[index(i + 5 * (j + 5 * k))]; };
   const auto present = [&](int, int, int) { return random() % 8 != 0; };
   mesh.add_grid(n, n, n, node, present);
   mesh.add_grid(
@@ -49,8 +48,8 @@ void delete_and_compare(ErodingMesh& mesh, Surface& surface, SurfaceTopology& to
   const RebuiltSurface rebuilt(mesh);
   ASSERT_NO_FATAL_FAILURE(expect_same_surface(surface, rebuilt.surface));
   ASSERT_TRUE(same_bodies(surface, rebuilt.surface, faces_by_name(rebuilt.surface)));
-  for (int f : change.new_face) ASSERT_TRUE(surface.face[static_cast<std::size_t>(f)].alive());
-  for (int f : change.dead_face) ASSERT_FALSE(surface.face[static_cast<std::size_t>(f)].alive());
+  for (int f : change.new_face) ASSERT_TRUE(surface.face[index(f)].alive());
+  for (int f : change.dead_face) ASSERT_FALSE(surface.face[index(f)].alive());
 }
 
 TEST(SurfaceTopology, MendedSurfaceEqualsOneBuiltAnew) {
@@ -59,11 +58,11 @@ TEST(SurfaceTopology, MendedSurfaceEqualsOneBuiltAnew) {
     ErodingMesh mesh = random_mesh(random);
     Surface surface = make_surface(mesh.parts(), mesh.nodes);
     SurfaceTopology topology = make_topology(surface, mesh.parts());
-    const int most = std::array<int, 4>{1, 3, 20, 90}[static_cast<std::size_t>(round % 4)];
+    const int most = std::array<int, 4>{1, 3, 20, 90}[index(round % 4)];
     while (!mesh.living().empty()) {
       std::vector<SurfaceElement> deleted = mesh.living();
       std::shuffle(deleted.begin(), deleted.end(), random);
-      deleted.resize(std::min(deleted.size(), std::size_t{1} + random() % static_cast<std::size_t>(most)));
+      deleted.resize(std::min(deleted.size(), std::size_t{1} + random() % index(most)));
       ASSERT_NO_FATAL_FAILURE(delete_and_compare(mesh, surface, topology, deleted)) << "round " << round;
       if (random() % 2 == 0) {
         topology.faces.release();
@@ -223,7 +222,7 @@ TEST(SurfaceTopology, NodesThatNeverWereOnTheSurfaceBecomeDebris) {
     if (inner < 0) continue;
     EXPECT_TRUE(surface.faces_of.of(inner).empty());
     EXPECT_EQ(change.debris, std::vector<int>{inner});
-    EXPECT_EQ(surface.body[static_cast<std::size_t>(inner)], -1);
+    EXPECT_EQ(surface.body[index(inner)], -1);
     EXPECT_TRUE(std::is_sorted(change.changed_slave.begin(), change.changed_slave.end()));
     EXPECT_TRUE(std::binary_search(change.changed_slave.begin(), change.changed_slave.end(), inner));
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/output/snapshot_parts.hpp"
 #include "tests/core/scene.hpp"
@@ -133,7 +134,7 @@ TEST(MergedParts, PointsAndMassesAreCountedOnce) {
   EXPECT_EQ(snapshot.topology.cell_type.size(), 32u);
   expect_parts_hold_their_cells(snapshot);
   std::vector<int> uses(45, 0);
-  for (const std::int64_t point : snapshot.topology.connectivity) ++uses[static_cast<std::size_t>(point)];
+  for (const std::int64_t point : snapshot.topology.connectivity) ++uses[index(point)];
   EXPECT_EQ(std::count(uses.begin(), uses.end(), 0), 0);
   EXPECT_EQ(observe_end(model).nodes, 45);
   EXPECT_DOUBLE_EQ(observe_end(model).mass.start, 100);
@@ -213,7 +214,7 @@ TEST(MergedParts, StiffenedStripSwingsAsOneBeam) {
   Model model = build_model(deck);
   EXPECT_EQ(model.merged[0].nodes, 17);
   EXPECT_NEAR(model.parts[1].mass, 1000 * beam_side * beam_side, 1e-12);
-  const auto tip = static_cast<std::size_t>(model.parts[1].node[16]);
+  const auto tip = index(model.parts[1].node[16]);
   const auto tip_inertia = model.nodes.rotational_inertia[tip];
   EXPECT_GT(tip_inertia, 0);
   std::vector<double> crossings;  // of the mean deflection, upwards
@@ -227,7 +228,7 @@ TEST(MergedParts, StiffenedStripSwingsAsOneBeam) {
     before = height;
     time_before = m.times.time;
   });
-  ASSERT_EQ(crossings.size(), static_cast<std::size_t>(swings + 1));
+  ASSERT_EQ(crossings.size(), index(swings + 1));
   EXPECT_NEAR(swings / (crossings.back() - crossings.front()) / frequency, 1, 0.01);
   EXPECT_LT(model.energy.error_max, 1e-3);
   model.momentum.now = momentum(model.nodes).total;
@@ -248,7 +249,7 @@ TEST(MergedParts, StiffenerDoesNotTouchThePanelThatItIsPartOf) {
   const auto found = paths(model, deck);
   EXPECT_EQ(model.contacts[0].totals.most_contacts, 0);
   EXPECT_EQ(found, reference);
-  EXPECT_GT(model.nodes.record[static_cast<std::size_t>(model.parts[1].node[16])].position[2], 0.1);
+  EXPECT_GT(model.nodes.record[index(model.parts[1].node[16])].position[2], 0.1);
 }
 
 TEST(MergedParts, ElementWithoutRotationsHoldsABeamAsAHinge) {
@@ -268,7 +269,7 @@ TEST(MergedParts, ElementWithoutRotationsHoldsABeamAsAHinge) {
   EXPECT_EQ(model.merged[0].nodes, 1);
   ThreadTeam team(1);
   run(model, deck, team);
-  const double* tip = model.nodes.record[static_cast<std::size_t>(model.parts[1].node[8])].position;
+  const double* tip = model.nodes.record[index(model.parts[1].node[8])].position;
   EXPECT_NEAR(tip[0], 0, 1e-2);
   EXPECT_NEAR(tip[1], 1, 1e-2);
   EXPECT_NEAR(model.energy.kinetic / model.energy.kinetic_start, 1, 1e-2);

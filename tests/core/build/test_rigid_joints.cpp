@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/result_order.hpp"
 #include "tests/core/build/tied_scene.hpp"
@@ -92,7 +93,7 @@ TEST(RigidJoints, ConserveMomentumAndEnergyInFlight) {
         ASSERT_LE(m.momentum.angular_imbalance(), 1e-12);
         const Eigen::Matrix3d turn = head.attitude.toRotationMatrix();
         for (const std::size_t i : head.joint) {
-          const Vector3d x(m.nodes.record[static_cast<std::size_t>(head.node[i])].position);
+          const Vector3d x(m.nodes.record[index(head.node[i])].position);
           farthest = std::max(farthest, (x - head.centre - turn * head.arm[i]).norm());
         }
       });

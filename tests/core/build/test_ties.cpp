@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 #include "src/build/build_ties.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/build/tied_scene.hpp"
@@ -93,8 +94,7 @@ double reflection(std::array<int, 3> first, std::array<int, 3> second, bool tie_
   double left = 0, all = 0;
   for (std::size_t p = 0; p < 2; ++p)
     for (int node : model.parts[p].node) {
-      const double energy =
-          model.nodes.mass[static_cast<std::size_t>(node)] * velocity(model.nodes, node).squaredNorm();
+      const double energy = model.nodes.mass[index(node)] * velocity(model.nodes, node).squaredNorm();
       all += energy;
       if (p == 0) left += energy;
     }
@@ -327,7 +327,7 @@ double swinging(int shells, int beams) {
   deck.time.end = (swings + 0.75) / frequency;
   Model model = build_model(deck);
   EXPECT_EQ(model.ties.found[0].count, beams + 1);
-  const auto tip = static_cast<std::size_t>(model.parts[1].node[static_cast<std::size_t>(beams)]);
+  const auto tip = index(model.parts[1].node[index(beams)]);
   const double mean = height + 1.5 / (3 * 1e9 * inertia);
   std::vector<double> crossings;
   double before = 0, time_before = 0;
@@ -339,7 +339,7 @@ double swinging(int shells, int beams) {
     before = above;
     time_before = m.times.time;
   });
-  EXPECT_EQ(crossings.size(), static_cast<std::size_t>(swings + 1));
+  EXPECT_EQ(crossings.size(), index(swings + 1));
   EXPECT_LT(model.energy.error_max, 1e-3);
   return swings / (crossings.back() - crossings.front()) / frequency;
 }

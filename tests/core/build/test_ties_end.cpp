@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "contact/surface/face_geometry.hpp"
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/build/tied_scene.hpp"
 #include "tests/core/scene.hpp"
@@ -160,7 +161,7 @@ TEST(TiesThatEnd, LeaveTheOthersAsTheyAre) {
   const Momentum after = momentum(model.nodes);
   EXPECT_EQ(model.ties.node.size(), 15u);
   EXPECT_FALSE(model.ties.is_tied(gone));
-  EXPECT_NEAR(model.nodes.mass[static_cast<std::size_t>(gone)], 1000.0 / 27 / 4, 1e-9);
+  EXPECT_NEAR(model.nodes.mass[index(gone)], 1000.0 / 27 / 4, 1e-9);
   EXPECT_NEAR(total_mass(model), 2000, 1e-9);
   EXPECT_NEAR(lost.energy, energy_before - kinetic(model.nodes), 1e-9 * energy_before);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/mesh/sphere_mesh.hpp"
+#include "src/base/index.hpp"
 #include "src/deck/mesh.hpp"
 
 namespace brio::test {
@@ -41,13 +42,13 @@ inline Mesh quarter_of_graded_ball(double radius, int across, double fineness) {
     bool inside = true;
     for (int k = 0; k < 8; ++k)
       for (std::size_t axis = 0; axis < 2; ++axis)
-        inside = inside && ball.position[static_cast<std::size_t>(node[k])][axis] > -1e-9 * radius;
+        inside = inside && ball.position[index(node[k])][axis] > -1e-9 * radius;
     if (!inside) continue;
     for (int k = 0; k < 8; ++k) {
-      int& at = number[static_cast<std::size_t>(node[k])];
+      int& at = number[index(node[k])];
       if (at < 0) {
         at = static_cast<int>(quarter.position.size());
-        std::array<double, 3> p = ball.position[static_cast<std::size_t>(node[k])];
+        std::array<double, 3> p = ball.position[index(node[k])];
         for (std::size_t axis = 0; axis < 2; ++axis) {
           if (std::abs(p[axis]) > 1e-9 * radius) continue;
           p[axis] = 0;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "src/base/index.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -45,7 +46,7 @@ Collision collide(const Deck& deck) {
     if (m.times.time < 0.8e-3 || m.times.time > 1.2e-3) return;
     const Block& block = m.blocks[0];
     for (std::size_t e = 0; e < block.element_count; ++e) {
-      const double x = m.nodes.record[static_cast<std::size_t>(block.node(e, 0))].position[0];
+      const double x = m.nodes.record[index(block.node(e, 0))].position[0];
       if (x < -0.56 || x > -0.49) continue;
       result.stress -= block.kernel.sample(block, m.nodes, e, true).stress.xx;
       ++samples;
@@ -141,8 +142,7 @@ TEST(ContactStep, SharpEdgeThatLooksAlongAFloorDoesNotSinkIn) {
   ThreadTeam team(1);
   double lowest = 0;
   run(model, deck, team, [&](Model& m) {
-    for (int node : m.parts[0].node)
-      lowest = std::min(lowest, m.nodes.record[static_cast<std::size_t>(node)].position[2]);
+    for (int node : m.parts[0].node) lowest = std::min(lowest, m.nodes.record[index(node)].position[2]);
   });
   EXPECT_GT(mean_velocity(model, 0, 2), -1);
   EXPECT_NEAR(lowest, -1e-3 + 2 * model.contacts[0].features.skin, 1e-5);

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "contact/audit/audit.hpp"
+#include "src/base/index.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -54,7 +55,7 @@ Part body(Dropped kind, const std::string& name) {
 
 double reach(Dropped kind) {
   constexpr std::array half{0.0, 0.015, 0.04, 0.025, 0.0};
-  return half[static_cast<std::size_t>(kind)];
+  return half[index(kind)];
 }
 
 /// Put the lowest node of the upper body over the highest of the lower, aside by a little, just not touching.
@@ -112,8 +113,7 @@ DropRun drop(Dropped upper_kind, Dropped lower_kind, double friction) {
   outcome.angular_error = model.momentum.angular_imbalance();
   const auto velocity = [&](std::size_t part) {
     const int rigid = model.parts[part].rigid;
-    return rigid < 0 ? mean_velocity(model, part, 2)
-                     : model.rigid.motion[static_cast<std::size_t>(rigid)].velocity[2];
+    return rigid < 0 ? mean_velocity(model, part, 2) : model.rigid.motion[index(rigid)].velocity[2];
   };
   outcome.restitution = (velocity(1) - velocity(0)) / impact_speed;
   const ContactTotals& totals = model.contacts[0].totals;
@@ -129,10 +129,9 @@ TEST_P(Drop, OfOneKindOnAnother) {
   const DropRun smooth = drop(upper, lower, 0);
   const DropRun rough = drop(upper, lower, 0.2);
   std::printf("| %s | %s | %.2f | %.0e, %.0e | %.0e | %ld | %.0e | %.2f | %.0e, %.0e | %.0e | %ld |\n",
-              names[static_cast<std::size_t>(upper)], names[static_cast<std::size_t>(lower)],
-              smooth.restitution, smooth.linear_error, smooth.angular_error, smooth.overlap, smooth.missed,
-              smooth.energy_error, rough.restitution, rough.linear_error, rough.angular_error, rough.overlap,
-              rough.missed);
+              names[index(upper)], names[index(lower)], smooth.restitution, smooth.linear_error,
+              smooth.angular_error, smooth.overlap, smooth.missed, smooth.energy_error, rough.restitution,
+              rough.linear_error, rough.angular_error, rough.overlap, rough.missed);
   // A touch found along the motion pushes along the normal of that moment, a little aside of the line through
   // both places at the beginning of the step.
   EXPECT_LT(smooth.angular_error, 1e-6);
@@ -150,8 +149,7 @@ TEST_P(Drop, OfOneKindOnAnother) {
 }
 
 std::string name_of_drop(const testing::TestParamInfo<std::tuple<Dropped, Dropped>>& drop) {
-  return std::string(names[static_cast<std::size_t>(std::get<0>(drop.param))]) + "_on_" +
-         names[static_cast<std::size_t>(std::get<1>(drop.param))];
+  return std::string(names[index(std::get<0>(drop.param))]) + "_on_" + names[index(std::get<1>(drop.param))];
 }
 
 constexpr std::array all{Dropped::solid, Dropped::shell, Dropped::beam, Dropped::particles, Dropped::rigid};

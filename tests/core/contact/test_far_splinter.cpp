@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "src/base/index.hpp"
 #include "src/base/parallel.hpp"
 #include "tests/core/scene.hpp"
 
@@ -37,7 +38,7 @@ Course course(bool with_splinter) {
   Model model = build_model(deck);
   ThreadTeam team(1);
   run(model, deck, team);
-  return {model.contacts[0].proximity.looked_at, mean_velocity(model, static_cast<std::size_t>(count), 2)};
+  return {model.contacts[0].proximity.looked_at, mean_velocity(model, index(count), 2)};
 }
 
 TEST(FarSplinter, WakesNoPairOfOthers) {

@@ -17,9 +17,10 @@ namespace {
 
 using namespace test;
 
-constexpr double ball_radius = 0.01, young = 207e9, poisson = 0.3, density = 7800, closing = 1;
-constexpr double ball_mass = 4.0 / 3 * std::numbers::pi * ball_radius * ball_radius * ball_radius * density;
-constexpr double plane_modulus = young / (1 - poisson * poisson);
+constexpr double ball_radius = 0.01, ball_young = 207e9, poisson = 0.3, ball_density = 7800, closing = 1;
+constexpr double ball_mass =
+    4.0 / 3 * std::numbers::pi * ball_radius * ball_radius * ball_radius * ball_density;
+constexpr double plane_modulus = ball_young / (1 - poisson * poisson);
 
 /// Johnson (1985), Contact mechanics, section 11.4(a).
 struct Hertz {
@@ -51,8 +52,8 @@ void add_ball(Deck& deck, std::vector<Mesh>& meshes, std::string name, Mesh mesh
 Deck steel() {
   Deck deck;
   Elastic law = elastic(poisson);
-  law.youngs_modulus = young;
-  law.density = density;
+  law.youngs_modulus = ball_young;
+  law.density = ball_density;
   deck.materials = {{"steel", law}};
   deck.time.end = 80e-6;
   return deck;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -80,7 +81,7 @@ LineRun drop(const Part& lower, const Part& upper, double speed, double end, int
     for (const Contact& contact : contacts) {
       const auto of_upper = [&](int slave) { return slave >= static_cast<int>(m.parts[0].node.size()); };
       const bool first = of_upper(contact.node[0]);
-      const bool second = of_upper(contact.node[static_cast<std::size_t>(contact.own)]);
+      const bool second = of_upper(contact.node[index(contact.own)]);
       if (contact.impulse > 0 && first != second && (contact.normal[2] > 0) != first) ++outcome.wrong_side;
     }
     const auto pushing = std::count_if(contacts.begin(), contacts.end(), [](const Contact& contact) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "contact/audit/audit.hpp"
+#include "src/base/index.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -54,8 +55,7 @@ LookedAt run_looking(Deck& deck, int steps_between_looks = 10, int threads = 1) 
   outcome.energy_error = std::abs(model.energy.relative_error());
   outcome.unresolved = model.contacts[0].unresolved.steps;
   if (model.erosion)
-    outcome.deleted_by_distortion =
-        model.erosion->deleted_by_cause[static_cast<std::size_t>(DeletionCause::distortion)];
+    outcome.deleted_by_distortion = model.erosion->deleted_by_cause[index(DeletionCause::distortion)];
   return outcome;
 }
 

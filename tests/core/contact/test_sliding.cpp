@@ -7,6 +7,7 @@
 #include <random>
 
 #include "contact/audit/audit.hpp"
+#include "src/base/index.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -51,7 +52,7 @@ Deck on_wall(Deck deck, double friction) {
 Vector centre_of(const Model& model, std::size_t part) {
   Vector sum{};
   for (int entry : model.parts[part].node) {
-    const auto node = static_cast<std::size_t>(entry);
+    const auto node = index(entry);
     for (std::size_t axis = 0; axis < 3; ++axis)
       sum[axis] += model.nodes.mass[node] * model.nodes.record[node].position[axis] / model.parts[part].mass;
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "contact/audit/audit.hpp"
+#include "src/base/index.hpp"
 #include "tests/core/floating_point_traps.hpp"
 #include "tests/core/scene.hpp"
 #include "tests/core/sweep/erosion_scene.hpp"
@@ -20,7 +21,7 @@ namespace brio::test {
 
 enum class Kind { hex8, hex8_full, shell, beam, particles, rigid };
 inline constexpr std::array kind_names{"hex8", "hex8_full", "shell4", "beam2", "particle", "rigid"};
-constexpr const char* name_of_kind(Kind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
+constexpr const char* name_of_kind(Kind kind) { return kind_names[index(kind)]; }
 inline constexpr std::array deformable_kinds{Kind::hex8, Kind::hex8_full, Kind::shell, Kind::beam,
                                              Kind::particles};
 inline constexpr std::array all_kinds{Kind::hex8, Kind::hex8_full, Kind::shell,
@@ -63,7 +64,7 @@ inline Part body(Kind kind, const std::string& name, const std::string& material
 /// Distance from its nodes at which a body touches.
 inline double touching_distance(Kind kind) {
   constexpr std::array distance{0.0, 0.0, 0.015, 0.03, 0.05, 0.0};
-  return distance[static_cast<std::size_t>(kind)];
+  return distance[index(kind)];
 }
 
 /// One part in flight at (5, -3, -20) onto another that rests, askew, its lowest node over the middle.
@@ -231,9 +232,8 @@ struct Watched {
 
 inline double speed_of(const Model& model, std::size_t part, std::size_t axis) {
   const int rigid = model.parts[part].rigid;
-  return rigid < 0
-             ? mean_velocity(model, part, axis)
-             : model.rigid.motion[static_cast<std::size_t>(rigid)].velocity[static_cast<Eigen::Index>(axis)];
+  return rigid < 0 ? mean_velocity(model, part, axis)
+                   : model.rigid.motion[index(rigid)].velocity[static_cast<Eigen::Index>(axis)];
 }
 
 }  // namespace brio::test

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "tests/core/extremes/extremes.hpp"
 
@@ -301,7 +302,7 @@ TEST(ExtremesSpeed, ProjectileThatCrossesManyFacesAStepIsStopped) {
     run(model, deck, team, [&](Model& m) {
       longest = std::max(longest, std::hypot(1400, 1200) * m.times.next / 0.02);
       for (const int node : m.parts[1].node) {
-        const double* x = m.nodes.record[static_cast<std::size_t>(node)].position;
+        const double* x = m.nodes.record[index(node)].position;
         if (std::abs(x[0]) < 0.5 && std::abs(x[1]) < 0.5) lowest = std::min(lowest, x[2]);
       }
       missed += audit(m.contacts[0], m.nodes, team).missed();

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "tests/core/extremes/extremes.hpp"
 
@@ -110,9 +111,9 @@ std::string refusal(Kind kind, const Mesh& mesh) {
 }
 
 int corner(const Mesh& mesh, int element, int k) {
-  return mesh.connectivity[static_cast<std::size_t>(element * mesh.nodes_per_element + k)];
+  return mesh.connectivity[index(element * mesh.nodes_per_element + k)];
 }
-Triple& place(Mesh& mesh, int node) { return mesh.position[static_cast<std::size_t>(node)]; }
+Triple& place(Mesh& mesh, int node) { return mesh.position[index(node)]; }
 
 struct Damage {
   const char* name;
@@ -130,9 +131,8 @@ void collapse(Mesh& mesh) {
 }
 void invert(Mesh& mesh) {
   for (int k = 0; k < mesh.nodes_per_element / 2; ++k)
-    std::swap(mesh.connectivity[static_cast<std::size_t>(5 * mesh.nodes_per_element + k)],
-              mesh.connectivity[static_cast<std::size_t>(5 * mesh.nodes_per_element + k +
-                                                         mesh.nodes_per_element / 2)]);
+    std::swap(mesh.connectivity[index(5 * mesh.nodes_per_element + k)],
+              mesh.connectivity[index(5 * mesh.nodes_per_element + k + mesh.nodes_per_element / 2)]);
 }
 constexpr std::array damages{Damage{"flat", flatten}, Damage{"collapsed", collapse},
                              Damage{"inverted", invert}};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "src/base/index.hpp"
 #include "tests/core/extremes/extremes.hpp"
 
 namespace brio {
@@ -169,22 +170,21 @@ Renumbered shuffled(const Mesh& mesh, std::mt19937& random) {
   result.node = order(mesh.position.size());
   const std::vector<int> element =
       mesh.volume.empty() ? order(mesh.element_count()) : result.node;  // a particle is a node
-  const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+  const auto corners = index(mesh.nodes_per_element);
   for (std::size_t i = 0; i < mesh.position.size(); ++i)
-    result.mesh.position[static_cast<std::size_t>(result.node[i])] = mesh.position[i];
+    result.mesh.position[index(result.node[i])] = mesh.position[i];
   for (std::size_t e = 0; e < mesh.element_count(); ++e) {
-    const auto to = static_cast<std::size_t>(element[e]);
+    const auto to = index(element[e]);
     for (std::size_t k = 0; k < corners; ++k)
-      result.mesh.connectivity[to * corners + k] =
-          result.node[static_cast<std::size_t>(mesh.connectivity[e * corners + k])];
+      result.mesh.connectivity[to * corners + k] = result.node[index(mesh.connectivity[e * corners + k])];
     if (!mesh.volume.empty()) result.mesh.volume[to] = mesh.volume[e];
   }
   for (auto& [name, set] : result.mesh.node_sets) {
-    for (int& node : set) node = result.node[static_cast<std::size_t>(node)];
+    for (int& node : set) node = result.node[index(node)];
     std::sort(set.begin(), set.end());
   }
   for (auto& [name, sides] : result.mesh.side_sets)
-    for (ElementSide& side : sides) side.element = element[static_cast<std::size_t>(side.element)];
+    for (ElementSide& side : sides) side.element = element[index(side.element)];
   return result;
 }
 
@@ -206,9 +206,8 @@ TEST(ExtremesNumbering, ShuffledNodesAndElementsGiveTheSameRun) {
     double largest = 0;
     for (std::size_t p = 0; p < meshes.size(); ++p)
       for (std::size_t i = 0; i < number[p].size(); ++i) {
-        const auto a = static_cast<std::size_t>(reference.model.parts[p].node[i]);
-        const auto b =
-            static_cast<std::size_t>(other.model.parts[p].node[static_cast<std::size_t>(number[p][i])]);
+        const auto a = index(reference.model.parts[p].node[i]);
+        const auto b = index(other.model.parts[p].node[index(number[p][i])]);
         for (std::size_t axis = 0; axis < 3; ++axis)
           largest = std::max(largest, std::abs(reference.model.nodes.record[a].position[axis] -
                                                other.model.nodes.record[b].position[axis]));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "src/base/index.hpp"
 #include "tests/core/extremes/extremes.hpp"
 
 namespace brio {
@@ -110,7 +111,7 @@ Unstable run_above(Kind kind, double share) {
 TEST_P(ExtremesStep, JustAboveTheCriticalOneMotionGrowsAMillionfold) {
   const FloatingPointTraps traps;
   const std::array<double, 5> share{1.01, 1.01, 1.02, 1.01, 1.06};
-  EXPECT_GT(run_above(GetParam(), share[static_cast<std::size_t>(GetParam())]).growth, 1e6);
+  EXPECT_GT(run_above(GetParam(), share[index(GetParam())]).growth, 1e6);
 }
 
 // A beam that is stretched by a hundredth swings slower by that: at 1.01 of its critical step its motion

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/forecast/coarser.hpp"
 #include "src/forecast/forecast.hpp"
 #include "src/forecast/memory.hpp"
@@ -58,7 +59,7 @@ TEST(Forecast, ATimedRunToTheEndIsTheRun) {
   continue_run(all, model, 0.1, 0, team);
   continue_run(all, model, 0.1, 1e9, team);
   EXPECT_TRUE(all.reached_end);
-  EXPECT_EQ(all.steps.size(), static_cast<std::size_t>(whole.step));
+  EXPECT_EQ(all.steps.size(), index(whole.step));
   const StepForecast forecast = forecast_steps(all, deck.time.end);
   EXPECT_TRUE(forecast.exact);
   EXPECT_EQ(forecast.steps, static_cast<double>(whole.step));
@@ -66,7 +67,7 @@ TEST(Forecast, ATimedRunToTheEndIsTheRun) {
     for (int axis = 0; axis < 3; ++axis)
       EXPECT_EQ(model.nodes.record[i].position[axis], whole.nodes.record[i].position[axis]);
   continue_run(all, model, 0.1, 1e9, team);
-  EXPECT_EQ(all.steps.size(), static_cast<std::size_t>(whole.step));
+  EXPECT_EQ(all.steps.size(), index(whole.step));
 }
 
 TEST(Forecast, ABreakdownEndsATimedRunAndIsNamed) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "src/base/index.hpp"
 #include "src/deck/mass_properties.hpp"
 #include "tests/core/scene.hpp"
 
@@ -44,9 +45,7 @@ Vector3d angular_momentum_of(const Model& model) {
 double distortion(const RigidBody& body, const Nodes& nodes) {
   double worst = 0, size = 0;
   for (std::size_t i = 0; i < body.node.size(); ++i) {
-    const auto x = [&](std::size_t k) {
-      return Vector3d(nodes.record[static_cast<std::size_t>(body.node[k])].position);
-    };
+    const auto x = [&](std::size_t k) { return Vector3d(nodes.record[index(body.node[k])].position); };
     const std::size_t j = (7 * i + 3) % body.node.size();
     worst = std::max(worst, std::abs((x(i) - x(j)).norm() - (body.arm[i] - body.arm[j]).norm()));
     size = std::max(size, body.arm[i].norm());

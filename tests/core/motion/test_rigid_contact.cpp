@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "src/base/index.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/core/scene.hpp"
 
@@ -277,11 +278,11 @@ double sliding_distance(const Element& block, const Element& floor, double speed
   deck.time.end = 0.2;
   if (std::holds_alternative<Rigid>(block) && std::holds_alternative<Rigid>(floor)) deck.time.step = 1e-4;
   Model model = build_model(deck);
-  const double start = model.nodes.record[static_cast<std::size_t>(model.parts[0].node[0])].position[0];
+  const double start = model.nodes.record[index(model.parts[0].node[0])].position[0];
   ThreadTeam team(1);
   run(model, deck, team);
   EXPECT_LE(model.energy.error_max, 1e-4);
-  return model.nodes.record[static_cast<std::size_t>(model.parts[0].node[0])].position[0] - start;
+  return model.nodes.record[index(model.parts[0].node[0])].position[0] - start;
 }
 
 TEST(RigidSlidingBlock, StopsAfterTheDistanceOfCoulomb) {
@@ -348,8 +349,7 @@ TEST(RigidShell, HoldsABlockAtHalfItsThickness) {
   ThreadTeam team(1);
   double lowest = 1;
   run(model, deck, team, [&](Model& m) {
-    for (int node : m.parts[0].node)
-      lowest = std::min(lowest, m.nodes.record[static_cast<std::size_t>(node)].position[2]);
+    for (int node : m.parts[0].node) lowest = std::min(lowest, m.nodes.record[index(node)].position[2]);
   });
   audit_contacts(model, team);
   EXPECT_NEAR(lowest, 0.02 + model.contacts[0].features.skin, 1e-5);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
@@ -46,8 +47,8 @@ TEST(SpringSets, JoinEachNodeWithTheNearest) {
   const Model model = build_model(mounted(SpringValues::each));
   ASSERT_EQ(model.springs.spring.size(), 9u);
   for (const SpringInRun& spring : model.springs.spring) {
-    const double* a = model.nodes.record[static_cast<std::size_t>(spring.end[0].node)].position;
-    const double* b = model.nodes.record[static_cast<std::size_t>(spring.end[1].node)].position;
+    const double* a = model.nodes.record[index(spring.end[0].node)].position;
+    const double* b = model.nodes.record[index(spring.end[1].node)].position;
     EXPECT_EQ(a[1], b[1]);
     EXPECT_EQ(a[2], b[2]);
     EXPECT_NEAR(spring.length, 0.4, 1e-15);
@@ -67,9 +68,7 @@ TEST(SpringSets, JoinNodesOfMeshesThatDoNotMatch) {
   deck.springs[0].from = all_of("mass");
   deck.springs[0].to = all_of("wall");
   const Model model = build_model(deck);
-  const auto place = [&](int node) {
-    return Eigen::Vector3d(model.nodes.record[static_cast<std::size_t>(node)].position);
-  };
+  const auto place = [&](int node) { return Eigen::Vector3d(model.nodes.record[index(node)].position); };
   ASSERT_EQ(model.springs.spring.size(), 6u * 8 * 5);
   for (const SpringInRun& spring : model.springs.spring) {
     double least = 1e9;
@@ -91,8 +90,8 @@ TEST(SpringSets, OscillateByTheStiffnessOfEachOrInTotal) {
     ThreadTeam team(1);
     double error = 0, largest = 0, force = 0;
     const std::vector<std::string> columns = history_columns(model);
-    const auto at = static_cast<std::size_t>(
-        std::find(columns.begin(), columns.end(), "spring.mount.elongation") - columns.begin());
+    const auto at =
+        index(std::find(columns.begin(), columns.end(), "spring.mount.elongation") - columns.begin());
     ASSERT_LT(at + 2, columns.size());
     EXPECT_EQ(columns[at + 1], "spring.mount.force");
     EXPECT_EQ(columns[at + 2], "spring.mount.broken");

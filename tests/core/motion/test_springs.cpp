@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "src/base/index.hpp"
 #include "src/model/state.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/result_order.hpp"
@@ -232,8 +233,8 @@ TEST(Springs, BreakAtTheirStrength) {
   std::vector<double> row;
   observe_history(model, row);
   const auto column = std::find(columns.begin(), columns.end(), "spring.strut.force") - columns.begin();
-  ASSERT_LT(static_cast<std::size_t>(column), columns.size());
-  EXPECT_EQ(row[static_cast<std::size_t>(column)], 0);
+  ASSERT_LT(index(column), columns.size());
+  EXPECT_EQ(row[index(column)], 0);
 }
 
 TEST(Springs, AreSavedAndRestored) {
@@ -350,7 +351,7 @@ TEST(Moments, BendACantileverToACircle) {
   Model model = build_model(deck);
   ThreadTeam team(1);
   relax(*deck.time.relaxation, model, team);
-  const auto tip = static_cast<std::size_t>(model.parts[0].node[8]);
+  const auto tip = index(model.parts[0].node[8]);
   const double exact = moment / (2 * 1e9 * second_moment);
   EXPECT_NEAR(model.nodes.record[tip].position[2], exact, 1e-3 * exact);
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "src/base/index.hpp"
 #include "src/model/state.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/result_order.hpp"
@@ -204,7 +205,7 @@ TEST(TorsionalSprings, NodesOfShellsOscillateAsTheClosedFormSays) {
   const double angle = 0.2;
   Deck deck = turning_nodes(angle);
   Model model = build_model(deck);
-  const auto node = static_cast<std::size_t>(model.springs.spring[0].end[1].node);
+  const auto node = index(model.springs.spring[0].end[1].node);
   const double inertia = model.nodes.rotational_inertia[node];
   for (Spring& spring : deck.springs) spring.stiffness = 1e-3 * inertia / 1e-12;
   const double fast = std::sqrt(deck.springs[0].stiffness / inertia);
@@ -253,7 +254,7 @@ TEST(TorsionalSprings, StiffOnesBoundTheStepOfShells) {
   EXPECT_GE(model.springs.critical, 0);
   EXPECT_GT(model.step, 1000);
   EXPECT_LE(most, 1e-3 / std::sqrt(1 - 0.95 * 0.95) * 1.01);
-  const auto node = static_cast<std::size_t>(model.springs.spring[0].end[1].node);
+  const auto node = index(model.springs.spring[0].end[1].node);
   const double both = std::sqrt(1e10 / model.nodes.rotational_inertia[node]);
   EXPECT_LE(model.control.stable, 2 / both);
   EXPECT_GE(model.control.stable, 0.9 * 2 / both);
@@ -300,7 +301,7 @@ TEST(TorsionalSprings, BreakAtTheirStrength) {
     std::vector<double> row;
     observe_history(model, row);
     ASSERT_EQ(row.size(), columns.size());
-    EXPECT_EQ(row[static_cast<std::size_t>(moment)], 0);
+    EXPECT_EQ(row[index(moment)], 0);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "src/base/index.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -79,7 +80,7 @@ TEST(TurningSupport, PutsInTheEnergyOfRotationWithItsFirstImpulse) {
   Model model = build_model(deck);
   ThreadTeam team(1);
   update_velocities(model, 1e-12, team);
-  const double inertia = model.nodes.rotational_inertia[static_cast<std::size_t>(model.parts[0].node[12])];
+  const double inertia = model.nodes.rotational_inertia[index(model.parts[0].node[12])];
   EXPECT_EQ(model.energy.kinetic, 0);
   EXPECT_EQ(model.energy.external.at_step(), 0);
   EXPECT_DOUBLE_EQ(model.energy.kinetic_half, 0.5 * inertia * 25);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "src/base/index.hpp"
 #include "src/output/snapshot.hpp"
 
 namespace brio::test {
@@ -20,12 +21,12 @@ inline void expect_parts_hold_their_cells(const Snapshot& snapshot) {
     EXPECT_EQ(part.first_cell, cell);
     EXPECT_LE(3 * (part.first_point + part.points), static_cast<std::int64_t>(snapshot.points.size()));
     for (; cell < part.first_cell + part.cells; ++cell) {
-      const auto at = static_cast<std::size_t>(cell);
+      const auto at = index(cell);
       EXPECT_EQ(part_of_cell->values[at], static_cast<double>(p));
-      EXPECT_EQ(topology.cell_type[at], topology.cell_type[static_cast<std::size_t>(part.first_cell)]);
+      EXPECT_EQ(topology.cell_type[at], topology.cell_type[index(part.first_cell)]);
       for (std::int64_t i = topology.offset[at]; i < topology.offset[at + 1]; ++i) {
-        EXPECT_GE(topology.connectivity[static_cast<std::size_t>(i)], part.first_point);
-        EXPECT_LT(topology.connectivity[static_cast<std::size_t>(i)], part.first_point + part.points);
+        EXPECT_GE(topology.connectivity[index(i)], part.first_point);
+        EXPECT_LT(topology.connectivity[index(i)], part.first_point + part.points);
       }
     }
   }

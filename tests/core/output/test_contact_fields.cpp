@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/scene.hpp"
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
@@ -40,10 +41,9 @@ std::vector<double> values_of(const Model& model, FieldObserver& observer, const
     if (field.name != name) continue;
     std::size_t first = 0;
     for (std::size_t p = 0; p < part; ++p) first += model.parts[p].node.size();
-    const auto begin = field.values.begin() +
-                       static_cast<std::ptrdiff_t>(first * static_cast<std::size_t>(field.components));
-    return {begin, begin + static_cast<std::ptrdiff_t>(model.parts[part].node.size() *
-                                                       static_cast<std::size_t>(field.components))};
+    const auto begin = field.values.begin() + static_cast<std::ptrdiff_t>(first * index(field.components));
+    return {begin,
+            begin + static_cast<std::ptrdiff_t>(model.parts[part].node.size() * index(field.components))};
   }
   ADD_FAILURE() << name;
   return {};
@@ -92,7 +92,7 @@ TEST(ContactFields, AreaIsThatOfFacesThatAreBeneath) {
   const ContactScene& scene = block.contacts.front();
   const auto area_at = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& direction) {
     for (const int node : block.parts[0].node)
-      if ((Eigen::Vector3d(block.nodes.record[static_cast<std::size_t>(node)].position) - x).norm() < 0.01) {
+      if ((Eigen::Vector3d(block.nodes.record[index(node)].position) - x).norm() < 0.01) {
         double all = 0;
         return pushed_area(scene.surface, block.nodes, scene.surface.slave(node), direction, all);
       }

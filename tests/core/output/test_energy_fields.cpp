@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
@@ -23,8 +24,7 @@ double total_of(Model& model, const std::string& density) {
   for (const PartInModel& part : model.parts)
     for (const int slot : part.element_slot) {
       const Block& block = model.blocks[part.block];
-      sum += field.values[cell++] *
-             block.kernel.sample(block, model.nodes, static_cast<std::size_t>(slot), true).volume;
+      sum += field.values[cell++] * block.kernel.sample(block, model.nodes, index(slot), true).volume;
     }
   return sum;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <sstream>
 
+#include "src/base/index.hpp"
 #include "src/model/state.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
@@ -52,8 +53,7 @@ Vector momentum_of_part(const Model& model, std::size_t part) {
   Vector sum{};
   for (const int node : model.parts[part].node)
     for (std::size_t i = 0; i < 3; ++i)
-      sum[i] += model.nodes.mass[static_cast<std::size_t>(node)] *
-                model.nodes.record[static_cast<std::size_t>(node)].velocity[i];
+      sum[i] += model.nodes.mass[index(node)] * model.nodes.record[index(node)].velocity[i];
   return sum;
 }
 

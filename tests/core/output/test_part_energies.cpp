@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/part_energy_columns.hpp"
 #include "tests/core/scene.hpp"
@@ -31,7 +32,7 @@ std::size_t column_of(const Model& model, const std::string& name) {
   const std::vector<std::string> columns = history_columns(model);
   const auto found = std::find(columns.begin(), columns.end(), name);
   EXPECT_NE(found, columns.end()) << name;
-  return static_cast<std::size_t>(found - columns.begin());
+  return index(found - columns.begin());
 }
 
 TEST(PartEnergies, AreThoseOfTheScene) {

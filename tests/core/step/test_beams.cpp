@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/core/scene.hpp"
@@ -47,10 +48,10 @@ NodalForce push(std::string set, Triple force) {
 }
 
 const NodeRecord& node_of(const Model& model, int node) {
-  return model.nodes.record[static_cast<std::size_t>(model.parts[0].node[static_cast<std::size_t>(node)])];
+  return model.nodes.record[index(model.parts[0].node[index(node)])];
 }
 ElementSample sample_of(const Model& model, int element) {
-  const auto slot = static_cast<std::size_t>(model.parts[0].element_slot[static_cast<std::size_t>(element)]);
+  const auto slot = index(model.parts[0].element_slot[index(element)]);
   return model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot, true);
 }
 
@@ -251,8 +252,7 @@ TEST(Beams, TornOneIsDeletedAndItsHalvesFlyOn) {
   EXPECT_GT(model.energy.deleted, 0);
   EXPECT_GT(node_of(model, 10).velocity[0], node_of(model, 0).velocity[0] + 5);
   FieldObserver observer(model);
-  EXPECT_EQ(observer.observe(model).topology.cell_type.size(),
-            10 - static_cast<std::size_t>(model.erosion->total_deleted()));
+  EXPECT_EQ(observer.observe(model).topology.cell_type.size(), 10 - index(model.erosion->total_deleted()));
 }
 
 TEST(Beams, OneAlongItsOrientationIsRefusedByName) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/step/relax.hpp"
 #include "tests/core/scene.hpp"
 
@@ -29,7 +30,7 @@ Deck oscillator(double velocity) {
 
 int end_node(const Model& model) {
   for (const int node : model.parts[0].node)
-    if (model.nodes.record[static_cast<std::size_t>(node)].position[0] > 0) return node;
+    if (model.nodes.record[index(node)].position[0] > 0) return node;
   return -1;
 }
 
@@ -42,7 +43,7 @@ TEST(Damping, OscillationDecaysAsTheClosedFormSays) {
     deck.time.end = 12 / frequency;
     Model model = build_model(deck);
     ThreadTeam team(1);
-    const auto node = static_cast<std::size_t>(end_node(model));
+    const auto node = index(end_node(model));
     const double start = model.nodes.record[node].position[0];
     const double damped = frequency * std::sqrt(1 - ratio * ratio);
     double largest_error = 0;
@@ -71,7 +72,7 @@ TEST(PointMass, LowersTheFrequencyOfASpring) {
   deck.time.end = 12 / frequency;
   Model model = build_model(deck);
   ThreadTeam team(1);
-  const auto node = static_cast<std::size_t>(end_node(model));
+  const auto node = index(end_node(model));
   const double start = model.nodes.record[node].position[0];
   double largest_error = 0;
   run(model, deck, team, [&](Model& m) {

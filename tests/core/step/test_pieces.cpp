@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "src/base/index.hpp"
 #include "src/output/output_schedule.hpp"
 #include "tests/core/scene.hpp"
 
@@ -33,7 +34,7 @@ TEST(Schedule, NoTwoChunksOfAColourShareANodeAndEveryPackIsSweptOnce) {
       const Block& block = model.blocks[schedule.tasks[t].block];
       const Chunk chunk = schedule.tasks[t].chunk;
       packs[schedule.tasks[t].block] += chunk.last_pack - chunk.first_pack;
-      const auto width = static_cast<std::size_t>(block.lanes);
+      const auto width = index(block.lanes);
       std::set<int> own;
       for (std::size_t e = chunk.first_pack * width;
            e < std::min(chunk.last_pack * width, block.element_count); ++e)
@@ -65,11 +66,10 @@ TEST(Schedule, ShuffledInputGivesTheSameRun) {
   for (std::size_t i = 0; i < node_of.size(); ++i) node_of[i] = static_cast<int>(i);
   std::mt19937 random(7);
   std::shuffle(node_of.begin(), node_of.end(), random);
-  for (std::size_t i = 0; i < node_of.size(); ++i)
-    shuffled.position[static_cast<std::size_t>(node_of[i])] = mesh.position[i];
-  for (int& node : shuffled.connectivity) node = node_of[static_cast<std::size_t>(node)];
+  for (std::size_t i = 0; i < node_of.size(); ++i) shuffled.position[index(node_of[i])] = mesh.position[i];
+  for (int& node : shuffled.connectivity) node = node_of[index(node)];
   for (auto& [name, set] : shuffled.node_sets) {
-    for (int& node : set) node = node_of[static_cast<std::size_t>(node)];
+    for (int& node : set) node = node_of[index(node)];
     std::sort(set.begin(), set.end());
   }
   ThreadTeam team(1);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -42,8 +43,8 @@ TEST(SpinningDisc, MeanStressAtTheCentreIsThatOfTheRotatingDisc) {
   for (std::size_t e = 0; e < block.element_count; ++e) {
     double x = 0, y = 0;
     for (int k = 0; k < 8; ++k) {
-      x += model.nodes.record[static_cast<std::size_t>(block.node(e, k))].position[0] / 8;
-      y += model.nodes.record[static_cast<std::size_t>(block.node(e, k))].position[1] / 8;
+      x += model.nodes.record[index(block.node(e, k))].position[0] / 8;
+      y += model.nodes.record[index(block.node(e, k))].position[1] / 8;
     }
     if (std::hypot(x, y) < 0.1 * radius) central.push_back(e);
   }
@@ -93,7 +94,7 @@ TEST(Ring, BreathesAtTheSpeedOfARodOverItsRadius) {
     before = radial;
     time_before = time;
   });
-  ASSERT_EQ(turned.size(), static_cast<std::size_t>(half_periods + 1));
+  ASSERT_EQ(turned.size(), index(half_periods + 1));
   const double measured = half_periods * 3.141592653589793 / (turned.back() - turned.front());
   EXPECT_NEAR(measured, frequency, 0.01 * frequency);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
@@ -59,8 +60,7 @@ BarImpact impact_on_wall(int elements, double speed, const Hex8& element) {
   double samples = 0, last_impulse = 0;
   run(model, deck, team, [&](Model& m) {
     if (m.times.time > 0.8e-3 && m.times.time < 1.2e-3) {
-      const std::size_t middle =
-          static_cast<std::size_t>(m.parts[0].element_slot[static_cast<std::size_t>(elements / 4)]);
+      const std::size_t middle = index(m.parts[0].element_slot[index(elements / 4)]);
       result.stress -= m.blocks[0].kernel.sample(m.blocks[0], m.nodes, middle, true).stress.xx;
       ++samples;
     }
@@ -110,7 +110,7 @@ TEST(Step, StepLoadSendsAFrontAtTheWaveSpeedWithoutRinging) {
   run(model, deck, team);
   double front = 0, largest = 0;
   for (int e = 0; e < 100; ++e) {
-    const auto slot = static_cast<std::size_t>(model.parts[0].element_slot[static_cast<std::size_t>(e)]);
+    const auto slot = index(model.parts[0].element_slot[index(e)]);
     const double stress = -model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot, true).stress.xx;
     largest = std::max(largest, stress);
     front += 0.01 * stress / 1e6;  // momentum carried: area under the profile
@@ -229,7 +229,7 @@ TEST(Step, ProbesWatchTheNodesThatAreNearest) {
   observe_history(model, row);
   ASSERT_EQ(row.size(), columns.size());
   const auto value = [&](const std::string& column) {
-    return row[static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin())];
+    return row[index(std::find(columns.begin(), columns.end(), column) - columns.begin())];
   };
   EXPECT_NEAR(value("any.displacement_x"), 0.375, 1e-12);
   EXPECT_NEAR(value("any.displacement_z"), 0.625, 1e-12);

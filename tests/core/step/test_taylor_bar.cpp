@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/core/scene.hpp"
 
 namespace brio {
@@ -64,8 +65,8 @@ Shape taylor_bar(const Rod& rod, const Element& element) {
   const Block& block = model.blocks[0];
   for (const int slot : model.parts[0].element_slot)
     shape.plastic_strain = std::max(
-        shape.plastic_strain, block.kernel.sample(block, model.nodes, static_cast<std::size_t>(slot), true)
-                                  .named("equivalent_plastic_strain"));
+        shape.plastic_strain,
+        block.kernel.sample(block, model.nodes, index(slot), true).named("equivalent_plastic_strain"));
   shape.start_energy = model.energy.kinetic_start;
   shape.energy_error = model.energy.error_max;
   shape.hourglass_share = model.energy.hourglass / model.energy.internal;

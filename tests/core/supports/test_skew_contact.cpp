@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/core/supports/turned_scene.hpp"
 
 namespace brio {
@@ -94,7 +95,7 @@ TEST(SkewContact, AnEdgeOfTwoPlanesThatIsStruckStaysOnBoth) {
         continue;
       largest = std::max({largest, std::abs(v[1]), std::abs(s * v[0] - c * v[1] - 1)});
       const int slave = now.contacts[0].surface.slave(static_cast<int>(i));
-      struck += now.contacts[0].normal_impulse[static_cast<std::size_t>(slave)].norm();
+      struck += now.contacts[0].normal_impulse[index(slave)].norm();
     }
   });
   EXPECT_GT(struck, 0);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "src/base/index.hpp"
 #include "src/model/state.hpp"
 #include "src/step/relax.hpp"
 #include "src/sweep/erosion.hpp"
@@ -228,12 +229,12 @@ TEST(SkewSupports, AThirdOfAQuarterTubeMovesAsTheQuarter) {
     const auto& x = quarter.meshes[0].position[i];
     const auto rounded = [](double v) { return std::lround(1e6 * v); };
     start_of[{rounded(x[0]), rounded(x[1]), rounded(x[2])}] =
-        Eigen::Vector3d(one.nodes.record[static_cast<std::size_t>(one.parts[0].node[i])].position);
+        Eigen::Vector3d(one.nodes.record[index(one.parts[0].node[i])].position);
   }
   for (std::size_t i = 0; i < sector.meshes[0].position.size(); ++i) {
     const auto& x = sector.meshes[0].position[i];
     const auto rounded = [](double v) { return std::lround(1e6 * v); };
-    const Eigen::Vector3d end(other.nodes.record[static_cast<std::size_t>(other.parts[0].node[i])].position);
+    const Eigen::Vector3d end(other.nodes.record[index(other.parts[0].node[i])].position);
     const auto& in_quarter = start_of.at({rounded(x[0]), rounded(x[1]), rounded(x[2])});
     largest = std::max(largest, (end - Eigen::Vector3d(x.data())).norm());
     apart = std::max(apart, (end - in_quarter).norm());
@@ -262,7 +263,7 @@ TEST(SkewSupports, ASectorAtRestUnderPressureIsThatOfLame) {
   for (std::size_t i = 0; i < sector.meshes[0].position.size(); ++i) {
     const auto& x = sector.meshes[0].position[i];
     const double r = std::hypot(x[0], x[1]);
-    const double* end = model.nodes.record[static_cast<std::size_t>(model.parts[0].node[i])].position;
+    const double* end = model.nodes.record[index(model.parts[0].node[i])].position;
     const double u = std::hypot(end[0], end[1]) - r;
     const double exact = p * a * a * (1 + nu) / (e * (b * b - a * a)) * ((1 - 2 * nu) * r + b * b / r);
     EXPECT_NEAR(u, exact, 0.01 * exact) << r;
@@ -307,8 +308,8 @@ TEST(SkewSupports, AnArcOfShellsMovesAsTheWholeRing) {
       const auto& x = part[0].position[i];
       const auto& y = whole[0].position[j];
       if (std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]) > 1e-9) continue;
-      const Eigen::Vector3d a(other.nodes.record[static_cast<std::size_t>(other.parts[0].node[i])].position);
-      const Eigen::Vector3d b(one.nodes.record[static_cast<std::size_t>(one.parts[0].node[j])].position);
+      const Eigen::Vector3d a(other.nodes.record[index(other.parts[0].node[i])].position);
+      const Eigen::Vector3d b(one.nodes.record[index(one.parts[0].node[j])].position);
       moved = std::max(moved, (a - Eigen::Vector3d(x.data())).norm());
       apart = std::max(apart, (a - b).norm());
     }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/model/force_sums.hpp"
 #include "tests/core/scene.hpp"
 
@@ -78,7 +79,7 @@ inline std::vector<NodeMotionAtEnd> motions_of(const Model& model) {
   std::vector<NodeMotionAtEnd> motions;
   for (const PartInModel& part : model.parts)
     for (const int entry : part.node) {
-      const auto node = static_cast<std::size_t>(entry);
+      const auto node = index(entry);
       const NodeRecord& record = model.nodes.record[node];
       NodeMotionAtEnd& one =
           motions.emplace_back(Eigen::Vector3d(record.position), Eigen::Vector3d(record.velocity));
@@ -145,7 +146,7 @@ inline double slip_of_supports(const Model& model) {
   for (const PrescribedNodes& given : model.prescribed) {
     if (given.turns() || given.curve != Curve{{{0, 0}}}) continue;
     for (std::size_t k = 0; k < given.nodes.size(); ++k) {
-      const double* v = model.nodes.record[static_cast<std::size_t>(given.nodes[k])].velocity;
+      const double* v = model.nodes.record[index(given.nodes[k])].velocity;
       slip = std::max(slip, std::abs(dot(given.direction_of(k), {v[0], v[1], v[2]})));
     }
   }

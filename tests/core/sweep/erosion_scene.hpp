@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/index.hpp"
 #include "src/sweep/erosion.hpp"
 #include "tests/core/scene.hpp"
 
@@ -114,7 +115,7 @@ void delete_by_hand(Model& model, std::size_t part, const Dies& dies) {
     const SweepTask& task = model.schedule.tasks[t];
     if (task.block != part) continue;
     Block& block = model.blocks[part];
-    const std::size_t first = task.chunk.first_pack * static_cast<std::size_t>(block.lanes);
+    const std::size_t first = task.chunk.first_pack * index(block.lanes);
     for (std::size_t place = first; place < first + task.chunk.element_count; ++place)
       if (dies(model.parts[part].element_order[place]))
         block.lost[first + results[t].lost++] = static_cast<int>(place);

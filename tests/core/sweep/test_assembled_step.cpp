@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "src/base/index.hpp"
 #include "tests/core/scene.hpp"
 
 #include <Eigen/Dense>
@@ -182,7 +183,7 @@ TEST(AssembledStep, ProductsAreThoseOfThePresentShape) {
     Mesh& mesh = scene.meshes[0];
     double moved = 0;
     for (std::size_t i = 0; i < mesh.position.size(); ++i) {
-      const auto node = static_cast<std::size_t>(model.parts[0].node[i]);
+      const auto node = index(model.parts[0].node[i]);
       for (std::size_t k = 0; k < 3; ++k) {
         moved = std::max(moved, std::abs(mesh.position[i][k] - model.nodes.record[node].position[k]));
         mesh.position[i][k] = model.nodes.record[node].position[k];
@@ -193,8 +194,7 @@ TEST(AssembledStep, ProductsAreThoseOfThePresentShape) {
     const auto highest = [](Model& m) { return largest_eigenvalue_of(products(m), m); };
     // Masses are those of the start.
     for (std::size_t i = 0; i < mesh.position.size(); ++i)
-      fresh.nodes.mass[static_cast<std::size_t>(fresh.parts[0].node[i])] =
-          model.nodes.mass[static_cast<std::size_t>(model.parts[0].node[i])];
+      fresh.nodes.mass[index(fresh.parts[0].node[i])] = model.nodes.mass[index(model.parts[0].node[i])];
     EXPECT_NEAR(highest(model), highest(fresh), 1e-6 * highest(fresh));
   }
 }

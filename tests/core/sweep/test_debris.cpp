@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
 
@@ -44,7 +45,7 @@ Deck crushed_column(FreeNodes free_nodes) {
 Vector momentum_of_part(const Model& model, std::size_t part) {
   Vector sum{};
   for (const int entry : model.parts[part].node) {
-    const auto node = static_cast<std::size_t>(entry);
+    const auto node = index(entry);
     for (std::size_t i = 0; i < 3; ++i)
       sum[i] += model.nodes.mass[node] * model.nodes.record[node].velocity[i];
   }
@@ -72,9 +73,9 @@ TEST(Debris, DroppedNodesAreOutOfContactInTheStepInWhichTheyAreFreed) {
     for (const int node : gone) ASSERT_LT(scene.surface.slave(node), 0) << "step " << m.step;
     for (const Contact& contact : scene.contacts)
       for (const int slave : contact.node) {
-        const int node = scene.surface.node[static_cast<std::size_t>(slave)];
+        const int node = scene.surface.node[index(slave)];
         ASSERT_FALSE(std::binary_search(gone.begin(), gone.end(), node));
-        ASSERT_GT(m.nodes.mass[static_cast<std::size_t>(node)], 0);
+        ASSERT_GT(m.nodes.mass[index(node)], 0);
       }
     const Vector now = momentum_of_part(m, block_part);
     if (scene.step.active == 0) {
@@ -87,7 +88,7 @@ TEST(Debris, DroppedNodesAreOutOfContactInTheStepInWhichTheyAreFreed) {
   EXPECT_GT(active_later, 0) << "the rest of the column came down";
   EXPECT_GE(gone.size(), 4u);
   EXPECT_LT(gone.size(), 16u);
-  for (const int node : gone) EXPECT_EQ(model.nodes.mass[static_cast<std::size_t>(node)], 0);
+  for (const int node : gone) EXPECT_EQ(model.nodes.mass[index(node)], 0);
   EXPECT_GT(momentum_of_part(model, block_part)[2], -scale);
   std::vector<double> row;
   observe_history(model, row);

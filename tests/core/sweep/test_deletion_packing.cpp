@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "src/base/index.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/core/sweep/erosion_scene.hpp"
 
@@ -32,8 +33,8 @@ void expect_same_elements(const Model& model, const Model& before) {
   for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
     if (part.element_slot[e] < 0) continue;
     ++living;
-    const auto place = static_cast<std::size_t>(part.element_slot[e]);
-    const auto old_place = static_cast<std::size_t>(before.parts[0].element_slot[e]);
+    const auto place = index(part.element_slot[e]);
+    const auto old_place = index(before.parts[0].element_slot[e]);
     ASSERT_EQ(part.element_order[place], static_cast<int>(e));
     for (int corner = 0; corner < 8; ++corner)
       ASSERT_EQ(model.blocks[0].node(place, corner), before.blocks[0].node(old_place, corner));
@@ -88,8 +89,8 @@ TEST(Erosion, SweepAfterDeletionGivesTheForcesOfTheElementsThatAreLeft) {
     for (const SweepTask& task : alone.schedule.tasks)
       alone.blocks[0].kernel.sweep(alone.blocks[0], task.chunk, alone.nodes, 1e-6);
     for (int corner = 0; corner < 8; ++corner) {
-      const auto place = static_cast<std::size_t>(alone.parts[0].element_slot[e]);
-      const auto node = static_cast<std::size_t>(alone.blocks[0].node(place, corner));
+      const auto place = index(alone.parts[0].element_slot[e]);
+      const auto node = index(alone.blocks[0].node(place, corner));
       for (std::size_t i = 0; i < 3; ++i) expected[node][i] += alone.nodes.force[node].component[i];
     }
     if (e > 60) break;
@@ -101,7 +102,7 @@ TEST(Erosion, SweepAfterDeletionGivesTheForcesOfTheElementsThatAreLeft) {
   for (std::size_t e = 0; e < 729; ++e)
     if (e > 63 && model.parts[0].element_slot[e] >= 0)
       for (int corner = 0; corner < 8; ++corner)
-        others.insert(model.blocks[0].node(static_cast<std::size_t>(model.parts[0].element_slot[e]), corner));
+        others.insert(model.blocks[0].node(index(model.parts[0].element_slot[e]), corner));
   for (std::size_t node = 0; node < model.nodes.size(); ++node) {
     if (others.count(static_cast<int>(node)) > 0) continue;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -127,8 +128,8 @@ TEST(ErosionSlow, DeletionTouchesAsMuchAsItDeletes) {
     const AllocationCount allocations;
     std::vector<SweepResult> results(model.schedule.tasks.size());
     for (int k = 0; k < 100; ++k) {
-      SweepResult& result = results[static_cast<std::size_t>(k) % results.size()];
-      const Chunk chunk = model.schedule.tasks[static_cast<std::size_t>(k) % results.size()].chunk;
+      SweepResult& result = results[index(k) % results.size()];
+      const Chunk chunk = model.schedule.tasks[index(k) % results.size()].chunk;
       const std::size_t first = chunk.first_pack * 16;
       model.blocks[0].lost[first + result.lost] = static_cast<int>(first + 997 * (result.lost + 1));
       ++result.lost;

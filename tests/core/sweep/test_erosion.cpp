@@ -9,6 +9,7 @@
 #include <cstring>
 #include <set>
 
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/core/output/snapshot_parts.hpp"
@@ -89,10 +90,10 @@ TEST(Erosion, AllElementsDeletedAtOnceLeaveDebrisThatFliesOn) {
   Model model = build_model(deck);
   const double mass = total_mass(model);
   const Outcome outcome = run_all(model, deck);
-  ASSERT_EQ(outcome.deaths.size(), static_cast<std::size_t>(elements));
+  ASSERT_EQ(outcome.deaths.size(), index(elements));
   for (int e = 0; e < elements; ++e) {
-    EXPECT_EQ(outcome.deaths[static_cast<std::size_t>(e)].step, outcome.deaths[0].step);
-    EXPECT_EQ(outcome.deaths[static_cast<std::size_t>(e)].element, (DeletedElement{0, e}));
+    EXPECT_EQ(outcome.deaths[index(e)].step, outcome.deaths[0].step);
+    EXPECT_EQ(outcome.deaths[index(e)].element, (DeletedElement{0, e}));
   }
   EXPECT_EQ(model.times.time, deck.time.end);
   EXPECT_NEAR(total_mass(model), mass, 1e-12 * mass);
@@ -112,11 +113,11 @@ TEST(Erosion, FreedNodesAreThoseWhoseLastElementWent) {
   const auto give_up = [&](int element) {
     std::vector<SweepResult> results(model.schedule.tasks.size());
     results[0].lost = 1;
-    model.blocks[0].lost[0] = model.parts[0].element_slot[static_cast<std::size_t>(element)];
+    model.blocks[0].lost[0] = model.parts[0].element_slot[index(element)];
     model.energy += erode(*model.erosion, model.schedule, results, model.blocks, model.parts);
     std::set<double> planes;
     for (int node : model.erosion->freed)
-      planes.insert(std::round(model.nodes.record[static_cast<std::size_t>(node)].position[0]));
+      planes.insert(std::round(model.nodes.record[index(node)].position[0]));
     return planes;
   };
   EXPECT_EQ(give_up(1), std::set<double>{});
@@ -281,9 +282,9 @@ TEST(Erosion, ResultsShowTheElementsThatLive) {
   }
   EXPECT_GT(*std::max_element(damage.begin(), damage.end()), 0.0);
   // Cells still join the corners of their elements.
-  const auto corner = static_cast<std::size_t>(end.topology.connectivity[8 * 5 + 3]);
+  const auto corner = index(end.topology.connectivity[8 * 5 + 3]);
   const auto place = static_cast<std::size_t>(model.parts[0].element_slot[static_cast<std::size_t>(id[5])]);
-  const auto node = static_cast<std::size_t>(model.blocks[0].node(place, 3));
+  const auto node = index(model.blocks[0].node(place, 3));
   EXPECT_EQ(end.points[3 * corner], model.nodes.record[node].position[0]);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/core/sweep/particle_scene.hpp"
 
 namespace brio {
@@ -60,7 +61,7 @@ TEST(ParticleRingsSlow, ReboundWithoutNumericalFracture) {
     if (m.step % 20 != 0) return;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       int neighbours = 0;
-      for (std::size_t k = cloud.first[i]; k < cloud.first[i] + static_cast<std::size_t>(cloud.count[i]); ++k)
+      for (std::size_t k = cloud.first[i]; k < cloud.first[i] + index(cloud.count[i]); ++k)
         neighbours += cloud.weight[k] > 0 ? 1 : 0;
       fewest_neighbours = std::min(fewest_neighbours, neighbours);
     }
@@ -70,7 +71,7 @@ TEST(ParticleRingsSlow, ReboundWithoutNumericalFracture) {
   double mass = 0, place = 0, velocity = 0;
   const std::vector<int>& node = model.parts[0].node;
   for (std::size_t i = 0; i < node.size() / 2; ++i) {
-    const auto n = static_cast<std::size_t>(node[i]);
+    const auto n = index(node[i]);
     mass += model.nodes.mass[n];
     place += model.nodes.mass[n] * model.nodes.record[n].position[0];
     velocity += model.nodes.mass[n] * model.nodes.record[n].velocity[0];

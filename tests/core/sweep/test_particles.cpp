@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/contact/allocation_count.hpp"
 #include "tests/core/sweep/particle_scene.hpp"
 
@@ -124,7 +125,7 @@ TEST_P(Particles, ElasticWaveHasItsSpeed) {
   double stress = 0;
   int count = 0;
   for (std::size_t e = 0; e < block.element_count; ++e)
-    if (std::abs(model.nodes.record[static_cast<std::size_t>(block.node(e, 0))].position[0]) < 0.2) {
+    if (std::abs(model.nodes.record[index(block.node(e, 0))].position[0]) < 0.2) {
       stress += block.kernel.sample(block, model.nodes, e, true).stress.xx;
       ++count;
     }
@@ -338,7 +339,7 @@ TEST_P(Particles, RefusesSinglePrecision) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernel, Particles, testing::ValuesIn(kernels), [](const auto& kernel) {
-  return std::string(named_values(kernel.param)[static_cast<std::size_t>(kernel.param)].word);
+  return std::string(named_values(kernel.param)[index(kernel.param)].word);
 });
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "elements/block.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -23,7 +24,7 @@ class BeamModel {
   /// `count` equal elements from `start` to `end`.
   BeamModel(const Eigen::Vector3d& start, const Eigen::Vector3d& end, int count, const Beam2& beam,
             const Material& material, Precision precision = Precision::double_precision)
-      : nodes(static_cast<std::size_t>(count) + 1, true),
+      : nodes(index(count) + 1, true),
         load_(nodes.size(), Eigen::Matrix<double, 6, 1>::Zero()),
         given_(6 * nodes.size()) {
     std::vector<int> connectivity;
@@ -111,7 +112,7 @@ class BeamModel {
   }
 
  private:
-  static std::size_t at(int n) { return static_cast<std::size_t>(n); }
+  static std::size_t at(int n) { return index(n); }
 
   std::vector<Eigen::Matrix<double, 6, 1>> load_;
   std::vector<std::optional<double>> given_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "elements/beam/beam2_kernel.hpp"
+#include "src/base/index.hpp"
 #include "tests/elements/steel.hpp"
 
 namespace brio {
@@ -33,7 +34,7 @@ struct SingleBeam {
   Pair position;
 
   SingleBeam(const Beam2& element, const Law& material, const Pair& x)
-      : beam{element}, law(material), points(static_cast<std::size_t>(beam.points())), position(x) {
+      : beam{element}, law(material), points(index(beam.points())), position(x) {
     mass = beam.initialize(motion({none(), none()}), law, header, points.data());
   }
 
@@ -43,7 +44,7 @@ struct SingleBeam {
     RotatingNodalMotion<double, 2> m;
     for (int n = 0; n < 2; ++n)
       for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(n);
+        const auto k = index(n);
         m.position[i][n] = position[k][i] - position[0][i];
         m.velocity[i][n] = 0;  // positions and turns say it all
         m.angular_velocity[i][n] = w[k][i];
@@ -82,7 +83,7 @@ Eigen::Matrix<double, 12, 12> stiffness_of(const SingleBeam<Law>& state, double 
       SingleBeam<Law> element = state;
       Pair x = state.position;
       Pair turn = {SingleBeam<Law>::none(), SingleBeam<Law>::none()};
-      (column < 6 ? x : turn)[static_cast<std::size_t>(column % 6 / 3)][column % 3] += sign * small;
+      (column < 6 ? x : turn)[index(column % 6 / 3)][column % 3] += sign * small;
       element.move(x, turn);
       difference += sign * element.all();
     }

@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "src/base/index.hpp"
 #include "tests/elements/beam/single_beam.hpp"
 
 namespace brio {
@@ -120,7 +121,7 @@ TEST(Beam2, ForcesAreTheGradientOfTheStrainEnergyAtLargeStrain) {
         SingleBeam<> moved = beam;
         Pair x = beam.position;
         Pair turn{Vector3d::Zero(), Vector3d::Zero()};
-        (c < 6 ? x : turn)[static_cast<std::size_t>(c % 6 / 3)][c % 3] += sign * small;
+        (c < 6 ? x : turn)[index(c % 6 / 3)][c % 3] += sign * small;
         moved.move(x, turn);
         difference += sign * moved.header.internal_energy;
       }

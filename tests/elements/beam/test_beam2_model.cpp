@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "src/base/index.hpp"
 #include "tests/elements/beam/beam_model.hpp"
 
 namespace brio {
@@ -255,17 +256,17 @@ TEST(Beam2, LanesDoWhatPlainNumbersDo) {
     model.advance(step);
     std::vector<Vector3d> force(elements + 1, origin), moment(elements + 1, origin);
     for (int e = 0; e < elements; ++e) {
-      SingleBeam<>& beam = single[static_cast<std::size_t>(e)];
+      SingleBeam<>& beam = single[index(e)];
       beam.move({model.position(e), model.position(e + 1)},
                 {step * model.angular_velocity(e), step * model.angular_velocity(e + 1)}, step);
       for (int n = 0; n < 2; ++n) {
-        force[static_cast<std::size_t>(e + n)] -= beam.force(n);
-        moment[static_cast<std::size_t>(e + n)] -= beam.moment(n);
+        force[index(e + n)] -= beam.force(n);
+        moment[index(e + n)] -= beam.moment(n);
       }
     }
     for (int n = 0; n <= elements; ++n) {
-      EXPECT_LT((model.force(n) - force[static_cast<std::size_t>(n)]).norm(), 1e-9 * model.force(n).norm());
-      EXPECT_LT((model.moment(n) - moment[static_cast<std::size_t>(n)]).norm(),
+      EXPECT_LT((model.force(n) - force[index(n)]).norm(), 1e-9 * model.force(n).norm());
+      EXPECT_LT((model.moment(n) - moment[index(n)]).norm(),
                 1e-9 * (model.moment(n).norm() + model.force(n).norm()));
     }
   }

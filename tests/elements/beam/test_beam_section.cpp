@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "elements/beam/beam_section.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -13,7 +14,7 @@ struct Sums {
 Sums sums_of(const FibreSection& s) {
   Sums sum;
   for (int f = 0; f < s.count; ++f) {
-    const BeamFibre& fibre = s.fibre[static_cast<std::size_t>(f)];
+    const BeamFibre& fibre = s.fibre[index(f)];
     const double area = s.area * fibre.share;
     sum.share += fibre.share;
     sum.y += area * fibre.y;
@@ -41,7 +42,7 @@ void expect_sound(const FibreSection& s) {
   expect_near(sum.torsion, s.torsion_constant);
   double torque_of_shear_y = 0, torque_of_shear_z = 0;
   for (int f = 0; f < s.count; ++f) {
-    const BeamFibre& fibre = s.fibre[static_cast<std::size_t>(f)];
+    const BeamFibre& fibre = s.fibre[index(f)];
     torque_of_shear_y += s.area * fibre.share * fibre.shear_y * fibre.twist_y;
     torque_of_shear_z += s.area * fibre.share * fibre.shear_z * fibre.twist_z;
   }
@@ -90,8 +91,7 @@ TEST(BeamSection, RectangleTwistsAsSaintVenantSays) {
   const FibreSection s = fibres_of(RectangleSection{.width = 1, .height = 1, .fibres = {8, 8}});
   double largest = 0;
   for (int f = 0; f < s.count; ++f)
-    largest = std::max(largest, std::hypot(s.fibre[static_cast<std::size_t>(f)].twist_y,
-                                           s.fibre[static_cast<std::size_t>(f)].twist_z));
+    largest = std::max(largest, std::hypot(s.fibre[index(f)].twist_y, s.fibre[index(f)].twist_z));
   EXPECT_GT(largest, 0.6);
   EXPECT_LT(largest, 0.6753);
 }
@@ -112,9 +112,7 @@ TEST(BeamSection, FactorOfTheDeckReplacesBoth) {
   const FibreSection s = fibres_of(RectangleSection{.width = 1, .height = 2}, 0.4);
   expect_near(s.shear_factor_y, 0.4);
   double sum = 0;
-  for (int f = 0; f < s.count; ++f)
-    sum += s.fibre[static_cast<std::size_t>(f)].share *
-           std::pow(s.fibre[static_cast<std::size_t>(f)].shear_z, 2);
+  for (int f = 0; f < s.count; ++f) sum += s.fibre[index(f)].share * std::pow(s.fibre[index(f)].shear_z, 2);
   expect_near(sum, 0.4);
 }
 

@@ -8,6 +8,7 @@
 
 #include "elements/particle/particle_kernel.hpp"
 #include "elements/particle/particle_pairs.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -18,19 +19,19 @@ struct IrregularCloud {
   std::vector<double> volume;
   ParticleCloud cloud;
 
-  explicit IrregularCloud(int across = 6) : nodes(static_cast<std::size_t>(across * across * across), false) {
+  explicit IrregularCloud(int across = 6) : nodes(index(across * across * across), false) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> shift(-0.25, 0.25), share(0.8, 1.2);
     int node = 0;
     for (int i = 0; i < across; ++i)
       for (int j = 0; j < across; ++j)
         for (int k = 0; k < across; ++k, ++node) {
-          NodeRecord& record = nodes.record[static_cast<std::size_t>(node)];
+          NodeRecord& record = nodes.record[index(node)];
           record.position[0] = i + shift(random);
           record.position[1] = j + shift(random);
           record.position[2] = k + shift(random);
           volume.push_back(share(random));
-          nodes.mass[static_cast<std::size_t>(node)] = volume.back();
+          nodes.mass[index(node)] = volume.back();
         }
     std::vector<int> first{0}, candidate;
     for (int i = 0; i < node; ++i) {
@@ -130,16 +131,15 @@ TEST(ParticleCloud, KernelOfNowHasExactGradientsOfVelocities) {
 double residual_energy(const IrregularCloud& irregular, const std::vector<double>& stiffness) {
   double energy = 0;
   for (int i = 0; i < static_cast<int>(irregular.nodes.size()); ++i) {
-    const auto row = static_cast<std::size_t>(i);
+    const auto row = index(i);
     const Tensor<double> f = gradients(irregular, i).of_position;
     const ParticleCloud& cloud = irregular.cloud;
-    for (std::size_t k = cloud.first[row]; k < cloud.first[row] + static_cast<std::size_t>(cloud.count[row]);
-         ++k) {
+    for (std::size_t k = cloud.first[row]; k < cloud.first[row] + index(cloud.count[row]); ++k) {
       const double* w = cloud.pair[k].weighted;
       const double pair[3] = {w[0] / w[3], w[1] / w[3], w[2] / w[3]};
       const Vector3<double> fx = times(f, pair);
       const double* from = irregular.nodes.record[row].position;
-      const double* to = irregular.nodes.record[static_cast<std::size_t>(cloud.neighbour[k])].position;
+      const double* to = irregular.nodes.record[index(cloud.neighbour[k])].position;
       const Vector3<double> e{to[0] - from[0] - fx.x, to[1] - from[1] - fx.y, to[2] - from[2] - fx.z};
       energy += 0.5 * stiffness[row] * w[3] * dot(e, e);
     }
@@ -200,7 +200,7 @@ TEST(ParticleCloud, CutParticleLeavesExactGradientsToItsNeighbours) {
   }
   for (int particle = 0; particle < static_cast<int>(irregular.nodes.size()); ++particle) {
     if (particle >= 60 && particle < 100 && particle % 3 == 0) {
-      EXPECT_EQ(irregular.cloud.count[static_cast<std::size_t>(particle)], 0);
+      EXPECT_EQ(irregular.cloud.count[index(particle)], 0);
       continue;
     }
     const Gradients found = gradients(irregular, particle);
@@ -214,8 +214,8 @@ TEST(ParticleCloud, RefusesParticlesThatLieInAPlane) {
   Nodes nodes(16, false);
   std::vector<int> first{0}, candidate;
   for (int i = 0; i < 16; ++i) {
-    nodes.record[static_cast<std::size_t>(i)].position[0] = i % 4;
-    nodes.record[static_cast<std::size_t>(i)].position[1] = i / 4;
+    nodes.record[index(i)].position[0] = i % 4;
+    nodes.record[index(i)].position[1] = i / 4;
     for (int j = 0; j < 16; ++j) candidate.push_back(j);
     first.push_back(static_cast<int>(candidate.size()));
   }

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "elements/block.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -83,7 +84,7 @@ class ShellModel {
   }
 
  private:
-  static std::size_t at(int n) { return static_cast<std::size_t>(n); }
+  static std::size_t at(int n) { return index(n); }
   const NodeRecord& record(int n) const { return nodes.record[at(n)]; }
 
   std::vector<bool> fixed_;

@@ -2,6 +2,7 @@
 /// Linear statics of shells by their tangent stiffness: what the strains of the kernel are worth in the
 /// classic problems, without the dynamics.
 
+#include "src/base/index.hpp"
 #include "tests/elements/shell/single_shell.hpp"
 
 #include <gtest/gtest.h>
@@ -34,15 +35,13 @@ class ShellStatics {
  public:
   ShellStatics(const ShellMesh& mesh, const Shell4& shell, const Elastic& law)
       : load_(Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(mesh.point.size()))),
-        fixed_(static_cast<std::size_t>(load_.size()), false) {
+        fixed_(index(load_.size()), false) {
     for (const auto& nodes : mesh.element) {
       Points4 x;
-      for (std::size_t n = 0; n < 4; ++n) x[n] = mesh.point[static_cast<std::size_t>(nodes[n])];
+      for (std::size_t n = 0; n < 4; ++n) x[n] = mesh.point[index(nodes[n])];
       const Eigen::Matrix<double, 24, 24> k = stiffness_of(shell, law, x);
       const double bending = k.diagonal().tail<12>().mean();
-      const auto place = [&](int c) {
-        return 6 * nodes[static_cast<std::size_t>(c) % 12 / 3] + c % 3 + (c < 12 ? 0 : 3);
-      };
+      const auto place = [&](int c) { return 6 * nodes[index(c) % 12 / 3] + c % 3 + (c < 12 ? 0 : 3); };
       for (int a = 0; a < 24; ++a) {
         for (int b = 0; b < 24; ++b) entries_.emplace_back(place(a), place(b), k(a, b));
         // Drilling spins whose mean vanishes in all elements are free; a little holds them.
@@ -50,17 +49,16 @@ class ShellStatics {
       }
     }
   }
-  void fix(int node, int component) { fixed_[static_cast<std::size_t>(6 * node + component)] = true; }
+  void fix(int node, int component) { fixed_[index(6 * node + component)] = true; }
   void load(int node, int component, double value) { load_[6 * node + component] += value; }
 
   /// Displacements and rotations, six a node.
   Eigen::VectorXd solve() {
     std::vector<Eigen::Triplet<double>> kept;
     for (const auto& t : entries_)
-      if (!fixed_[static_cast<std::size_t>(t.row())] && !fixed_[static_cast<std::size_t>(t.col())])
-        kept.push_back(t);
+      if (!fixed_[index(t.row())] && !fixed_[index(t.col())]) kept.push_back(t);
     for (Eigen::Index k = 0; k < load_.size(); ++k)
-      if (fixed_[static_cast<std::size_t>(k)]) {
+      if (fixed_[index(k)]) {
         kept.emplace_back(static_cast<int>(k), static_cast<int>(k), 1.0);
         load_[k] = 0;
       }

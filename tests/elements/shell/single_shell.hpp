@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "elements/shell/shell4_kernel.hpp"
+#include "src/base/index.hpp"
 #include "tests/elements/steel.hpp"
 
 namespace brio {
@@ -25,7 +26,7 @@ struct SingleShell {
   Points4 position;
 
   SingleShell(const Shell4& element, const Law& material, const Points4& x)
-      : shell{element}, law(material), points(static_cast<std::size_t>(shell.points())), position(x) {
+      : shell{element}, law(material), points(index(shell.points())), position(x) {
     mass = shell.initialize(motion(x, {}, {}), law, header, points.data());
   }
 
@@ -39,7 +40,7 @@ struct SingleShell {
     RotatingNodalMotion<double, 4> m;
     for (int n = 0; n < 4; ++n)
       for (int i = 0; i < 3; ++i) {
-        const auto k = static_cast<std::size_t>(n);
+        const auto k = index(n);
         m.position[i][n] = x[k][i] - x[0][i];
         m.velocity[i][n] = v[k][i] - v[0][i];
         m.angular_velocity[i][n] = w[k][i];
@@ -75,7 +76,7 @@ inline Eigen::Matrix<double, 24, 24> stiffness_of(Shell4 shell, const Elastic& l
     SingleShell<> element = reference;
     Points4 v = SingleShell<>::none();
     Points4 w = SingleShell<>::none();
-    (column < 12 ? v : w)[static_cast<std::size_t>(column % 12 / 3)][column % 3] = 1;
+    (column < 12 ? v : w)[index(column % 12 / 3)][column % 3] = 1;
     element.move(x, v, w, step);
     for (int n = 0; n < 4; ++n) {
       stiffness.block<3, 1>(3 * n, column) = element.force(n) / step;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "materials/elastic_plastic.hpp"
+#include "src/base/index.hpp"
 #include "tests/elements/shell/single_shell.hpp"
 
 namespace brio {
@@ -38,7 +39,7 @@ TEST(ThicknessRules, IntegratePolynomialsExactlyToTheirDegree) {
       const int degree = ends ? 2 * count - 3 : 2 * count - 1;
       for (int power = 0; power <= degree + 1; ++power) {
         double sum = 0;
-        for (std::size_t p = 0; p < static_cast<std::size_t>(count); ++p)
+        for (std::size_t p = 0; p < index(count); ++p)
           sum += rule.weight[p] * std::pow(2 * rule.place[p], power);
         const double exact = power % 2 == 0 ? 1.0 / (power + 1) : 0.0;
         if (power <= degree) {
@@ -147,7 +148,7 @@ TEST(Shell4, ForcesAndMomentsBalanceAndTheirPowerIsTheWork) {
     Vector3d moment = Vector3d::Zero();
     double size = 0;
     for (int n = 0; n < 4; ++n) {
-      const auto node = static_cast<std::size_t>(n);
+      const auto node = index(n);
       force += element.force(n);
       moment += element.moment(n) + x[node].cross(element.force(n));
       size += element.force(n).norm();
@@ -191,7 +192,7 @@ double energy_gap(int steps, bool warping_projection, double hourglass_stiffness
     const Points4 v = difference(x, before, step);
     element.move(x, v, spin, step);
     for (int n = 0; n < 4; ++n) {
-      const auto i = static_cast<std::size_t>(n);
+      const auto i = index(n);
       work += 0.5 * step * (old_force[i] + element.force(n)).dot(v[i]);
       work += 0.5 * step * (old_moment[i] + element.moment(n)).dot(spin[i]);
       old_force[i] = element.force(n);

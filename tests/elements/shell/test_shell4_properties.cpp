@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "materials/elastic_plastic.hpp"
+#include "src/base/index.hpp"
 #include "tests/elements/shell/shell_model.hpp"
 
 namespace brio {
@@ -51,7 +52,7 @@ TEST(Shell4Properties, MomentumIsConservedAndEnergyIsAccountedFor) {
   const auto momenta = [&] {
     std::array<Vector3d, 2> sum = {Vector3d::Zero(), Vector3d::Zero()};
     for (int n = 0; n < static_cast<int>(model.nodes.size()); ++n) {
-      const auto i = static_cast<std::size_t>(n);
+      const auto i = index(n);
       const Vector3d p = model.nodes.mass[i] * model.velocity(n);
       sum[0] += p;
       sum[1] += model.position(n).cross(p) + model.nodes.rotational_inertia[i] * model.angular_velocity(n);
@@ -104,21 +105,21 @@ TEST(Shell4Properties, LanesGiveWhatOneElementGives) {
   for (const auto& nodes : mesh.element) {
     Points4 x, v, w;
     for (std::size_t k = 0; k < 4; ++k) {
-      x[k] = mesh.point[static_cast<std::size_t>(nodes[k])];
+      x[k] = mesh.point[index(nodes[k])];
       v[k] = model.velocity(nodes[k]);
       w[k] = model.angular_velocity(nodes[k]);
     }
     SingleShell<ElasticPlastic> element(sheet_element(), soft_steel(), x);
     element.move(x, v, w, step);
     for (std::size_t k = 0; k < 4; ++k) {
-      force[static_cast<std::size_t>(nodes[k])] -= element.force(static_cast<int>(k));
-      moment[static_cast<std::size_t>(nodes[k])] -= element.moment(static_cast<int>(k));
+      force[index(nodes[k])] -= element.force(static_cast<int>(k));
+      moment[index(nodes[k])] -= element.moment(static_cast<int>(k));
     }
   }
   model.sweep(step);
   for (int n = 0; n < static_cast<int>(mesh.point.size()); ++n) {
-    EXPECT_LT((model.force(n) - force[static_cast<std::size_t>(n)]).norm(), 1e-12 * 300e6 * 0.01) << n;
-    EXPECT_LT((model.moment(n) - moment[static_cast<std::size_t>(n)]).norm(), 1e-12 * 300e6 * 0.01) << n;
+    EXPECT_LT((model.force(n) - force[index(n)]).norm(), 1e-12 * 300e6 * 0.01) << n;
+    EXPECT_LT((model.moment(n) - moment[index(n)]).norm(), 1e-12 * 300e6 * 0.01) << n;
   }
 }
 
@@ -144,7 +145,7 @@ std::array<std::array<Vector3d, 4>, 2> after_three_steps(int shift, bool mirror)
     for (int n = 0; n < 4; ++n) {
       const int from =
           mirror ? (4 - n + shift) % 4 : (n + shift) % 4;  // a mirrored element is listed backwards
-      out[static_cast<std::size_t>(n)] = field[static_cast<std::size_t>(from)];
+      out[index(n)] = field[index(from)];
     }
     return out;
   };
@@ -159,7 +160,7 @@ std::array<std::array<Vector3d, 4>, 2> after_three_steps(int shift, bool mirror)
   EXPECT_GT(element.plastic_strain(), 1e-4);
   std::array<std::array<Vector3d, 4>, 2> out;
   for (int n = 0; n < 4; ++n) {
-    const auto from = static_cast<std::size_t>(mirror ? (4 - n + shift) % 4 : (n + shift) % 4);
+    const auto from = index(mirror ? (4 - n + shift) % 4 : (n + shift) % 4);
     out[0][from] = element.force(n);
     out[1][from] = element.moment(n);
   }
@@ -283,7 +284,7 @@ TEST(Shell4Properties, FullyPlasticMomentIsThatOfTheRule) {
       element.move(x, SingleShell<>::none(), {-1.0 * turn, turn, turn, -1.0 * turn}, 0.01);
     const double moment = element.moment(1).y() + element.moment(2).y();
     double limit = 0;
-    for (std::size_t p = 0; p < static_cast<std::size_t>(count); ++p)
+    for (std::size_t p = 0; p < index(count); ++p)
       limit += shell.rule().weight[p] * std::abs(shell.rule().place[p]);
     // Bent to a cylinder, the strip yields at 2 / sqrt 3 of its strength as the flow turns to plane strain.
     const double strength = 2 / std::sqrt(3.0) * 300e6 * square(shell.thickness);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "src/base/index.hpp"
 #include "tests/elements/shell/single_shell.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -76,7 +77,7 @@ Eigen::Matrix<double, 24, 24> viscosity_of(const Shell4& shell, const Elastic& l
     SingleShell<> element = reference;
     Points4 v = SingleShell<>::none(), w = SingleShell<>::none();
     constexpr double small = 1e-9;  // below what yields
-    (column < 12 ? v : w)[static_cast<std::size_t>(column % 12 / 3)][column % 3] = small;
+    (column < 12 ? v : w)[index(column % 12 / 3)][column % 3] = small;
     element.move(x, v, w, 1e-30);
     for (int n = 0; n < 4; ++n) {
       viscosity.block<3, 1>(3 * n, column) = element.force(n) / small;

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "elements/base/motion.hpp"
+#include "src/base/index.hpp"
 
 namespace brio::test {
 
@@ -23,15 +24,14 @@ inline const std::array<Eigen::Vector3d, 8> corner_sign = {Eigen::Vector3d{-1, -
 
 inline Corners box(double a, double b, double c) {
   Corners x;
-  for (int n = 0; n < 8; ++n)
-    x.col(n) = 0.5 * corner_sign[static_cast<std::size_t>(n)].cwiseProduct(Eigen::Vector3d(a, b, c));
+  for (int n = 0; n < 8; ++n) x.col(n) = 0.5 * corner_sign[index(n)].cwiseProduct(Eigen::Vector3d(a, b, c));
   return x;
 }
 
 inline Eigen::Matrix<double, 8, 3> shape_derivatives(const Eigen::Vector3d& xi) {
   Eigen::Matrix<double, 8, 3> d;
   for (int n = 0; n < 8; ++n) {
-    const Eigen::Vector3d& s = corner_sign[static_cast<std::size_t>(n)];
+    const Eigen::Vector3d& s = corner_sign[index(n)];
     const Eigen::Vector3d f = Eigen::Vector3d::Ones() + s.cwiseProduct(xi);
     d.row(n) = Eigen::RowVector3d(s.x() * f.y() * f.z(), s.y() * f.x() * f.z(), s.z() * f.x() * f.y()) / 8;
   }

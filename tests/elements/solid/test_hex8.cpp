@@ -16,7 +16,7 @@ using test::SingleElement;
 using GreenNaghdi = Hex8Kernel<ObjectiveRate::green_naghdi>;
 using Jaumann = Hex8Kernel<ObjectiveRate::jaumann>;
 
-const Elastic steel{.density = 7800, .youngs_modulus = 2e11, .poissons_ratio = 0.3};
+const Elastic mild_steel{.density = 7800, .youngs_modulus = 2e11, .poissons_ratio = 0.3};
 
 template <class Kernel>
 class Hex8Rates : public ::testing::Test {};
@@ -27,13 +27,13 @@ TYPED_TEST(Hex8Rates, LinearMotionGivesUniformStrainOnDistortedBricks) {
   Noise noise(11);
   for (int trial = 0; trial < 50; ++trial) {
     const Corners x = test::distorted(noise, 0.3);
-    SingleElement<TypeParam, Elastic> element({}, steel, x);
+    SingleElement<TypeParam, Elastic> element({}, mild_steel, x);
     Eigen::Matrix3d strain = noise.matrix<Eigen::Matrix3d>();
     strain = 1e-9 * (strain + strain.transpose()).eval();
     element.move_to(x + strain * x, 1e-6);
     const Eigen::Matrix3d exact =
-        steel.elastic().first_lame() * strain.trace() * Eigen::Matrix3d::Identity() +
-        2 * steel.elastic().shear() * strain;
+        mild_steel.elastic().first_lame() * strain.trace() * Eigen::Matrix3d::Identity() +
+        2 * mild_steel.elastic().shear() * strain;
     EXPECT_LT((element.stress() - exact).norm(), 1e-6 * exact.norm());
     EXPECT_LT(std::abs(element.hourglass_energy), 1e-12 * element.internal_energy);
   }
@@ -55,8 +55,8 @@ ShearCurve exact_shear(ObjectiveRate rate, double gamma) {
 template <class Kernel>
 void expect_simple_shear(ObjectiveRate rate) {
   const Corners x = test::box(1, 1, 1);
-  SingleElement<Kernel, Elastic> element({}, steel, x);
-  const double mu = steel.elastic().shear();
+  SingleElement<Kernel, Elastic> element({}, mild_steel, x);
+  const double mu = mild_steel.elastic().shear();
   const int steps = 2000;
   double largest = 0;
   for (int step = 1; step <= steps; ++step) {

@@ -5,6 +5,7 @@
 
 #include "elements/solid/hex8_full_kernel.hpp"
 #include "materials/elastic.hpp"
+#include "src/base/index.hpp"
 #include "tests/core/floating_point_traps.hpp"
 #include "tests/elements/solid/hexahedra.hpp"
 
@@ -62,7 +63,7 @@ TEST(Hex8Full, BendingOfACubeIsThatOfTheExactIntegral) {
   const Stiffness k = stiffness_over_shear(0.25, test::box(h, h, h));
   Corners mode = Corners::Zero();
   for (int n = 0; n < 8; ++n) {
-    const Eigen::Vector3d& s = test::corner_sign[static_cast<std::size_t>(n)];
+    const Eigen::Vector3d& s = test::corner_sign[index(n)];
     mode(0, n) = s.x() * s.y();
   }
   const Eigen::Map<const Eigen::Matrix<double, 24, 1>> u(mode.data());

@@ -8,6 +8,7 @@
 #include "elements/solid/hex8_kernel.hpp"
 #include "materials/elastic.hpp"
 #include "materials/elastic_plastic.hpp"
+#include "src/base/index.hpp"
 #include "tests/elements/solid/hexahedra.hpp"
 
 namespace brio {
@@ -66,7 +67,7 @@ using Brick = test::SingleElement<Hex8Kernel<ObjectiveRate::green_naghdi>, Elast
 test::Corners bending(double amount) {
   test::Corners u = test::Corners::Zero();
   for (int n = 0; n < 8; ++n) {
-    const Eigen::Vector3d& sign = test::corner_sign[static_cast<std::size_t>(n)];
+    const Eigen::Vector3d& sign = test::corner_sign[index(n)];
     u(0, n) = amount * sign.x() * sign.z();
   }
   return u;

@@ -10,6 +10,7 @@
 #include "elements/solid/hex8_kernel.hpp"
 #include "materials/elastic.hpp"
 #include "materials/elastic_plastic.hpp"
+#include "src/base/index.hpp"
 #include "tests/elements/shell/single_shell.hpp"
 #include "tests/elements/solid/hexahedra.hpp"
 
@@ -67,7 +68,7 @@ EnergyAccount brick_balance(const Law& law, const Cycle& cycle, double squeeze, 
   const Corners start = test::box(1, 1.2, 0.9);
   Corners pattern = Corners::Zero();
   for (int n = 0; n < 8; ++n) {
-    const Eigen::Vector3d& s = test::corner_sign[static_cast<std::size_t>(n)];
+    const Eigen::Vector3d& s = test::corner_sign[index(n)];
     pattern.col(n) = Eigen::Vector3d(0.8, -0.5, 0.6) * (s.y() * s.z()) +
                      Eigen::Vector3d(-0.4, 0.7, 0.5) * (s.z() * s.x()) +
                      Eigen::Vector3d(0.3, 0.6, -0.7) * (s.x() * s.y()) +
@@ -137,7 +138,7 @@ EnergyAccount shell_balance(const Cycle& cycle, double squeeze, double coefficie
     }
     element.move(x, v, w, step);
     for (int n = 0; n < 4; ++n) {
-      const auto k = static_cast<std::size_t>(n);
+      const auto k = index(n);
       account.work += 0.5 * step * (old_force[k] + element.force(n)).dot(v[k]);
       account.work += 0.5 * step * (old_moment[k] + element.moment(n)).dot(w[k]);
       old_force[k] = element.force(n);

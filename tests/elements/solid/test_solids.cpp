@@ -10,6 +10,7 @@
 #include "materials/elastic.hpp"
 #include "materials/elastic_plastic.hpp"
 #include "materials/neo_hookean.hpp"
+#include "src/base/index.hpp"
 #include "tests/elements/solid/hexahedra.hpp"
 
 namespace brio {
@@ -47,14 +48,13 @@ struct PatchMesh {
           node.col(id(i, j, k)) = Eigen::Vector3d(i, j, k) + 0.25 * noise.matrix<Eigen::Vector3d>();
     for (int e = 0; e < 8; ++e) {
       const int i = e & 1, j = e >> 1 & 1, k = e >> 2;
-      brick[static_cast<std::size_t>(e)] = {
-          id(i, j, k),     id(i + 1, j, k),     id(i + 1, j + 1, k),     id(i, j + 1, k),
-          id(i, j, k + 1), id(i + 1, j, k + 1), id(i + 1, j + 1, k + 1), id(i, j + 1, k + 1)};
+      brick[index(e)] = {id(i, j, k),     id(i + 1, j, k),     id(i + 1, j + 1, k),     id(i, j + 1, k),
+                         id(i, j, k + 1), id(i + 1, j, k + 1), id(i + 1, j + 1, k + 1), id(i, j + 1, k + 1)};
     }
   }
   Corners corners(const Eigen::Matrix<double, 3, 27>& field, std::size_t e) const {
     Corners x;
-    for (int n = 0; n < 8; ++n) x.col(n) = field.col(brick[e][static_cast<std::size_t>(n)]);
+    for (int n = 0; n < 8; ++n) x.col(n) = field.col(brick[e][index(n)]);
     return x;
   }
 };
@@ -91,7 +91,7 @@ TYPED_TEST(Solids, UniformStressIsInEquilibriumInsideAPatch) {
       SingleElement<TypeParam, Elastic> element(kernel, elastic_steel, mesh.corners(mesh.node, e));
       element.move_to(mesh.corners(moved, e), 1e-3);
       for (int n = 0; n < 8; ++n)
-        if (mesh.brick[e][static_cast<std::size_t>(n)] == 13) inner_force += element.force.col(n);
+        if (mesh.brick[e][index(n)] == 13) inner_force += element.force.col(n);
       size += element.force.norm();
     }
     EXPECT_LT(inner_force.norm(), 1e-13 * size);
@@ -240,11 +240,11 @@ TYPED_TEST(Solids, LanesEqualPlainNumbers) {
   std::array<NodalMotion<double, 8>, 8> plain;
   for (int lane = 0; lane < 8; ++lane) {
     const Corners x = test::distorted(noise, 0.3);
-    plain[static_cast<std::size_t>(lane)] = test::motion_of(x, 300 * noise.matrix<Corners>());
+    plain[index(lane)] = test::motion_of(x, 300 * noise.matrix<Corners>());
     for (int i = 0; i < 3; ++i)
       for (int n = 0; n < 8; ++n) {
-        motion.position[i][n].set(lane, plain[static_cast<std::size_t>(lane)].position[i][n]);
-        motion.velocity[i][n].set(lane, plain[static_cast<std::size_t>(lane)].velocity[i][n]);
+        motion.position[i][n].set(lane, plain[index(lane)].position[i][n]);
+        motion.velocity[i][n].set(lane, plain[index(lane)].velocity[i][n]);
       }
   }
   typename TypeParam::template Header<T, ElasticPlastic> header{};
@@ -255,7 +255,7 @@ TYPED_TEST(Solids, LanesEqualPlainNumbers) {
   for (int lane = 0; lane < 8; ++lane) {
     typename TypeParam::template Header<double, ElasticPlastic> one_header{};
     typename TypeParam::template Point<double, ElasticPlastic> one_point[TypeParam::points()]{};
-    const auto& one = plain[static_cast<std::size_t>(lane)];
+    const auto& one = plain[index(lane)];
     kernel.initialize(one, plastic_steel, one_header, one_point);
     NodalForces<double, 8> one_forces;
     const Increment<double> expected =

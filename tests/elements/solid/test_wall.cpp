@@ -11,6 +11,7 @@
 #include "elements/solid/hex8_full_kernel.hpp"
 #include "elements/solid/hex8_kernel.hpp"
 #include "materials/power_law_hardening.hpp"
+#include "src/base/index.hpp"
 #include "tests/elements/shell/single_shell.hpp"
 #include "tests/elements/solid/hexahedra.hpp"
 
@@ -64,7 +65,7 @@ class ExactWall : public Wall {
     curvature_ = curvature;
     double moment = 0;
     for (int i = 0; i < count; ++i) {
-      const auto p = static_cast<std::size_t>(i);
+      const auto p = index(i);
       const double z = wall_thickness * ((i + 0.5) / count - 0.5);
       ShellTensor<double> strain{};
       (shape_ == Shape::bending ? strain.xx : strain.xy) = (shape_ == Shape::bending ? 1 : -1) * growth * z;

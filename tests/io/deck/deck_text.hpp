@@ -1,7 +1,13 @@
 #pragma once
 /// A small deck that is right, to change piece by piece.
 
+#include <gtest/gtest.h>
+
+#include <functional>
 #include <string>
+#include <vector>
+
+#include "io/deck/read_deck.hpp"
 
 namespace brio {
 
@@ -33,6 +39,29 @@ contact: {surfaces: all, exclude: [left], friction: 0.1}
 time: {end: 3e-3, step_scale: 0.9}
 output: {fields: {every: 5e-5}, history: {every: 1e-6}}
 )";
+
+/// The same with a piece of it replaced.
+inline std::string with(const std::string& from, const std::string& to) {
+  std::string text = plain_deck;
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+/// The message of the error, or nothing.
+inline std::string fault_of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const DeckError& fault) {
+    return fault.what();
+  }
+  return {};
+}
+/// \param name of the deck, beside which its meshes are
+inline std::string fault_of(const std::string& text, const std::vector<std::string>& overrides = {},
+                            const std::string& name = "a.yaml") {
+  return fault_of([&] { parse_deck(text, name, overrides); });
+}
 
 /// The same with local coordinate systems, of which motions and loads take their axes.
 inline std::string deck_with_systems() {

@@ -11,16 +11,6 @@
 namespace brio {
 namespace {
 
-/// The message of the error, or nothing.
-std::string fault_of(const std::function<void()>& read) {
-  try {
-    read();
-  } catch (const DeckError& fault) {
-    return fault.what();
-  }
-  return {};
-}
-
 std::string line_and_column(const std::string& text, std::size_t at) {
   const auto before = text.substr(0, at);
   const auto line = std::count(before.begin(), before.end(), '\n');

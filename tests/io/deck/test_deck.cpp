@@ -7,6 +7,7 @@
 
 #include "io/deck/read_deck.hpp"
 #include "io/yaml/closest_word.hpp"
+#include "src/base/index.hpp"
 #include "tests/io/deck/deck_text.hpp"
 
 namespace brio {
@@ -122,21 +123,7 @@ TEST(Deck, MotionsAndLoadsAreAlongTheAxesOfCoordinateSystems) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(axes[axis][i], wanted[axis][i], 1e-15);
 }
 
-std::string with(const std::string& from, const std::string& to) {
-  std::string text = plain_deck;
-  return text.replace(text.find(from), from.size(), to);
-}
-
 double density_of(const Deck& deck) { return density(deck.materials.at(0).second); }
-
-std::string fault_of(const std::string& text, const std::vector<std::string>& overrides) {
-  try {
-    parse_deck(text, "a.yaml", overrides);
-  } catch (const DeckError& fault) {
-    return fault.what();
-  }
-  return {};
-}
 
 TEST(Deck, NumbersAreWrittenInManyWays) {
   const std::vector<std::pair<std::string, double>> numbers{{"30e6", 30e6}, {"1e-3", 1e-3},    {".5", 0.5},
@@ -208,7 +195,7 @@ TEST(Deck, ReadsManyPartsInProportionateTime) {
   text += "initial_conditions:\n";
   for (int i = 0; i < count; ++i) text += "  - {part: p" + std::to_string(i) + ", velocity: [1, 0, 0]}\n";
   text += "time: {end: 1}\n";
-  EXPECT_EQ(parse_deck(text, "a.yaml").parts.size(), static_cast<std::size_t>(count));
+  EXPECT_EQ(parse_deck(text, "a.yaml").parts.size(), index(count));
 }
 
 TEST(Override, ReplacesAnyValue) {

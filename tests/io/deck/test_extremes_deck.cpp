@@ -17,6 +17,7 @@
 #include "io/mesh/generate_mesh.hpp"
 #include "io/run/run_deck.hpp"
 #include "io/yaml/deck_error.hpp"
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/step/advance.hpp"
 #include "tests/io/deck/deck_text.hpp"
@@ -26,17 +27,6 @@ namespace brio {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// \param name of the deck, beside which its meshes are
-std::string fault_of(const std::string& text, const std::vector<std::string>& overrides = {},
-                     const std::string& name = "a.yaml") {
-  try {
-    parse_deck(text, name, overrides);
-  } catch (const DeckError& fault) {
-    return fault.what();
-  }
-  return {};
-}
 
 // ---- numbers
 
@@ -55,8 +45,7 @@ std::vector<Number> numbers_of(const std::string& text) {
     if (line.starts_with("title:") || line.starts_with("units:")) continue;
     const std::string code = line.substr(0, line.find('#'));
     for (auto at = std::sregex_iterator(code.begin(), code.end(), number); at != std::sregex_iterator(); ++at)
-      found.push_back({start + static_cast<std::size_t>(at->position(2)),
-                       static_cast<std::size_t>(at->length(2)), count});
+      found.push_back({start + index(at->position(2)), index(at->length(2)), count});
   }
   return found;
 }
@@ -98,13 +87,6 @@ TEST(ExtremesDeck, OverridesThatAreNoNumbersAreRefused) {
 }
 
 // ---- words
-
-std::string with(const std::string& from, const std::string& to) {
-  std::string text = plain_deck;
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
 
 TEST(ExtremesDeck, NamesThatStandTwiceOrNowhereAreRefusedWithTheirPlace) {
   const std::vector<std::array<std::string, 3>> faults{
@@ -224,8 +206,8 @@ TEST(ExtremesDeck, AHundredThousandPartsAreReadBuiltAndSteppedInProportionateTim
     Model model = build(deck, meshes);
     ThreadTeam team(1);
     run(model, 0.1, team, [](const Model& now) { return now.step < 3; });
-    EXPECT_EQ(model.parts.size(), static_cast<std::size_t>(count));
-    EXPECT_EQ(model.nodes.size(), 8 * static_cast<std::size_t>(count));
+    EXPECT_EQ(model.parts.size(), index(count));
+    EXPECT_EQ(model.nodes.size(), 8 * index(count));
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   const double few = seconds_for(10000);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "io/mesh/generate_mesh.hpp"
+#include "src/base/index.hpp"
 #include "src/deck/mass_properties.hpp"
 
 namespace brio {
@@ -22,9 +23,8 @@ double inner(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1
 
 std::array<Triple, 8> corners_of(const Mesh& mesh, std::size_t e) {
   std::array<Triple, 8> corners{};
-  const auto count = static_cast<std::size_t>(mesh.nodes_per_element);
-  for (std::size_t n = 0; n < count; ++n)
-    corners[n] = mesh.position[static_cast<std::size_t>(mesh.connectivity[e * count + n])];
+  const auto count = index(mesh.nodes_per_element);
+  for (std::size_t n = 0; n < count; ++n) corners[n] = mesh.position[index(mesh.connectivity[e * count + n])];
   return corners;
 }
 
@@ -60,11 +60,10 @@ Triple area_vector(const Triple& a, const Triple& b, const Triple& c, const Trip
 }
 
 std::array<Triple, 4> corners_of(const Mesh& mesh, const ElementSide& side) {
-  const auto x = corners_of(mesh, static_cast<std::size_t>(side.element));
+  const auto x = corners_of(mesh, index(side.element));
   if (mesh.nodes_per_element == 4) return {x[0], x[1], x[2], x[3]};
   std::array<Triple, 4> corners{};
-  for (std::size_t n = 0; n < 4; ++n)
-    corners[n] = x[static_cast<std::size_t>(sides_of_hex[static_cast<std::size_t>(side.side)][n])];
+  for (std::size_t n = 0; n < 4; ++n) corners[n] = x[index(sides_of_hex[index(side.side)][n])];
   return corners;
 }
 
@@ -97,11 +96,10 @@ std::size_t free_side_count(const Mesh& mesh) {
   for (std::size_t e = 0; e < mesh.element_count(); ++e)
     for (const auto& side : sides_of_hex) {
       std::set<int> corners;
-      for (const int corner : side)
-        corners.insert(mesh.connectivity[8 * e + static_cast<std::size_t>(corner)]);
+      for (const int corner : side) corners.insert(mesh.connectivity[8 * e + index(corner)]);
       ++owners[corners];
     }
-  return static_cast<std::size_t>(
+  return index(
       std::count_if(owners.begin(), owners.end(), [](const auto& side) { return side.second == 1; }));
 }
 
@@ -112,10 +110,8 @@ int euler_characteristic(const Mesh& mesh) {
   for (const auto& [element, side] : mesh.side_sets.at("all")) {
     std::array<int, 4> corner{};
     for (std::size_t n = 0; n < 4; ++n) {
-      const auto local = mesh.nodes_per_element == 4
-                             ? n
-                             : static_cast<std::size_t>(sides_of_hex[static_cast<std::size_t>(side)][n]);
-      corner[n] = mesh.connectivity[static_cast<std::size_t>(element * mesh.nodes_per_element) + local];
+      const auto local = mesh.nodes_per_element == 4 ? n : index(sides_of_hex[index(side)][n]);
+      corner[n] = mesh.connectivity[index(element * mesh.nodes_per_element) + local];
     }
     for (std::size_t n = 0; n < 4; ++n) {
       vertices.insert(corner[n]);
@@ -145,8 +141,8 @@ TEST(GenerateMesh, BoxFillsItsSize) {
   EXPECT_EQ(box.node_sets.at("ymax").size(), 23U * 4);
   EXPECT_EQ(box.node_sets.at("bottom").size(), 23U * 12);
   EXPECT_EQ(box.node_sets.at("zmin"), box.node_sets.at("bottom"));
-  for (const int n : box.node_sets.at("top")) EXPECT_EQ(box.position[static_cast<std::size_t>(n)][2], 1.25);
-  for (const int n : box.node_sets.at("xmin")) EXPECT_EQ(box.position[static_cast<std::size_t>(n)][0], -11);
+  for (const int n : box.node_sets.at("top")) EXPECT_EQ(box.position[index(n)][2], 1.25);
+  for (const int n : box.node_sets.at("xmin")) EXPECT_EQ(box.position[index(n)][0], -11);
 }
 
 TEST(GenerateMesh, SideSetsLookOutwards) {
@@ -185,19 +181,16 @@ TEST(GenerateMesh, ArcOfACylinderBeginsAtTheXAxis) {
   EXPECT_EQ(mesh.position.size(), 7u * 5u);
   EXPECT_EQ(mesh.connectivity.size(), 4u * 6u * 4u);
   EXPECT_EQ(mesh.node_sets.at("start").size(), 5u);
-  for (const int node : mesh.node_sets.at("start"))
-    EXPECT_EQ(mesh.position[static_cast<std::size_t>(node)][1], 0);
+  for (const int node : mesh.node_sets.at("start")) EXPECT_EQ(mesh.position[index(node)][1], 0);
   for (const int node : mesh.node_sets.at("end")) {
-    const Triple& x = mesh.position[static_cast<std::size_t>(node)];
+    const Triple& x = mesh.position[index(node)];
     EXPECT_NEAR(x[0], 2 * std::cos(2 * std::numbers::pi / 3), 1e-14);
     EXPECT_NEAR(x[1], 2 * std::sin(2 * std::numbers::pi / 3), 1e-14);
   }
   EXPECT_EQ(mesh.node_sets.at("top").size(), 7u);
   EXPECT_EQ(node_set_names(panel), (std::vector<std::string_view>{"all", "bottom", "end", "start", "top"}));
   // As a closed one winds, so that normals point outwards.
-  const auto corner = [&](std::size_t k) {
-    return mesh.position[static_cast<std::size_t>(mesh.connectivity[k])];
-  };
+  const auto corner = [&](std::size_t k) { return mesh.position[index(mesh.connectivity[k])]; };
   const Triple a = corner(0), b = corner(1), d = corner(3);
   const double outwards = (b[1] - a[1]) * (d[2] - a[2]) * a[0] - (b[0] - a[0]) * (d[2] - a[2]) * a[1];
   EXPECT_GT(outwards, 0);
@@ -213,7 +206,7 @@ TEST(GenerateMesh, CylinderIsClosedAroundAndOpenAtItsEnds) {
   EXPECT_EQ(can.node_sets.at("top").size(), 96U);
   // The facets of a regular polygon with the radius to its corners.
   EXPECT_NEAR(area(can, "all"), around * 2 * 5.125 * std::sin(pi / around) * 15, 1e-9);
-  for (const int n : can.node_sets.at("top")) EXPECT_EQ(can.position[static_cast<std::size_t>(n)][2], 15);
+  for (const int n : can.node_sets.at("top")) EXPECT_EQ(can.position[index(n)][2], 15);
   for (const Triple& x : can.position) EXPECT_NEAR(std::hypot(x[0], x[1]), 5.125, 1e-14);
   for (const ElementSide& side : can.side_sets.at("all")) {
     const auto [a, b, c, d] = corners_of(can, side);
@@ -235,7 +228,7 @@ TEST(GenerateMesh, TubeIsARing) {
   EXPECT_EQ(tube.node_sets.at("outside").size(), 24U * 11);
   EXPECT_EQ(tube.node_sets.at("bottom").size(), 24U * 4);
   for (const int n : tube.node_sets.at("inside")) {
-    const Triple& x = tube.position[static_cast<std::size_t>(n)];
+    const Triple& x = tube.position[index(n)];
     EXPECT_NEAR(std::hypot(x[0], x[1]), 5, 1e-14);
   }
 }
@@ -246,7 +239,7 @@ TEST(GenerateMesh, RodIsFilledWithGoodElements) {
     const int around = 4 * (across - 2 * (across / 4));
     EXPECT_EQ(euler_characteristic(rod), 2) << across;
     EXPECT_EQ(free_side_count(rod), rod.side_sets.at("all").size());
-    EXPECT_EQ(rod.node_sets.at("outside").size(), static_cast<std::size_t>(around * 6));
+    EXPECT_EQ(rod.node_sets.at("outside").size(), index(around * 6));
     EXPECT_NEAR(enclosed_volume(rod), around / 2.0 * std::sin(2 * pi / around) * 3.2 * 3.2 * 32.4, 1e-9);
     double worst = 1;
     for (std::size_t e = 0; e < rod.element_count(); ++e)
@@ -268,10 +261,9 @@ TEST(GenerateMesh, ElementsAcrossTheDiameterAreCounted) {
   const Mesh rod = mesh_of(RodMesh{1, 1, {8, 1}});
   // Nodes of the bottom on the x axis: one more than elements across.
   const auto& bottom = rod.node_sets.at("bottom");
-  EXPECT_EQ(
-      std::count_if(bottom.begin(), bottom.end(),
-                    [&](int n) { return std::abs(rod.position[static_cast<std::size_t>(n)][1]) < 1e-12; }),
-      9);
+  EXPECT_EQ(std::count_if(bottom.begin(), bottom.end(),
+                          [&](int n) { return std::abs(rod.position[index(n)][1]) < 1e-12; }),
+            9);
 }
 
 double smallest_scaled_jacobian(const Mesh& mesh) {
@@ -286,14 +278,13 @@ TEST(GenerateMesh, SphereIsFilledWithGoodElements) {
   for (const int across : {2, 4, 6, 8, 10, 12, 16, 24}) {
     const Mesh sphere = mesh_of(SphereMesh{3, across});
     const int edge = across - 2 * (across / 4);
-    EXPECT_EQ(sphere.element_count(),
-              static_cast<std::size_t>(edge * edge * edge + 6 * edge * edge * (across / 4)));
+    EXPECT_EQ(sphere.element_count(), index(edge * edge * edge + 6 * edge * edge * (across / 4)));
     EXPECT_EQ(euler_characteristic(sphere), 2) << across;
     EXPECT_EQ(free_side_count(sphere), sphere.side_sets.at("all").size());
-    EXPECT_EQ(sphere.node_sets.at("outside").size(), static_cast<std::size_t>(6 * edge * edge + 2));
+    EXPECT_EQ(sphere.node_sets.at("outside").size(), index(6 * edge * edge + 2));
     EXPECT_GT(smallest_scaled_jacobian(sphere), across == 2 ? 0.67 : 0.68) << across;
     for (const int n : sphere.node_sets.at("outside")) {
-      const Triple& x = sphere.position[static_cast<std::size_t>(n)];
+      const Triple& x = sphere.position[index(n)];
       EXPECT_NEAR(std::sqrt(inner(x, x)), 3, 1e-14);
     }
   }
@@ -322,8 +313,8 @@ TEST(GenerateMesh, HollowSphereIsClosedAndLooksOutwards) {
   double last = 1;
   for (const int quarter : {1, 4, 8}) {
     const Mesh sphere = mesh_of(HollowSphereMesh{2, quarter});
-    EXPECT_EQ(sphere.element_count(), static_cast<std::size_t>(6 * quarter * quarter));
-    EXPECT_EQ(sphere.position.size(), static_cast<std::size_t>(6 * quarter * quarter + 2));
+    EXPECT_EQ(sphere.element_count(), index(6 * quarter * quarter));
+    EXPECT_EQ(sphere.position.size(), index(6 * quarter * quarter + 2));
     EXPECT_EQ(euler_characteristic(sphere), 2);
     for (const ElementSide& side : sphere.side_sets.at("all")) {
       const auto [a, b, c, d] = corners_of(sphere, side);
@@ -363,7 +354,7 @@ TEST(GenerateMesh, WedgeHasTheSectionOfABlade) {
     EXPECT_EQ(widest, wedge.thickness / 2);
     // The angle between the tip and the shoulder.
     for (const int n : mesh.node_sets.at("xmax")) {
-      const Triple& x = mesh.position[static_cast<std::size_t>(n)];
+      const Triple& x = mesh.position[index(n)];
       if (x[2] > 0 && x[2] <= wedge.shoulder()) {
         EXPECT_NEAR((x[0] - wedge.tip_width / 2) / x[2], std::tan(wedge.half_angle * pi / 180), 1e-12);
       }

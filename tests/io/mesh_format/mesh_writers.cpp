@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/mesh_file/part_mesh.hpp"
+#include "src/base/index.hpp"
 #include "tests/io/mesh_format/netcdf_writer.hpp"
 
 namespace brio::test {
@@ -25,14 +26,14 @@ struct FileElement {
 };
 
 std::int64_t id_of_node(const Mesh& mesh, int node) {
-  return mesh.node_id.empty() ? node + 1 : mesh.node_id[static_cast<std::size_t>(node)];
+  return mesh.node_id.empty() ? node + 1 : mesh.node_id[index(node)];
 }
 std::int64_t id_of_element(const Mesh& mesh, std::size_t element) {
   return mesh.element_id.empty() ? static_cast<std::int64_t>(element) + 1 : mesh.element_id[element];
 }
 
 FileElement element_of(const Mesh& mesh, std::size_t e) {
-  const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+  const auto corners = index(mesh.nodes_per_element);
   const int* node = mesh.connectivity.data() + corners * e;
   std::vector<int> taken(corners);
   std::iota(taken.begin(), taken.end(), 0);
@@ -61,14 +62,12 @@ std::vector<std::pair<std::size_t, std::size_t>> runs_of(const std::vector<FileE
 }
 
 std::vector<std::int64_t> face_of(const Mesh& mesh, const ElementSide& side) {
-  const auto corners = static_cast<std::size_t>(mesh.nodes_per_element);
+  const auto corners = index(mesh.nodes_per_element);
   std::vector<std::int64_t> nodes;
   for (std::size_t k = 0; k < 4; ++k) {
-    const int corner =
-        corners == 8 ? sides_of_hex[static_cast<std::size_t>(side.side)][k] : static_cast<int>(k);
+    const int corner = corners == 8 ? sides_of_hex[index(side.side)][k] : static_cast<int>(k);
     const std::int64_t id =
-        id_of_node(mesh, mesh.connectivity[static_cast<std::size_t>(side.element) * corners +
-                                           static_cast<std::size_t>(corner)]);
+        id_of_node(mesh, mesh.connectivity[index(side.element) * corners + index(corner)]);
     if (std::find(nodes.begin(), nodes.end(), id) == nodes.end()) nodes.push_back(id);
   }
   return nodes;
@@ -148,7 +147,7 @@ std::string as_gmsh(const Mesh& mesh, bool binary) {
   out.text += "$EndPhysicalNames\n";
   out.begin("Entities");
   std::vector<std::int64_t> count(4);
-  for (const Group& group : groups) ++count[static_cast<std::size_t>(group.dimension)];
+  for (const Group& group : groups) ++count[index(group.dimension)];
   out.counts(count).end_line();
   for (int dimension = 0; dimension < 4; ++dimension)
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -192,7 +191,7 @@ std::string as_abaqus(const Mesh& mesh) {
                                         {3, "S3R"},   {2, "B31"},  {1, "MASS"}};
   std::string out = "*HEADING\nA mesh of a test\n** nodes\n*NODE\n";
   for (int n = 0; n < static_cast<int>(mesh.position.size()); ++n) {
-    const auto& [x, y, z] = mesh.position[static_cast<std::size_t>(n)];
+    const auto& [x, y, z] = mesh.position[index(n)];
     out += fmt::format("{}, {}, {}, {}\n", id_of_node(mesh, n), x, y, z);
   }
   const std::vector<FileElement> elements = elements_of(mesh);
@@ -215,9 +214,8 @@ std::string as_abaqus(const Mesh& mesh) {
     }
     out += fmt::format("*SURFACE, NAME={}\n", name);
     for (const auto& [element, side] : mesh.side_sets.at(name)) {
-      const FileElement& of = elements[static_cast<std::size_t>(element)];
-      const int number =
-          (of.shape_nodes == 6 ? side_of_wedge : side_of_hexahedron)[static_cast<std::size_t>(side)];
+      const FileElement& of = elements[index(element)];
+      const int number = (of.shape_nodes == 6 ? side_of_wedge : side_of_hexahedron)[index(side)];
       out += of.shape_nodes >= 6 ? fmt::format("{}, S{}\n", of.id, number) : fmt::format("{}, SPOS\n", of.id);
     }
   }
@@ -229,7 +227,7 @@ std::string as_ls_dyna(const Mesh& mesh) {
       "*KEYWORD\n*TITLE\nA mesh of a test\n*PART\nbody\n         1         1         1\n*NODE\n$ nid, x, y, "
       "z\n";
   for (int n = 0; n < static_cast<int>(mesh.position.size()); ++n) {
-    const auto& [x, y, z] = mesh.position[static_cast<std::size_t>(n)];
+    const auto& [x, y, z] = mesh.position[index(n)];
     out += fmt::format("{}, {}, {}, {}\n", id_of_node(mesh, n), x, y, z);
   }
   const std::map<int, const char*> keyword{
@@ -291,7 +289,7 @@ void write_exodus_as(int mode, const Mesh& mesh, const std::string& path) {
   out.variable("eb_names", NC_CHAR, {"num_el_blk", "len_name"});
   for (std::size_t b = 0; b < runs.size(); ++b) {
     const std::string k = std::to_string(b + 1);
-    const auto nodes = static_cast<std::size_t>(elements[runs[b].first].shape_nodes);
+    const auto nodes = index(elements[runs[b].first].shape_nodes);
     out.dimension("num_el_in_blk" + k, runs[b].second - runs[b].first);
     out.dimension("num_nod_per_el" + k, nodes);
     out.variable("connect" + k, NC_INT, {"num_el_in_blk" + k, "num_nod_per_el" + k});
@@ -349,10 +347,9 @@ void write_exodus_as(int mode, const Mesh& mesh, const std::string& path) {
   for (std::size_t s = 0; s < faces.size(); ++s) {
     std::vector<int> of, sides;
     for (const auto& [element, side] : mesh.side_sets.at(faces[s])) {
-      const int nodes = elements[static_cast<std::size_t>(element)].shape_nodes;
+      const int nodes = elements[index(element)].shape_nodes;
       of.push_back(element + 1);
-      sides.push_back(
-          nodes < 6 ? 1 : (nodes == 6 ? side_of_wedge : side_of_hexahedron)[static_cast<std::size_t>(side)]);
+      sides.push_back(nodes < 6 ? 1 : (nodes == 6 ? side_of_wedge : side_of_hexahedron)[index(side)]);
     }
     out.put("elem_ss" + std::to_string(s + 1), of);
     out.put("side_ss" + std::to_string(s + 1), sides);
@@ -371,7 +368,7 @@ void write_classic_exodus(const Mesh& mesh, const std::string& path) {
 
 std::string write_mesh(const Mesh& mesh, MeshFormat format, const std::string& folder,
                        const std::string& stem) {
-  const char* suffix = std::array{".msh", ".inp", ".k", ".exo"}[static_cast<std::size_t>(format)];
+  const char* suffix = std::array{".msh", ".inp", ".k", ".exo"}[index(format)];
   const std::string name = stem + suffix, path = folder + "/" + name;
   if (format == MeshFormat::exodus) {
     write_exodus(mesh, path);

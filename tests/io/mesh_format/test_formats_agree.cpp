@@ -13,6 +13,7 @@
 #include "io/mesh_format/read_gmsh.hpp"
 #include "io/mesh_format/read_ls_dyna.hpp"
 #include "io/mesh_format/read_mesh_file.hpp"
+#include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/step/advance.hpp"
 #include "tests/io/mesh_format/committed_meshes.hpp"
@@ -119,7 +120,7 @@ TEST(MeshFormats, AgreeWithTheGeneratorOnABox) {
       points.emplace_back();
       for (std::size_t k = 0; k < 8; ++k)
         for (std::size_t i = 0; i < 3; ++i)
-          points.back()[i] += mesh.position[static_cast<std::size_t>(mesh.connectivity[8 * e + k])][i] / 8;
+          points.back()[i] += mesh.position[index(mesh.connectivity[8 * e + k])][i] / 8;
     }
     return sorted_points(points);
   };
@@ -128,8 +129,7 @@ TEST(MeshFormats, AgreeWithTheGeneratorOnABox) {
     EXPECT_EQ(drawn.node_sets.at(set).size(), generated.node_sets.at(set).size()) << set;
     EXPECT_EQ(drawn.side_sets.at(set).size(), generated.side_sets.at(set).size()) << set;
   }
-  for (const int node : drawn.node_sets.at("bottom"))
-    EXPECT_EQ(drawn.position[static_cast<std::size_t>(node)][2], -1.5);
+  for (const int node : drawn.node_sets.at("bottom")) EXPECT_EQ(drawn.position[index(node)][2], -1.5);
 }
 
 /// The same mesh with nodes and elements in another order.
@@ -138,9 +138,7 @@ Mesh renumbered(const Mesh& mesh) {
   Mesh other = mesh;
   const std::size_t nodes = mesh.position.size(), elements = mesh.element_count();
   for (std::size_t i = 0; i < nodes; ++i) other.position[place_of(i, nodes)] = mesh.position[i];
-  const auto moved = [&](int node) {
-    return static_cast<int>(place_of(static_cast<std::size_t>(node), nodes));
-  };
+  const auto moved = [&](int node) { return static_cast<int>(place_of(index(node), nodes)); };
   for (std::size_t e = 0; e < elements; ++e)
     for (std::size_t k = 0; k < 8; ++k)
       other.connectivity[8 * place_of(e, elements) + k] = moved(mesh.connectivity[8 * e + k]);
@@ -149,8 +147,7 @@ Mesh renumbered(const Mesh& mesh) {
     std::sort(set.begin(), set.end());
   }
   for (auto& [name, sides] : other.side_sets)
-    for (ElementSide& side : sides)
-      side.element = static_cast<int>(place_of(static_cast<std::size_t>(side.element), elements));
+    for (ElementSide& side : sides) side.element = static_cast<int>(place_of(index(side.element), elements));
   return other;
 }
 
@@ -177,7 +174,7 @@ std::vector<std::array<double, 6>> paths_of_bent_block(const Mesh& mesh) {
   std::vector<std::array<double, 6>> paths(mesh.position.size());
   const auto note = [&](std::size_t first) {
     for (std::size_t i = 0; i < paths.size(); ++i)
-      std::copy_n(model.nodes.record[static_cast<std::size_t>(model.parts[0].node[i])].position, 3,
+      std::copy_n(model.nodes.record[index(model.parts[0].node[i])].position, 3,
                   paths[i].begin() + static_cast<std::ptrdiff_t>(first));
   };
   note(0);

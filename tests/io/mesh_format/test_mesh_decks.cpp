@@ -14,6 +14,7 @@
 #include "io/run/run_deck.hpp"
 #include "io/study/read_study.hpp"
 #include "io/yaml/deck_error.hpp"
+#include "src/base/index.hpp"
 #include "tests/io/mesh_format/committed_meshes.hpp"
 #include "tests/io/results/result_scene.hpp"
 #include "tests/io/text_of.hpp"
@@ -74,8 +75,7 @@ TEST_F(MeshDecks, TakeBlocksAndSetsByName) {
   const Mesh mesh = committed("box");
   ASSERT_EQ(model.prescribed.size(), 4u);
   EXPECT_EQ(model.prescribed[0].nodes.size(), mesh.node_sets.at("bottom").size());
-  for (const int node : model.prescribed[0].nodes)
-    EXPECT_EQ(model.nodes.record[static_cast<std::size_t>(node)].position[2], -2);
+  for (const int node : model.prescribed[0].nodes) EXPECT_EQ(model.nodes.record[index(node)].position[2], -2);
   EXPECT_EQ(model.loads.size(), 2u);
   EXPECT_EQ(model.parts[0].node_id, mesh.node_id);
   EXPECT_NEAR(model.parts[0].mass, 8 * 6 * 7.8e-9, 1e-20);
@@ -272,7 +272,7 @@ output: {fields: {every: 5e-5}}
 class MeshRuns : public MeshDecks, public testing::WithParamInterface<int> {};
 
 TEST_P(MeshRuns, OfAllFormatsHaveTheSameBits) {
-  const char* name = std::array{"bracket", "crash_box", "bottle"}[static_cast<std::size_t>(GetParam())];
+  const char* name = std::array{"bracket", "crash_box", "bottle"}[index(GetParam())];
   const Mesh mesh = committed(name);
   std::string expected, fields;
   for (const MeshFormat format :

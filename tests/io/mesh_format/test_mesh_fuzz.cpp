@@ -9,6 +9,7 @@
 #include "io/mesh_file/mesh_file_error.hpp"
 #include "io/mesh_file/part_mesh.hpp"
 #include "io/mesh_format/read_mesh_file.hpp"
+#include "src/base/index.hpp"
 #include "tests/io/mesh_format/mesh_writers.hpp"
 #include "tests/io/results/result_scene.hpp"
 #include "tests/io/text_of.hpp"
@@ -84,8 +85,7 @@ class MeshFuzz : public testing::Test {
         std::vector<std::string> notices;
         const Mesh mesh = part_mesh(file, block, {.particle_volume = 1}, notices);
         EXPECT_FALSE(mesh.position.empty());
-        for (const int node : mesh.connectivity)
-          EXPECT_LT(static_cast<std::size_t>(node), mesh.position.size());
+        for (const int node : mesh.connectivity) EXPECT_LT(index(node), mesh.position.size());
       }
       return false;
     } catch (const MeshFileError& fault) {

@@ -10,6 +10,7 @@
 #include "io/report/quantize.hpp"
 #include "io/report/write_report.hpp"
 #include "io/results/write_results.hpp"
+#include "src/base/index.hpp"
 #include "tests/io/results/result_scene.hpp"
 
 namespace brio {
@@ -99,8 +100,7 @@ TEST_F(ReportPage, HoldsPositionsToHalfAStepOfTheBox) {
     const std::vector<double> points = test::mixed_points(dump);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double min = shown["box"]["min"][i % 3], max = shown["box"]["max"][i % 3];
-      const double value =
-          min + (max - min) * number(table, static_cast<std::size_t>(dump) * points.size() + i) / 65534;
+      const double value = min + (max - min) * number(table, index(dump) * points.size() + i) / 65534;
       EXPECT_NEAR(value, points[i], 0.5 * (max - min) / 65534 * (1 + 1e-9));
     }
   }
@@ -116,12 +116,11 @@ TEST_F(ReportPage, HoldsFieldsOfCellsThatAreLeft) {
   ASSERT_EQ(damage.size(), 2u * 8 * dumps);
   for (int dump = 0; dump < dumps; ++dump)
     for (int cell = 0; cell < 8; ++cell) {
-      const std::uint16_t code = number(damage, static_cast<std::size_t>(8 * dump + cell));
+      const std::uint16_t code = number(damage, index(8 * dump + cell));
       EXPECT_EQ(code == no_value, cell < deleted[dump]) << dump << ' ' << cell;
       if (cell < deleted[dump]) continue;
       const double min = fields[0]["min"], max = fields[0]["max"];
-      EXPECT_NEAR(min + (max - min) * code / 65534,
-                  test::coded(dump, 3, static_cast<std::size_t>(cell - deleted[dump]), 0),
+      EXPECT_NEAR(min + (max - min) * code / 65534, test::coded(dump, 3, index(cell - deleted[dump]), 0),
                   0.5 * (max - min) / 65534 * (1 + 1e-9));
     }
 }

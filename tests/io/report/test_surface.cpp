@@ -8,6 +8,7 @@
 #include <set>
 
 #include "io/report/surface.hpp"
+#include "src/base/index.hpp"
 
 namespace brio {
 namespace {
@@ -41,8 +42,7 @@ std::set<Nodes> seen_by_search(const SceneCells& cells, int frame) {
   for (const std::size_t cell : cells.alive(frame))
     for (const auto& side : sides) {
       Nodes nodes;
-      for (const int corner : side)
-        nodes.insert(cells.connectivity[static_cast<std::size_t>(cells.offset[cell] + corner)]);
+      for (const int corner : side) nodes.insert(cells.connectivity[index(cells.offset[cell] + corner)]);
       ++count[nodes];
     }
   std::set<Nodes> seen;

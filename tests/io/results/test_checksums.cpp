@@ -12,6 +12,7 @@
 #include "io/results/dump_checksums.hpp"
 #include "io/results/read_info.hpp"
 #include "io/results/write_results.hpp"
+#include "src/base/index.hpp"
 #include "tests/io/results/result_scene.hpp"
 
 namespace brio {
@@ -80,12 +81,12 @@ void change_last_value(const fs::path& path, const std::string& table) {
   const hid_t dataset = H5Dopen2(file, table.c_str(), H5P_DEFAULT);
   const hid_t space = H5Dget_space(dataset), type = H5Dget_type(dataset);
   if (H5Tget_class(type) == H5T_STRING) {
-    std::string text(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type), 0);
+    std::string text(index(H5Sget_simple_extent_npoints(space)) * H5Tget_size(type), 0);
     H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());
     ++text[0];
     H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data());
   } else {
-    std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    std::vector<double> values(index(H5Sget_simple_extent_npoints(space)));
     H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     values.back() += 1;
     H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());

@@ -10,6 +10,7 @@
 
 #include "io/files/hdf5_file.hpp"
 #include "io/results/write_results.hpp"
+#include "src/base/index.hpp"
 #include "tests/io/results/result_scene.hpp"
 #include "tests/io/text_of.hpp"
 
@@ -194,7 +195,7 @@ TEST_F(ResultFile, EveryDumpReadsBackThroughItsOffsets) {
   const Hdf5File file = open();
   for (int dump = 0; dump < 7; ++dump) {
     SCOPED_TRACE(dump);
-    const int version = topology_versions[static_cast<std::size_t>(dump)];
+    const int version = topology_versions[index(dump)];
     const Snapshot expected = mixed_snapshot(dump, version);
     const auto offset = [&](const std::string& name) {
       return file.read_integers("/VTKHDF/Steps/" + name, dump, 1).at(0);
@@ -253,7 +254,7 @@ TEST(ResultWriter, CompressedFilesHoldTheSameNumbers) {
   write_all_dumps(writer);
   const Hdf5File file = Hdf5File::open_to_read(writer.vtkhdf());
   for (int dump = 0; dump < 7; ++dump) {
-    const Snapshot expected = mixed_snapshot(dump, topology_versions[static_cast<std::size_t>(dump)]);
+    const Snapshot expected = mixed_snapshot(dump, topology_versions[index(dump)]);
     const std::int64_t row = file.read_integers("/VTKHDF/Steps/PointDataOffsets/velocity", dump, 1).at(0);
     EXPECT_EQ(file.read_rows("/VTKHDF/PointData/velocity", row, 27), expected.point_fields[1].values);
   }

@@ -15,6 +15,7 @@
 #include "io/files/hdf5_file.hpp"
 #include "io/results/dump_checksums.hpp"
 #include "io/results/write_results.hpp"
+#include "src/base/index.hpp"
 #include "tests/io/files/faults.hpp"
 #include "tests/io/results/result_scene.hpp"
 #include "tests/io/text_of.hpp"
@@ -102,8 +103,8 @@ int verified_rows(const std::filesystem::path& path) {
     const std::int64_t batch = row / 3;
     const auto dump = static_cast<double>(batch);
     const double part = static_cast<double>(row % 3);
-    EXPECT_EQ(values[2 * static_cast<std::size_t>(row)], dump + part / 3.0);
-    EXPECT_EQ(values[2 * static_cast<std::size_t>(row) + 1], 0.1 * part);
+    EXPECT_EQ(values[2 * index(row)], dump + part / 3.0);
+    EXPECT_EQ(values[2 * index(row) + 1], 0.1 * part);
   }
   return static_cast<int>(rows);
 }
@@ -470,7 +471,7 @@ TEST(TransactionSlow, NoRowIsLostWhereverAnIndexNodeSplits) {
       ASSERT_TRUE(rows == row || rows == row + 1);
       const std::vector<double> values = file.read_rows("/table", 0, row);
       for (int i = 0; i < row; ++i) {
-        ASSERT_EQ(values[static_cast<std::size_t>(i)], i) << "row " << row << ", killed at operation " << at;
+        ASSERT_EQ(values[index(i)], i) << "row " << row << ", killed at operation " << at;
       }
     }
   }

@@ -11,6 +11,7 @@
 #include "io/deck/read_deck.hpp"
 #include "io/results/read_result.hpp"
 #include "io/run/run_deck.hpp"
+#include "src/base/index.hpp"
 #include "src/output/observe.hpp"
 #include "src/step/advance.hpp"
 
@@ -49,7 +50,7 @@ Momenta momenta_of(const Model& model, const std::vector<std::size_t>& body_of, 
   };
   for (std::size_t p = 0; p < model.parts.size(); ++p)
     for (const int node : model.parts[p].node) {
-      const auto n = static_cast<std::size_t>(node);
+      const auto n = index(node);
       if (counted.insert(node).second) add(body_of[p], model.nodes.mass[n], model.nodes.record[n].velocity);
     }
   for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
@@ -85,8 +86,7 @@ class ColumnImpulses {
 
  private:
   std::size_t body_of(const std::string& part) const {
-    return body_of_[static_cast<std::size_t>(std::ranges::find(deck_.parts, part, &Part::name) -
-                                             deck_.parts.begin())];
+    return body_of_[index(std::ranges::find(deck_.parts, part, &Part::name) - deck_.parts.begin())];
   }
   // Of contact both, and what a part does to itself is taken away again; of a support the one it is on.
   std::pair<std::size_t, std::size_t> bodies_of_column(const std::string& name) const {

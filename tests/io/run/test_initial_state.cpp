@@ -2,6 +2,7 @@
 
 #include "elements/element_state.hpp"
 #include "io/run/check_deck.hpp"
+#include "src/base/index.hpp"
 #include "tests/io/run/initial_state.hpp"
 
 namespace brio::test {
@@ -46,7 +47,7 @@ TEST_F(InitialState, OfStressAndPlasticStrainIsThatOfTheResult) {
   const std::vector<double> strain = field("pressing", "equivalent_plastic_strain").values;
   double elastic_energy = 0;
   for (std::size_t e = 0; e < strain.size(); ++e) {
-    const auto slot = static_cast<std::size_t>(model.parts[0].element_slot[e]);
+    const auto slot = index(model.parts[0].element_slot[e]);
     const ElementSample sample = model.blocks[0].kernel.sample(model.blocks[0], model.nodes, slot, true);
     EXPECT_EQ(sample.stress.xx, stress[6 * e]);
     EXPECT_EQ(sample.stress.xz, stress[6 * e + 5]);
@@ -80,7 +81,7 @@ TEST_F(InitialState, TheStateThatWasWrittenIsRead) {
       EXPECT_EQ(block.precision == Precision::double_precision, precision == "double");
       std::vector<double> row(written.components);
       for (std::size_t e = 0; e < written.rows; ++e) {
-        read_state(block, static_cast<std::size_t>(model.parts[0].element_slot[e]), row.data());
+        read_state(block, index(model.parts[0].element_slot[e]), row.data());
         ASSERT_TRUE(std::equal(row.begin(), row.end(),
                                written.values.begin() + static_cast<std::ptrdiff_t>(e * row.size())));
       }
@@ -98,8 +99,7 @@ TEST_F(InitialState, KeepsTheMassAndTakesTheDumpThatIsNamed) {
   ASSERT_EQ(reader.times().size(), 3u);  // and that of the start
   std::vector<double> positions;
   for (std::size_t i = 0; i < first.parts[0].node.size(); ++i)
-    for (const double x :
-         std::span(first.nodes.record[static_cast<std::size_t>(first.parts[0].node[i])].position, 3))
+    for (const double x : std::span(first.nodes.record[index(first.parts[0].node[i])].position, 3))
       positions.push_back(x);
   EXPECT_EQ(largest_difference(positions, reader.field("position", 1).values), 0);
   EXPECT_GT(largest_difference(positions, reader.field("position", 2).values), 1e-6);

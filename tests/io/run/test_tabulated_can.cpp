@@ -6,6 +6,7 @@
 
 #include "io/deck/read_deck.hpp"
 #include "io/run/run_deck.hpp"
+#include "src/base/index.hpp"
 #include "src/step/advance.hpp"
 
 namespace brio {
@@ -34,12 +35,10 @@ End crush(const Deck& deck) {
   }
   End end{0, model.part_energy[0].internal, 1e9};
   for (const int node : model.parts[1].node)
-    end.plate_velocity += model.nodes.mass[static_cast<std::size_t>(node)] *
-                          model.nodes.record[static_cast<std::size_t>(node)].velocity[2] /
-                          model.parts[1].mass;
+    end.plate_velocity +=
+        model.nodes.mass[index(node)] * model.nodes.record[index(node)].velocity[2] / model.parts[1].mass;
   for (const int node : model.parts[0].node)
-    end.deepest =
-        std::min(end.deepest, -std::abs(model.nodes.record[static_cast<std::size_t>(node)].position[0]));
+    end.deepest = std::min(end.deepest, -std::abs(model.nodes.record[index(node)].position[0]));
   return end;
 }
 

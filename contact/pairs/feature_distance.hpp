@@ -56,7 +56,7 @@ struct DistanceBound {
 /// Of two hulls, none of them empty. Found to a tenth of the distance, or what few steps give.
 inline DistanceBound distance_bound(const FewPoints& first, const FewPoints& second) {
   constexpr int most_steps = 8;
-  constexpr double good_share = 0.9, rounding = 1e-12;
+  constexpr double good_share = 0.9, roundings = 1e-12;
   DistanceBound best;
   Vector3<double> nearest = first.mean() - second.mean();
   for (int step = 0; step < most_steps; ++step) {
@@ -64,7 +64,7 @@ inline DistanceBound distance_bound(const FewPoints& first, const FewPoints& sec
     if (!(square > least_square)) break;
     const Vector3<double> support = first.farthest(-1.0 * nearest) - second.farthest(nearest);
     const double height = dot(nearest, support), length = std::sqrt(square);
-    const double bound = (1 - rounding) * height / length;
+    const double bound = (1 - roundings) * height / length;
     if (bound > best.distance) best = {bound, (1 / length) * nearest};
     if (best.distance >= good_share * length) break;
     const Vector3<double> way = support - nearest;

@@ -8,26 +8,26 @@
 
 namespace brio {
 
-using Vector = Vector3<double>;
-
 namespace {
 
 double sign_of(Side side) { return side == Side::first ? 1 : -1; }
 
-Vector unit(const Vector& a) { return (1 / std::sqrt(dot(a, a))) * a; }
+Vector3<double> unit(const Vector3<double>& a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
-void span_plane(const Vector& normal, Vector (&tangent)[2]) {
+void span_plane(const Vector3<double>& normal, Vector3<double> (&tangent)[2]) {
   const double size[3] = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
   int smallest = 0;
   for (int axis = 1; axis < 3; ++axis)
     if (size[axis] < size[smallest]) smallest = axis;
-  const Vector along{smallest == 0 ? 1.0 : 0.0, smallest == 1 ? 1.0 : 0.0, smallest == 2 ? 1.0 : 0.0};
+  const Vector3<double> along{smallest == 0 ? 1.0 : 0.0, smallest == 1 ? 1.0 : 0.0,
+                              smallest == 2 ? 1.0 : 0.0};
   tangent[0] = unit(cross(along, normal));
   tangent[1] = cross(normal, tangent[0]);
 }
 
 // weight one + a b^T + c d^T
-Tensor<double> dyads(double weight, const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
+Tensor<double> dyads(double weight, const Vector3<double>& a, const Vector3<double>& b,
+                     const Vector3<double>& c, const Vector3<double>& d) {
   const double left[2][3] = {{a.x, a.y, a.z}, {c.x, c.y, c.z}};
   const double right[2][3] = {{b.x, b.y, b.z}, {d.x, d.y, d.z}};
   Tensor<double> sum;
@@ -60,20 +60,20 @@ void shift(EntryRange& range, std::size_t by) {
 }  // namespace
 
 // g^1 = g_2 x m / |g_1 x g_2|, g^2 = m x g_1 / |g_1 x g_2|.
-void set_gradients(FaceFoot& foot, std::span<const Vector> corner, std::span<const double> along,
+void set_gradients(FaceFoot& foot, std::span<const Vector3<double>> corner, std::span<const double> along,
                    std::span<const double> across) {
-  Vector g{0, 0, 0};
-  Vector h{0, 0, 0};
+  Vector3<double> g{0, 0, 0};
+  Vector3<double> h{0, 0, 0};
   for (std::size_t k = 1; k < index(foot.corners); ++k) {
     g = g + along[k] * (corner[k] - corner[0]);
     h = h + across[k] * (corner[k] - corner[0]);
   }
-  const Vector area = cross(g, h);
+  const Vector3<double> area = cross(g, h);
   const double size = std::sqrt(dot(area, area));
   assert(size > 0);
   foot.normal = (1 / size) * area;
-  const Vector dual_g = (1 / size) * cross(h, foot.normal);
-  const Vector dual_h = (1 / size) * cross(foot.normal, g);
+  const Vector3<double> dual_g = (1 / size) * cross(h, foot.normal);
+  const Vector3<double> dual_h = (1 / size) * cross(foot.normal, g);
   for (std::size_t k = 0; k < index(foot.corners); ++k)
     foot.gradient[k] = along[k] * dual_g + across[k] * dual_h;
 }
@@ -85,7 +85,8 @@ void ConstraintRows::resize(const RowCounts& counts) {
   matrix.resize(counts.matrix);
 }
 
-ConstraintRow& ConstraintRows::add_row(const Vector& normal, double gap, double friction_coefficient) {
+ConstraintRow& ConstraintRows::add_row(const Vector3<double>& normal, double gap,
+                                       double friction_coefficient) {
   ConstraintRow& added = row.emplace_back();
   added.normal = normal;
   span_plane(normal, added.tangent);
@@ -97,7 +98,7 @@ ConstraintRow& ConstraintRows::add_row(const Vector& normal, double gap, double 
   return added;
 }
 
-void ConstraintRows::add_translation(int block, double weight, const Vector& tilt) {
+void ConstraintRows::add_translation(int block, double weight, const Vector3<double>& tilt) {
   ConstraintRow& own = row.back();
   if (MatrixEntry* entry = find(matrix, own.matrix, block))
     return add_to(entry->matrix, dyads(weight, tilt, own.normal, {0, 0, 0}, {0, 0, 0}));
@@ -111,7 +112,7 @@ void ConstraintRows::add_translation(int block, double weight, const Vector& til
   ++own.translation.end;
 }
 
-void ConstraintRows::add_rotation(int block, const Vector& signed_arm) {
+void ConstraintRows::add_rotation(int block, const Vector3<double>& signed_arm) {
   ConstraintRow& own = row.back();
   if (RotationEntry* entry = find(rotation, own.rotation, block)) {
     entry->arm = entry->arm + signed_arm;
@@ -154,9 +155,9 @@ void ConstraintRows::add_turning_point(int block, int rotation_block, double hei
 // and the point foot + height n moves with the foot and with omega x height n. Where n is m or -m, that is a
 // tilt: weight v - height gradient (n . v).
 void ConstraintRows::add_solid_face(const FaceFoot& foot, double height, double sign) {
-  const Vector n = row.back().normal;
-  const Vector& m = foot.normal;
-  const Vector twist = cross(n, m);
+  const Vector3<double> n = row.back().normal;
+  const Vector3<double>& m = foot.normal;
+  const Vector3<double> twist = cross(n, m);
   double steepest = 0;
   for (int k = 0; k < foot.corners; ++k)
     steepest = std::max(steepest, dot(foot.gradient[k], foot.gradient[k]));
@@ -167,7 +168,7 @@ void ConstraintRows::add_solid_face(const FaceFoot& foot, double height, double 
       add_translation(foot.block[k], weight, (-sign * height) * foot.gradient[k]);
       continue;
     }
-    const Vector c = cross(m, foot.gradient[k]);
+    const Vector3<double> c = cross(m, foot.gradient[k]);
     add_matrix(foot.block[k],
                dyads(weight, (sign * height) * cross(n, c), m, (-0.5 * sign * height) * twist, c));
   }
@@ -185,7 +186,8 @@ void ConstraintRows::add_face(const FaceFoot& foot, double height, Side side) {
   }
 }
 
-void ConstraintRows::add_rigid_body(int translation_block, int rotation_block, const Vector& arm, Side side) {
+void ConstraintRows::add_rigid_body(int translation_block, int rotation_block, const Vector3<double>& arm,
+                                    Side side) {
   add_point(translation_block, side);
   add_rotation(rotation_block, sign_of(side) * arm);
 }
@@ -212,9 +214,9 @@ void ConstraintRows::overwrite(const RowCounts& at, const ConstraintRows& other)
   copy(other.matrix, matrix, at.matrix);
 }
 
-double RowMap::inverse_mass(const Vector& direction, std::span<const VelocityBlock> blocks) const {
+double RowMap::inverse_mass(const Vector3<double>& direction, std::span<const VelocityBlock> blocks) const {
   double sum = 0;
-  spread(direction, [&](int block, const Vector& impulse) {
+  spread(direction, [&](int block, const Vector3<double>& impulse) {
     sum += dot(impulse, blocks[index(block)].inverse_mass * impulse);
   });
   return sum;

@@ -5,8 +5,6 @@
 
 namespace brio {
 
-using Vector = Vector3<double>;
-
 namespace {
 
 constexpr std::size_t contacts_a_piece = 128;
@@ -33,7 +31,7 @@ class BlockFiller {
   }
 
  private:
-  void set(std::size_t block, const VelocityBlock& velocity, const Vector& before,
+  void set(std::size_t block, const VelocityBlock& velocity, const Vector3<double>& before,
            const BlockPlace& place) const {
     all_.block[block] = velocity;
     all_.before[block] = before;

@@ -8,8 +8,6 @@
 
 namespace brio {
 
-using Vector = Vector3<double>;
-
 namespace {
 
 /// A row is held where none of its blocks gives it more than this share, squared, of the motion that the
@@ -34,7 +32,7 @@ double frobenius_squared(const Tensor<double>& a) {
     for (int j = 0; j < 3; ++j) sum += a.m[i][j] * a.m[i][j];
   return sum;
 }
-double energy(const SymmetricTensor<double>& inverse_mass, const Vector& impulse) {
+double energy(const SymmetricTensor<double>& inverse_mass, const Vector3<double>& impulse) {
   return dot(impulse, inverse_mass * impulse);
 }
 
@@ -65,7 +63,7 @@ double entry_square(const ConstraintRow& row, const MatrixEntry& entry, const Ve
 bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<const VelocityBlock> blocks) {
   const RowMap map(rows, row);
   // \param given impulse by one along the normal of the row. \param squared its most for any direction
-  const auto moves = [&](int block, const Vector& given, double squared) {
+  const auto moves = [&](int block, const Vector3<double>& given, double squared) {
     const SymmetricTensor<double>& inverse_mass = blocks[index(block)].inverse_mass;
     return energy(inverse_mass, given) > held_share * squared * norm_bound(blocks[index(block)]);
   };

@@ -11,7 +11,6 @@ namespace brio {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Vector = Vector3<double>;
 
 namespace {
 
@@ -114,7 +113,7 @@ class Builder {
   double free_square(int node, const Vector3d& seen) const {
     if (sources_.surface.rigid_body(node) >= 0 || sources_.ties.is_tied(node)) return seen.squaredNorm();
     if (sources_.nodes.record[index(node)].inverse_mass == 0) return 0;
-    const Vector all = components(seen);
+    const Vector3<double> all = components(seen);
     return dot(all, sources_.nodes.free_translations(index(node)) * all);
   }
   bool turns(int node) const {
@@ -279,7 +278,7 @@ class Builder {
     const double area = normal_.dot(g.cross(h));
     const Vector3d dual_g = h.cross(normal_) / area, dual_h = normal_.cross(g) / area;
     for (std::size_t k = 0; k < 4; ++k) {
-      const Vector tilt = components(height * (along[k] * dual_g + across[k] * dual_h));
+      const Vector3<double> tilt = components(height * (along[k] * dual_g + across[k] * dual_h));
       const auto known = std::find_if(piece_.tilted.begin(), piece_.tilted.end(),
                                       [&](const auto& one) { return one.node == face.face->node[k]; });
       if (known == piece_.tilted.end())
@@ -290,7 +289,7 @@ class Builder {
   }
 
   // weight v + tilt (normal . v) of a node. All that follow carry the sign of their side.
-  void add_node(int node, double weight, const Vector& tilt = {0, 0, 0}) {
+  void add_node(int node, double weight, const Vector3<double>& tilt = {0, 0, 0}) {
     const Tie* tie = tie_of(node);
     const bool plain = tilt.x == 0 && tilt.y == 0 && tilt.z == 0;
     if (tie != nullptr && plain && tie->gap == 0) {

@@ -166,9 +166,9 @@ std::array<double, 2> cosine_and_sine(double degrees) {
 }
 
 /// Rodrigues' formula.
-Triple rotate(const Rotation& rotation, const Triple& p) {
+Vector rotate(const Rotation& rotation, const Vector& p) {
   const double length = std::hypot(rotation.axis[0], rotation.axis[1], rotation.axis[2]);
-  const Triple k{rotation.axis[0] / length, rotation.axis[1] / length, rotation.axis[2] / length};
+  const Vector k{rotation.axis[0] / length, rotation.axis[1] / length, rotation.axis[2] / length};
   const auto [c, s] = cosine_and_sine(rotation.degrees);
   const double along = (k[0] * p[0] + k[1] * p[1] + k[2] * p[2]) * (1 - c);
   return {c * p[0] + s * (k[1] * p[2] - k[2] * p[1]) + along * k[0],
@@ -209,8 +209,8 @@ Names node_names(const MeshFromFile& source) {
 
 }  // namespace
 
-Triple place(const Placement& placement, const Triple& point) {
-  Triple p = placement.rotate ? rotate(*placement.rotate, point) : point;
+Vector place(const Placement& placement, const Vector& point) {
+  Vector p = placement.rotate ? rotate(*placement.rotate, point) : point;
   for (std::size_t i = 0; i < 3; ++i) p[i] += placement.translate[i];
   return p;
 }

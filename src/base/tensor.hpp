@@ -2,9 +2,14 @@
 /// Small vectors and tensors on a number-like `T` (see lanes.hpp). Symmetric tensors are stored in VTK's
 /// order.
 
+#include <array>
+
 #include "src/base/lanes.hpp"
 
 namespace brio {
+
+/// As decks, results and balances hold a vector.
+using Vector = std::array<double, 3>;
 
 template <class T>
 struct Vector3 {

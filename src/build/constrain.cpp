@@ -16,7 +16,7 @@ namespace {
 /// Of the largest distance of a node from the axis of a cylindrical system: nodes nearer to it lie on it.
 constexpr double on_axis_share = 1e-6;
 
-Triple position_of(const Model& model, std::size_t node) {
+Vector position_of(const Model& model, std::size_t node) {
   const double* x = model.nodes.record[node].position;
   return {x[0], x[1], x[2]};
 }
@@ -29,7 +29,7 @@ double on_axis(const CylindricalSystem& system, const Model& model) {
 }
 
 Vector unit_normal(const RigidWall& wall) {
-  const Triple& direction = wall.normal;
+  const Vector& direction = wall.normal;
   const double size = std::sqrt(dot(direction, direction));
   if (!(size > 0)) throw BuildError("a rigid wall has a normal without length", wall.place);
   return {direction[0] / size, direction[1] / size, direction[2] / size};

@@ -58,7 +58,7 @@ class WallOverlap {
   std::vector<InitialOverlap> remove(double limit) {
     find_edges();
     std::vector<InitialOverlap> report;
-    std::vector<Triple> start;
+    std::vector<Vector> start;
     for (const NodeRecord& record : model_.nodes.record)
       start.push_back({record.position[0], record.position[1], record.position[2]});
     for (std::size_t w = 0; w < model_.walls.size(); ++w) record(w, report);
@@ -113,7 +113,7 @@ class WallOverlap {
     return rounding_of_edge * edge_[i] + rounding_of_position * largest;
   }
 
-  double way(std::size_t i, const Triple& start) const {
+  double way(std::size_t i, const Vector& start) const {
     const double* x = model_.nodes.record[i].position;
     return std::hypot(x[0] - start[0], x[1] - start[1], x[2] - start[2]);
   }
@@ -134,7 +134,7 @@ class WallOverlap {
   }
 
   /// \return whether the node was behind the wall by more than rounding.
-  bool move_out(const RigidWall& wall, std::size_t i, double limit, const Triple& start) {
+  bool move_out(const RigidWall& wall, std::size_t i, double limit, const Vector& start) {
     NodeRecord& node = model_.nodes.record[i];
     const double depth = -start_height(wall, node);
     if (!(depth > 0)) return false;

@@ -27,8 +27,8 @@ namespace brio {
 struct BoxRegion {
   static constexpr std::string_view name = "box";
   static constexpr std::string_view meaning = "inside a box";
-  Triple lower{};
-  Triple upper{};
+  Vector lower{};
+  Vector upper{};
   static constexpr auto fields() {
     return field_table(
         required("lower", &BoxRegion::lower, any_number, "corner with the least coordinates"),
@@ -42,8 +42,8 @@ struct BoxRegion {
 struct PlaneRegion {
   static constexpr std::string_view name = "plane";
   static constexpr std::string_view meaning = "near a plane";
-  Triple point{};
-  Triple normal{};
+  Vector point{};
+  Vector normal{};
   double tolerance = 0;
   static constexpr auto fields() {
     return field_table(
@@ -58,7 +58,7 @@ struct PlaneRegion {
 struct SphereRegion {
   static constexpr std::string_view name = "sphere";
   static constexpr std::string_view meaning = "inside a sphere";
-  Triple centre{};
+  Vector centre{};
   double radius = 0;
   static constexpr auto fields() {
     return field_table(required("centre", &SphereRegion::centre, any_number, "centre"),
@@ -109,8 +109,8 @@ struct Parameters {
 
 /// Spin of a part or set about an axis through a point.
 struct Spin {
-  Triple point{};
-  Triple angular_velocity{};
+  Vector point{};
+  Vector angular_velocity{};
   static constexpr auto fields() {
     return field_table(
         required("point", &Spin::point, any_number, "a point of the axis"),
@@ -121,8 +121,8 @@ struct Spin {
 /// In a deck `part: can` or `set: can.top`, and `velocity`, `spin` or both.
 /// Velocity away from an axis, the same at any distance.
 struct RadialVelocity {
-  Triple point{};
-  Triple axis{};
+  Vector point{};
+  Vector axis{};
   double speed = 0;
   static constexpr auto fields() {
     return field_table(required("point", &RadialVelocity::point, any_number, "a point of the axis"),
@@ -137,7 +137,7 @@ struct RadialVelocity {
 
 struct InitialCondition {
   NodeSelection where;
-  Triple velocity{};
+  Vector velocity{};
   std::optional<Spin> spin;
   std::optional<RadialVelocity> radial{};
   std::optional<StateSource> from{};
@@ -177,9 +177,9 @@ struct PrescribedMotion {
 struct RigidWall {
   static constexpr std::string_view name = "rigid_wall";
   static constexpr std::string_view meaning = "a plane that nodes cannot pass";
-  Triple point{};
-  Triple normal{};
-  Triple velocity{};
+  Vector point{};
+  Vector normal{};
+  Vector velocity{};
   double friction = 0;
   std::string place{};  ///< in the deck
   std::string label{};  ///< its name in the deck; may be empty
@@ -203,7 +203,7 @@ using BoundaryCondition = std::variant<PrescribedMotion, RigidWall>;
 struct Gravity {
   static constexpr std::string_view name = "gravity";
   static constexpr std::string_view meaning = "acceleration of everything";
-  Triple acceleration{};
+  Vector acceleration{};
   Curve factor{{{0, 1}}};
   std::string system{};
   std::string place{};  ///< in the deck
@@ -220,7 +220,7 @@ struct NodalForce {
   static constexpr std::string_view name = "force";
   static constexpr std::string_view meaning = "the same force on every node of a set";
   NodeSelection where;
-  Triple force{};
+  Vector force{};
   Curve factor{{{0, 1}}};
   std::string system{};
   static constexpr auto fields() {
@@ -236,7 +236,7 @@ struct NodalMoment {
   static constexpr std::string_view name = "moment";
   static constexpr std::string_view meaning = "the same moment on every node of a set, or on a rigid part";
   NodeSelection where;
-  Triple moment{};
+  Vector moment{};
   Curve factor{{{0, 1}}};
   std::string system{};
   static constexpr auto fields() {

@@ -46,7 +46,7 @@ std::string_view WedgeMesh::fault() const {
 std::string_view ParticleMesh::fault() const {
   if (box.has_value() + cylinder.has_value() + sphere.has_value() != 1)
     return "the shape is not said once; accepted is one of box, cylinder and sphere";
-  Triple cells{};
+  Vector cells{};
   double spacing = 0;
   if (box) cells = box->size, spacing = box->spacing;
   if (cylinder) {

@@ -10,11 +10,10 @@
 #include <variant>
 
 #include "src/base/fields.hpp"
+#include "src/base/tensor.hpp"
 #include "src/deck/mesh.hpp"
 
 namespace brio {
-
-using Triple = std::array<double, 3>;
 
 /// Nodes and elements are counted by int.
 constexpr std::string_view fault_of_size(std::int64_t a, std::int64_t b, std::int64_t c) {
@@ -23,14 +22,14 @@ constexpr std::string_view fault_of_size(std::int64_t a, std::int64_t b, std::in
   return fits ? std::string_view{} : "the mesh is too fine; at most 134217728 elements are accepted a part";
 }
 
-constexpr bool is_zero(const Triple& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+constexpr bool is_zero(const Vector& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
 /// Hexahedra filling a box centred on the origin. Sets: xmin xmax ymin ymax zmin zmax, bottom (= zmin), top,
 /// all.
 struct BoxMesh {
   static constexpr std::string_view name = "box";
   static constexpr std::string_view meaning = "hexahedra filling a box centred on the origin";
-  Triple size{};
+  Vector size{};
   std::array<int, 3> elements{};
   static constexpr auto fields() {
     return field_table(required("size", &BoxMesh::size, positive, "edge lengths along x, y, z"),
@@ -197,8 +196,8 @@ struct HollowSphereMesh {
 struct LineMesh {
   static constexpr std::string_view name = "line";
   static constexpr std::string_view meaning = "beams of equal length on a straight line";
-  Triple start{};
-  Triple end{};
+  Vector start{};
+  Vector end{};
   int elements = 0;
   static constexpr auto fields() {
     return field_table(required("start", &LineMesh::start, any_number, "one end"),
@@ -213,7 +212,7 @@ struct LineMesh {
 
 /// Sets: xmin xmax ymin ymax zmin zmax (the outermost layers), bottom (= zmin), top, all.
 struct ParticleBox {
-  Triple size{};
+  Vector size{};
   double spacing = 0;
   static constexpr auto fields() {
     return field_table(required("size", &ParticleBox::size, positive, "edge lengths along x, y, z"),

@@ -16,7 +16,7 @@ Vector position_of(const Nodes& nodes, std::size_t node) {
 
 }  // namespace
 
-std::size_t nearest_node(const Triple& point, const std::optional<std::string>& part, const Deck& deck,
+std::size_t nearest_node(const Vector& point, const std::optional<std::string>& part, const Deck& deck,
                          std::span<const PartInModel> parts, const Nodes& nodes) {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();

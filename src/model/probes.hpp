@@ -20,7 +20,7 @@ struct ProbeInRun {
 
 /// The node nearest to a point, the first of equals. \param part empty: of all parts
 /// \throws BuildError where the part is not there
-std::size_t nearest_node(const Triple& point, const std::optional<std::string>& part, const Deck& deck,
+std::size_t nearest_node(const Vector& point, const std::optional<std::string>& part, const Deck& deck,
                          std::span<const PartInModel> parts, const Nodes& nodes);
 
 /// The nodes nearest to the probes. \throws BuildError where a part is not there.

@@ -14,10 +14,9 @@
 #include <span>
 
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
-
-using Vector = std::array<double, 3>;
 
 inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};

@@ -66,7 +66,7 @@ class Waiting {
   AlignedBuffer<NodeVector> angular_;
   std::vector<RigidMotion> motion_;
   std::vector<Motion> motions_;
-  std::vector<Triple> wall_velocity_;
+  std::vector<Vector> wall_velocity_;
 };
 
 void stop_all(Model& model) {

@@ -31,7 +31,7 @@ inline Hex8 inviscid_hex8() {
   return element;
 }
 
-inline Part box(std::string name, Triple size, std::array<int, 3> elements, Triple centre, Element element,
+inline Part box(std::string name, Vector size, std::array<int, 3> elements, Vector centre, Element element,
                 std::string material = "material") {
   BoxMesh mesh;
   mesh.size = size;
@@ -48,7 +48,7 @@ inline PrescribedMotion fix(std::string set, std::vector<int> axes) {
   return motion;
 }
 
-inline InitialCondition moving(std::string part, Triple velocity) {
+inline InitialCondition moving(std::string part, Vector velocity) {
   InitialCondition condition;
   condition.where.set = std::move(part);
   condition.velocity = velocity;

@@ -10,12 +10,12 @@
 
 namespace brio::test {
 
-using Vector = Vector3<double>;
+inline double norm(const Vector3<double>& a) { return std::sqrt(dot(a, a)); }
+inline Vector3<double> unit(const Vector3<double>& a) { return (1 / norm(a)) * a; }
 
-inline double norm(const Vector& a) { return std::sqrt(dot(a, a)); }
-inline Vector unit(const Vector& a) { return (1 / norm(a)) * a; }
-
-inline VelocityBlock moving(double mass, const Vector& velocity) { return {velocity, isotropic(1 / mass)}; }
+inline VelocityBlock moving(double mass, const Vector3<double>& velocity) {
+  return {velocity, isotropic(1 / mass)};
+}
 
 class RandomNumbers {
  public:
@@ -25,12 +25,12 @@ class RandomNumbers {
     return std::uniform_real_distribution<double>(least, most)(engine_);
   }
   int below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(engine_); }
-  Vector vector(double size = 1) {
+  Vector3<double> vector(double size = 1) {
     const double x = number(size);
     const double y = number(size);
     return {x, y, number(size)};
   }
-  Vector direction() { return unit(vector() + Vector{0, 0, 1e-3}); }
+  Vector3<double> direction() { return unit(vector() + Vector3<double>{0, 0, 1e-3}); }
   std::mt19937& engine() { return engine_; }
 
  private:
@@ -42,8 +42,8 @@ struct RowScene {
   ConstraintRows rows;
   std::vector<VelocityBlock> blocks;
 
-  Vector momentum() const {
-    Vector sum{0, 0, 0};
+  Vector3<double> momentum() const {
+    Vector3<double> sum{0, 0, 0};
     for (const VelocityBlock& block : blocks) sum = sum + (1 / block.inverse_mass.xx) * block.velocity;
     return sum;
   }
@@ -53,7 +53,7 @@ struct RowScene {
       if (block.inverse_mass.xx > 0) sum += 0.5 * dot(block.velocity, block.velocity) / block.inverse_mass.xx;
     return sum;
   }
-  Vector relative_velocity(std::size_t i) const {
+  Vector3<double> relative_velocity(std::size_t i) const {
     return RowMap(rows, rows.row[i]).relative_velocity(blocks);
   }
 };
@@ -68,7 +68,8 @@ inline SolveReport solve(RowScene& scene, const SolveOptions& options, int threa
 }
 
 /// The row of a node on a wall.
-inline ConstraintRow& add_wall_row(RowScene& scene, int block, const Vector& normal, double friction = 0) {
+inline ConstraintRow& add_wall_row(RowScene& scene, int block, const Vector3<double>& normal,
+                                   double friction = 0) {
   ConstraintRow& row = scene.rows.add_row(normal, 0, friction);
   scene.rows.add_point(block, Side::first);
   return row;
@@ -76,14 +77,15 @@ inline ConstraintRow& add_wall_row(RowScene& scene, int block, const Vector& nor
 
 /// Foot of a random quadrilateral: its corners are the blocks from `first` on.
 struct RandomFace {
-  std::vector<Vector> corner;
+  std::vector<Vector3<double>> corner;
   FaceFoot foot;
-  Vector point;
+  Vector3<double> point;
 
   RandomFace(RandomNumbers& random, int first, int corners = 4) {
-    const Vector o = random.vector(3);
-    corner = {o, o + Vector{1, 0, 0} + random.vector(0.2), o + Vector{1, 1, 0} + random.vector(0.2),
-              o + Vector{0, 1, 0} + random.vector(0.2)};
+    const Vector3<double> o = random.vector(3);
+    corner = {o, o + Vector3<double>{1, 0, 0} + random.vector(0.2),
+              o + Vector3<double>{1, 1, 0} + random.vector(0.2),
+              o + Vector3<double>{0, 1, 0} + random.vector(0.2)};
     const double u = random.between(0.05, corners == 4 ? 0.95 : 0.45);
     const double v = random.between(0.05, corners == 4 ? 0.95 : 0.45);
     double along[4] = {v - 1, 1 - v, v, -v};

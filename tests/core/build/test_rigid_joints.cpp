@@ -177,13 +177,13 @@ TEST(RigidJoints, AShellIsClampedToARigidPart) {
 Deck struck_pad(Joint joint, bool excluded, bool from_side) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
-  const Triple place = from_side ? Triple{0.75, 0.1, 0.3} : Triple{0.3, 0.1, 0.7};
+  const Vector place = from_side ? Vector{0.75, 0.1, 0.3} : Vector{0.3, 0.1, 0.7};
   deck.parts = {box("block", {1, 1, 0.5}, {2, 2, 1}, {0, 0, 0}, Rigid{}),
                 box("pad", {1, 1, 0.25}, {joint == Joint::merged ? 2 : 3, 2, 1}, {0, 0, 0.375}, hex8()),
                 box("hammer", {0.3, 0.3, 0.3}, {2, 2, 2}, place, hex8())};
   deck.connections = {joint == Joint::merged ? Connection(Merge{{"block", "pad"}, 1e-6, ""})
                                              : Connection(tied("pad.zmin", "block"))};
-  deck.initial_conditions = {moving("hammer", from_side ? Triple{-10, 1, 0} : Triple{0, 1, -10})};
+  deck.initial_conditions = {moving("hammer", from_side ? Vector{-10, 1, 0} : Vector{0, 1, -10})};
   deck.contact.emplace();
   deck.contact->options.friction = 0.3;
   if (excluded) deck.contact->exclude = {"block"};

@@ -195,7 +195,7 @@ Deck failing(const TieFailure& failure) {
 }
 
 /// On the upper side, growing to `force` a node at the end of the run.
-Deck pulled(const TieFailure& failure, Triple force) {
+Deck pulled(const TieFailure& failure, Vector force) {
   Deck deck = failing(failure);
   NodalForce pull;
   pull.where.set = "fine.zmax";
@@ -220,8 +220,8 @@ double time_of_failure(const Deck& deck, Model& model) {
 TEST(TiesThatFail, ComeOffAtTheirTensionOrShear) {
   const double end = failing({}).time.end;
   for (const bool contact : {false, true})
-    for (const auto& [failure, force] : {std::pair(TieFailure{.normal_force = 6e3}, Triple{0, 0, 1e4}),
-                                         std::pair(TieFailure{.shear_force = 6e3}, Triple{1e4, 0, 0})}) {
+    for (const auto& [failure, force] : {std::pair(TieFailure{.normal_force = 6e3}, Vector{0, 0, 1e4}),
+                                         std::pair(TieFailure{.shear_force = 6e3}, Vector{1e4, 0, 0})}) {
       SCOPED_TRACE(std::to_string(force[0]) + (contact ? " contact" : ""));
       Deck deck = pulled(failure, force);
       if (contact) deck.contact.emplace();

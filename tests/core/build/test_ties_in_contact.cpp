@@ -82,7 +82,7 @@ struct Hit {
 };
 
 /// A box falls on the middle of the scene.
-Hit hit(Deck deck, Triple centre, Triple velocity, int threads = 1) {
+Hit hit(Deck deck, Vector centre, Vector velocity, int threads = 1) {
   Part ball = box("ball", {0.3, 0.3, 0.3}, {2, 2, 2}, centre, hex8());
   ball.placement.rotate = Rotation{{1, 2, 0}, 20};
   deck.parts.push_back(ball);

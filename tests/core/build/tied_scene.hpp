@@ -50,7 +50,7 @@ inline void set_velocities(Model& model, const Eigen::Vector3d& constant, const 
   model.energy.kinetic_start = energy;
 }
 
-inline Part plate(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Triple centre,
+inline Part plate(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Vector centre,
                   double thickness) {
   Shell4 shell;
   shell.thickness = thickness;

@@ -20,7 +20,7 @@ struct Pose {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 
-  Triple along(const Triple& direction) const {
+  Vector along(const Vector& direction) const {
     const Eigen::Vector3d turned = turn * Eigen::Vector3d(direction[0], direction[1], direction[2]);
     return {turned[0], turned[1], turned[2]};
   }
@@ -56,7 +56,7 @@ Gravity down() {
   return result;
 }
 
-double speed_along(const Model& model, std::size_t part, const Triple& direction) {
+double speed_along(const Model& model, std::size_t part, const Vector& direction) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) sum += direction[axis] * mean_velocity(model, part, axis);
   return sum;

@@ -24,7 +24,7 @@ Gravity gravity(double acceleration) {
 }
 
 // A block on z = 0 that moves along x; what it lies on is added by the caller.
-Deck sliding_block(const Triple& velocity) {
+Deck sliding_block(const Vector& velocity) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
   deck.parts = {box("block", {1, 1, 0.5}, {4, 4, 2}, {0, 0, 0.25}, hex8())};
@@ -66,7 +66,7 @@ struct Slide {
 };
 
 // Slides until well after the block stands.
-Slide slide(Deck deck, const Triple& velocity, double friction) {
+Slide slide(Deck deck, const Vector& velocity, double friction) {
   const double speed = std::hypot(velocity[0], velocity[1]);
   const double stop = speed / (friction * gravity_acceleration);
   deck.time.end = 3 * stop;
@@ -98,7 +98,7 @@ void expect_coulomb(const Slide& result, double speed, double friction) {
 }
 
 TEST(SlidingBlock, StopsOnAFloorAfterTheDistanceOfCoulomb) {
-  for (const Triple& velocity : {Triple{4, 0, 0}, Triple{2.4, -3.2, 0}}) {
+  for (const Vector& velocity : {Vector{4, 0, 0}, Vector{2.4, -3.2, 0}}) {
     const Slide result = slide(on_floor(sliding_block(velocity), 0.3), velocity, 0.3);
     expect_coulomb(result, 4, 0.3);
   }
@@ -184,7 +184,7 @@ TEST(SlidingBlock, PairOfAPartOutsideOfContactIsRefused) {
 }
 
 TEST(SlidingBlock, StopsOnARigidWallAfterTheDistanceOfCoulomb) {
-  for (const Triple& velocity : {Triple{4, 0, 0}, Triple{2.4, -3.2, 0}}) {
+  for (const Vector& velocity : {Vector{4, 0, 0}, Vector{2.4, -3.2, 0}}) {
     const Slide result = slide(on_wall(sliding_block(velocity), 0.3), velocity, 0.3);
     expect_coulomb(result, 4, 0.3);
   }
@@ -193,7 +193,7 @@ TEST(SlidingBlock, StopsOnARigidWallAfterTheDistanceOfCoulomb) {
 // ---- seams
 
 // Moves the inner nodes of a floor within its plane by up to `share` of an edge, each column alike.
-void jitter(Mesh& mesh, const Triple& low, const Triple& high, double share, double edge) {
+void jitter(Mesh& mesh, const Vector& low, const Vector& high, double share, double edge) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> shift(-share * edge, share * edge);
   for (std::array<double, 3>& x : mesh.position) {

@@ -72,11 +72,11 @@ inline double touching_distance(Kind kind) {
 inline Deck impact_of(Part upper, Part lower, double touching, const Material& material = elastic(0.3)) {
   lower.placement.rotate = Rotation{{0.3, 1, 0}, 11};
   upper.placement.rotate = Rotation{{1, 0.4, 0.7}, 37};
-  Triple lowest{0, 0, HUGE_VAL};
-  for (const Triple& x : generate_mesh(upper.mesh, upper.placement).position)
+  Vector lowest{0, 0, HUGE_VAL};
+  for (const Vector& x : generate_mesh(upper.mesh, upper.placement).position)
     if (x[2] < lowest[2]) lowest = x;
   double top = -HUGE_VAL;
-  for (const Triple& x : generate_mesh(lower.mesh, lower.placement).position) top = std::max(top, x[2]);
+  for (const Vector& x : generate_mesh(lower.mesh, lower.placement).position) top = std::max(top, x[2]);
   upper.placement.translate = {0.02 - lowest[0], 0.013 - lowest[1], top + touching - lowest[2]};
   Deck deck;
   deck.materials = {{"material", material}};
@@ -108,7 +108,7 @@ inline Deck all_kinds_at_once() {
   sheet.deletion->inverted = true;
   sheet.deletion->debris_radius = 0.01;
   deck.parts = {sheet};
-  const std::array<Triple, 6> places{{{-0.6, -0.4, 0.4},
+  const std::array<Vector, 6> places{{{-0.6, -0.4, 0.4},
                                       {0, -0.45, 0.4},
                                       {0.6, -0.4, 0.45},
                                       {-0.6, 0.4, 0.3},
@@ -140,7 +140,7 @@ struct Units {
 inline constexpr std::array<Units, 4> powers_of_two{
     {{1024, 1, 1}, {1, 0.0078125, 1}, {1, 1, 4096}, {0.0009765625, 0.125, 0.00048828125}}};
 
-inline Triple scaled(const Triple& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
+inline Vector scaled(const Vector& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
 
 inline Material in_units(Material material, const Units& u) {
   std::visit(

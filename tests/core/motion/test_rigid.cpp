@@ -28,7 +28,7 @@ Deck lone_box(double end, double step) {
   return deck;
 }
 
-InitialCondition spinning(std::string part, Triple velocity, Triple point, Triple angular_velocity) {
+InitialCondition spinning(std::string part, Vector velocity, Vector point, Vector angular_velocity) {
   InitialCondition condition = moving(std::move(part), velocity);
   condition.spin = Spin{point, angular_velocity};
   return condition;
@@ -350,7 +350,7 @@ TEST(RigidBodyOnAWall, StopsFlatAndTurnsWhenHitBesideItsCentre) {
 }
 
 TEST(RigidBodyOnAWall, StopsAfterTheDistanceOfCoulomb) {
-  for (const Triple& velocity : {Triple{4, 0, 0}, Triple{2.4, -3.2, 0}}) {
+  for (const Vector& velocity : {Vector{4, 0, 0}, Vector{2.4, -3.2, 0}}) {
     Deck deck = lone_box(0.32, 1e-4);
     deck.parts[0] = box("box", {1, 1, 0.5}, {4, 4, 2}, {0, 0, 0.25}, Rigid{});
     deck.initial_conditions = {moving("box", velocity)};

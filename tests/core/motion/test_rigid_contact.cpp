@@ -49,8 +49,8 @@ Deck askew(const Units& units = {}) {
   Elastic law = elastic(0.3);
   law.density *= units.mass / (units.length * units.length * units.length);
   law.youngs_modulus *= units.mass / (units.length * units.time * units.time);
-  const auto scaled = [](const Triple& v, double factor) {
-    return Triple{v[0] * factor, v[1] * factor, v[2] * factor};
+  const auto scaled = [](const Vector& v, double factor) {
+    return Vector{v[0] * factor, v[1] * factor, v[2] * factor};
   };
   Deck deck;
   deck.materials = {{"material", law}};
@@ -128,7 +128,7 @@ TEST(RigidContact, AllocatesNothingInTheStep) {
   wall.point = {0, 0, -0.22};
   wall.friction = 0.2;
   deck.boundary_conditions = {wall};
-  for (Triple* velocity : {&deck.initial_conditions[0].velocity, &deck.initial_conditions[1].velocity})
+  for (Vector* velocity : {&deck.initial_conditions[0].velocity, &deck.initial_conditions[1].velocity})
     (*velocity)[2] = -10;
   Model model = build_model(deck);
   ThreadTeam team(2);

@@ -132,7 +132,7 @@ TEST(SpringSets, BreakOneByOneAtTheirShareOfTheStrength) {
 TEST(SpringSets, JoinASetWithOneNode) {
   Deck deck = mounted(SpringValues::total);
   deck.springs[0].pairing.reset();
-  deck.springs[0].to = {.point = Triple{-0.9, 0, 0}, .part = "wall"};
+  deck.springs[0].to = {.point = Vector{-0.9, 0, 0}, .part = "wall"};
   deck.springs[0].stiffness = 0;
   deck.springs[0].force = {{-1, -90}, {0, 0}, {1, 9}};
   deck.springs[0].damping = 18;
@@ -172,7 +172,7 @@ TEST(SpringSets, OfUnequalSizeAreRefusedInOrder) {
 }
 
 TEST(SpringSets, SayWhatTheyAccept) {
-  Spring spring{.name = "mount", .from = all_of("a.b"), .to = {.point = Triple{0, 0, 0}}};
+  Spring spring{.name = "mount", .from = all_of("a.b"), .to = {.point = Vector{0, 0, 0}}};
   spring.stiffness = 1;
   EXPECT_EQ(spring.fault(), "");
   spring.pairing = SpringPairing::order;

@@ -24,10 +24,10 @@ constexpr double mass = 500;  // a rigid box of 1 x 1 x 0.5
 constexpr double stiffness = 2e4;
 const double frequency = std::sqrt(stiffness / mass);
 
-SpringEnd at_node(Triple point, std::optional<std::string> part = {}) {
+SpringEnd at_node(Vector point, std::optional<std::string> part = {}) {
   return {.point = point, .part = std::move(part)};
 }
-SpringEnd fixed_at(Triple point) { return {.point = point, .fixed = true}; }
+SpringEnd fixed_at(Vector point) { return {.point = point, .fixed = true}; }
 
 Spring spring(SpringEnd from, SpringEnd to) {
   Spring made{.name = "strut", .from = std::move(from), .to = std::move(to)};
@@ -35,7 +35,7 @@ Spring spring(SpringEnd from, SpringEnd to) {
   return made;
 }
 
-Part rigid_box(std::string name, Triple centre) {
+Part rigid_box(std::string name, Vector centre) {
   return box(std::move(name), {1, 1, 0.5}, {2, 2, 2}, centre, Rigid{});
 }
 
@@ -308,7 +308,7 @@ TEST(Springs, DoNotExistWhereNoDeckNamesThem) {
 
 // ---- moments
 
-NodalMoment moment_on(std::string set, Triple moment) {
+NodalMoment moment_on(std::string set, Vector moment) {
   NodalMoment load;
   load.where.set = std::move(set);
   load.moment = moment;

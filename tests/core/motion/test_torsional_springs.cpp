@@ -23,12 +23,12 @@ constexpr double box_inertia = box_mass * 2 / 12.;  // about z
 constexpr double twist = 2e4;                       // moment per angle
 const double hinge_rate = std::sqrt(twist / box_inertia);
 
-SpringEnd near(Triple point, std::optional<std::string> part = {}) {
+SpringEnd near(Vector point, std::optional<std::string> part = {}) {
   return {.point = point, .part = std::move(part)};
 }
-SpringEnd ground(Triple point = {5, 5, 5}) { return {.point = point, .fixed = true}; }
+SpringEnd ground(Vector point = {5, 5, 5}) { return {.point = point, .fixed = true}; }
 
-Spring torsional(SpringEnd from, SpringEnd to, Triple axis) {
+Spring torsional(SpringEnd from, SpringEnd to, Vector axis) {
   Spring made{.name = "hinge", .from = std::move(from), .to = std::move(to)};
   made.axis = axis;
   made.stiffness = twist;
@@ -36,11 +36,11 @@ Spring torsional(SpringEnd from, SpringEnd to, Triple axis) {
   return made;
 }
 
-Part heavy_box(std::string name, Triple centre) {
+Part heavy_box(std::string name, Vector centre) {
   return box(std::move(name), {1, 1, 0.5}, {2, 2, 2}, centre, Rigid{});
 }
 
-InitialCondition thrown_and_spinning(std::string part, Triple centre, Triple velocity, Triple spin) {
+InitialCondition thrown_and_spinning(std::string part, Vector centre, Vector velocity, Vector spin) {
   InitialCondition condition = moving(std::move(part), velocity);
   condition.spin = Spin{centre, spin};
   return condition;

@@ -179,7 +179,7 @@ Deck beam_deck() {
   deck.materials = {{"material", elastic(0.3)}};
   Beam2 beam;
   beam.section = RectangleSection{0.02, 0.05};
-  beam.orientation = Triple{0, 0, 1};
+  beam.orientation = Vector{0, 0, 1};
   LineMesh mesh;
   mesh.start = {-0.5, 0, 0};
   mesh.end = {0.5, 0, 0};

@@ -132,7 +132,7 @@ TEST(Strain, IsNotANumberInBeamsAndRigidParts) {
   Deck deck = brick_deck();
   Beam2 beam;
   beam.section = RectangleSection{0.02, 0.05};
-  beam.orientation = Triple{0, 0, 1};
+  beam.orientation = Vector{0, 0, 1};
   LineMesh mesh;
   mesh.start = {-5, 0, 0};
   mesh.end = {-4, 0, 0};

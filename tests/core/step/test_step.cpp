@@ -25,7 +25,7 @@ Deck bar(int elements, double velocity, const Hex8& element) {
   return deck;
 }
 
-RigidWall wall(Triple point, Triple normal) {
+RigidWall wall(Vector point, Vector normal) {
   RigidWall result;
   result.point = point;
   result.normal = normal;

@@ -119,7 +119,7 @@ TEST(SkewContact, AnEdgeOfTwoPlanesThatIsStruckStaysOnBoth) {
                 1e-12 * size);
 }
 
-Part panel(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Triple centre) {
+Part panel(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Vector centre) {
   Shell4 shell;
   shell.thickness = 0.02;
   Part part{std::move(name), PlateMesh{size, elements}, {}, shell, "material"};

@@ -27,7 +27,7 @@ PrescribedMotion moved(std::string set, MotionKind kind, int axis, Curve curve, 
   return motion;
 }
 
-NodalForce pushing(std::string set, Triple force) {
+NodalForce pushing(std::string set, Vector force) {
   NodalForce load;
   load.where.set = std::move(set);
   load.force = force;
@@ -35,7 +35,7 @@ NodalForce pushing(std::string set, Triple force) {
   return load;
 }
 
-NodalMoment turning(std::string set, Triple moment) {
+NodalMoment turning(std::string set, Vector moment) {
   NodalMoment load;
   load.where.set = std::move(set);
   load.moment = moment;

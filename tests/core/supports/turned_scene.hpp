@@ -15,7 +15,7 @@
 
 namespace brio::test {
 
-inline const Triple turn_axis{1, 2, 3};
+inline const Vector turn_axis{1, 2, 3};
 inline constexpr double turn_degrees = 37;
 
 inline Eigen::Matrix3d turn_matrix() {
@@ -23,7 +23,7 @@ inline Eigen::Matrix3d turn_matrix() {
                            Eigen::Vector3d(turn_axis.data()).normalized())
       .toRotationMatrix();
 }
-inline Triple turned(const Triple& v) {
+inline Vector turned(const Vector& v) {
   const Eigen::Vector3d turned = turn_matrix() * Eigen::Vector3d(v.data());
   return {turned[0], turned[1], turned[2]};
 }
@@ -39,7 +39,7 @@ inline Rotation turned(const std::optional<Rotation>& first) {
 
 /// The scene turned about the origin. \pre sets are those of parts
 inline Deck turned(Deck deck) {
-  deck.coordinate_systems = {{"turned", RectangularSystem{turned(Triple{1, 0, 0}), turned(Triple{0, 1, 0})}}};
+  deck.coordinate_systems = {{"turned", RectangularSystem{turned(Vector{1, 0, 0}), turned(Vector{0, 1, 0})}}};
   for (Part& part : deck.parts) {
     part.placement.rotate = turned(part.placement.rotate);
     part.placement.translate = turned(part.placement.translate);
@@ -53,7 +53,7 @@ inline Deck turned(Deck deck) {
   }
   for (BoundaryCondition& condition : deck.boundary_conditions) {
     if (auto* wall = std::get_if<RigidWall>(&condition)) {
-      for (Triple* vector : {&wall->point, &wall->normal, &wall->velocity}) *vector = turned(*vector);
+      for (Vector* vector : {&wall->point, &wall->normal, &wall->velocity}) *vector = turned(*vector);
     } else {
       std::get<PrescribedMotion>(condition).system = "turned";
     }

@@ -20,7 +20,7 @@ ElasticPlastic soft() {
           .hardening_modulus = 1e7};
 }
 
-InitialCondition thrown(Triple lower, Triple upper, Triple velocity) {
+InitialCondition thrown(Vector lower, Vector upper, Vector velocity) {
   InitialCondition condition;
   condition.where.region = BoxRegion{lower, upper};
   condition.velocity = velocity;

@@ -59,7 +59,7 @@ std::vector<double> pushed(const Mesh& mesh) {
   deck.parts = {{"part", BoxMesh{}, {}, element, "steel"}};
   InitialCondition push;
   push.where.set = "part." + mesh.node_sets.begin()->first;
-  push.velocity = Triple{30, 20, 10};
+  push.velocity = Vector{30, 20, 10};
   deck.initial_conditions = {push};
   deck.time.end = 1;
   Model model = build(deck, std::span(&mesh, 1));

@@ -14,7 +14,7 @@ bool can_be_damaged(const Model& model);
 /// Elements deleted until now.
 std::int64_t deleted_so_far(const Model& model);
 
-/// Momenta of now into the balance.
+/// Present momenta into the balance.
 void balance_momentum(Model& model);
 
 /// Of each node its number in the results, by parts; -1 of those that no part names.

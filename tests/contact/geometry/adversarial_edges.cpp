@@ -217,7 +217,7 @@ double size_of(const EdgeQuery& query) {
   return std::max(along(query.a, 0).norm(), along(query.b, 0).norm());
 }
 
-// Multiples of a power of two keep edges_of_lattice hits exact; others are rounded like any mesh far away.
+// Multiples of a power of two keep lattice hits exact; others are rounded like any mesh far away.
 EdgeQuery far_from_origin(Random& random) {
   EdgeQuery query = any_aimed(random);
   const Vector3d far =
@@ -355,12 +355,10 @@ EdgeQuery plain(EdgeFamily family, Random& random) {
 
 std::string_view name_of(EdgeFamily family) {
   static constexpr std::array<std::string_view, edge_family_count> names = {
-      "random",          "crossing",     "end on inside",
-      "end on end",      "near miss",    "edges_of_lattice",
-      "grazing",         "parallel",     "becoming parallel",
-      "coplanar",        "shared end",   "sliver",
-      "far from origin", "moving frame", "fast",
-      "still",           "radius",       "radius near miss"};
+      "random",     "crossing", "end on inside",   "end on end",        "near miss",
+      "lattice",    "grazing",  "parallel",        "becoming parallel", "coplanar",
+      "shared end", "sliver",   "far from origin", "moving frame",      "fast",
+      "still",      "radius",   "radius near miss"};
   return names[index(family)];
 }
 

@@ -72,7 +72,7 @@ bool side_was_seen(const EdgeQuery& query, const EdgeContact& contact) {
   return false;
 }
 
-// A unit vector; without a distance, place_along the common perpendicular to the side that a comes from.
+// A unit vector; without a distance, along the common perpendicular to the side that a comes from.
 bool normal_is_right(const EdgeQuery& query, const EdgeContact& contact, double tolerance) {
   if (std::abs(contact.normal.norm() - 1) > 1e-14) return false;
   const bool insides =

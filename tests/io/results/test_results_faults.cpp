@@ -426,6 +426,25 @@ TEST(ResultFolder, ResultFileTakenAwayDuringTheRunIsAnError) {
   EXPECT_EQ(verified_dumps(run.folder / "moved"), 1);
 }
 
+/// HDF5 opens one file once for both: what one takes back is taken from the other too.
+TEST(Transaction, OfAFileThatAnotherHasTakenBackIsAnError) {
+  const Folder folder;
+  const auto path = folder / "table.h5";
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.create_table("/table", {H5T_IEEE_F64LE, 0, 1});
+    file.close();
+  }
+  Hdf5File kept = Hdf5File::open_to_append(path);
+  { const Hdf5File taken_back = Hdf5File::open_to_append(path); }
+  const double value = 1;
+  const std::string message = message_of_file_error([&] {
+    kept.append_rows("/table", 1, H5T_NATIVE_DOUBLE, &value);
+    kept.commit();
+  });
+  EXPECT_NE(message.find("table.h5: cannot"), std::string::npos) << message;
+}
+
 /// One row a chunk, so that index nodes of one and two levels split (the first at row 64, the second near row
 /// 3700), and a commit, but for the rows between. Where that takes more operations than usual, the process is
 /// killed in place of every one of them.

@@ -233,8 +233,8 @@ struct ElementCopy {
 };
 
 template <class Kind, class Law, Floating Real>
-void copy_element(const Block& block, const Nodes& nodes, std::size_t e, std::size_t points,
-                  ElementCopy<Kind, Law>& copy) {
+BRIO_INLINE void copy_element(const Block& block, const Nodes& nodes, std::size_t e, std::size_t points,
+                              ElementCopy<Kind, Law>& copy) {
   using Layout = PackLayout<Kind, Law, Real>;
   constexpr int width = lane_count<Real>;
   const std::byte* pack = block.state.data() + (e / width) * block.pack_bytes;

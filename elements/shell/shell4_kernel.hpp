@@ -139,8 +139,8 @@ struct Shell4Kernel : Shell4 {
   }
 
   template <class Law>
-  ElementSample sample(const RotatingNodalMotion<double, 4>& motion, const Law&,
-                       const Header<double, Law>& header, const Point<double, Law>* point) const {
+  BRIO_INLINE ElementSample sample(const RotatingNodalMotion<double, 4>& motion, const Law&,
+                                   const Header<double, Law>& header, const Point<double, Law>* point) const {
     ElementSample out;
     const ThicknessRule& points = rule();
     ShellTensor<double> mean{};
@@ -187,8 +187,8 @@ struct Shell4Kernel : Shell4 {
     return 0.5 * twice;
   }
 
-  static SymmetricTensor<double> on_global_axes(const ShellGeometry<double>& g,
-                                                const ShellTensor<double>& a) {
+  static BRIO_INLINE SymmetricTensor<double> on_global_axes(const ShellGeometry<double>& g,
+                                                            const ShellTensor<double>& a) {
     const Vector3<double> on_axis[2] = {a.xx * g.axis[0] + a.xy * g.axis[1] + a.xz * g.normal,
                                         a.xy * g.axis[0] + a.yy * g.axis[1] + a.yz * g.normal},
                           on_normal = a.xz * g.axis[0] + a.yz * g.axis[1];

@@ -25,7 +25,7 @@ RunOutput::RunOutput(const Deck& deck, Model& model, ResultWriter& writer, std::
       after_write_(std::move(after_write)),
       observer_(model, deck.output.fields_.variables),
       history_(history_columns(model)),
-      written_(history_.columns()),
+      written_{History(history_.columns()), History(history_.columns())},
       field_schedule_(field_schedule(deck)),
       history_schedule_(history_schedule(deck)),
       restart_schedule_(restart_schedule(deck)) {
@@ -43,18 +43,21 @@ void RunOutput::keep(const Snapshot& state, bool has_dump) {
 }
 
 void RunOutput::begin_writing(const Snapshot* fields) {
-  finish_writing();
-  std::swap(history_, written_);
-  writing_.start([this, fields] {
+  finish_writing(1);
+  History& rows = written_[next_written_];
+  next_written_ = 1 - next_written_;
+  last_written_ = fields;
+  std::swap(history_, rows);
+  writing_.start([this, fields, &rows] {
     if (fields != nullptr)
-      writer_.write(*fields, written_);
+      writer_.write(*fields, rows);
     else
-      writer_.write(written_);
+      writer_.write(rows);
   });
 }
 
-void RunOutput::finish_writing() {
-  writing_.finish();
+void RunOutput::finish_writing(std::size_t left) {
+  writing_.finish(left);
   after_write_();
 }
 
@@ -64,7 +67,7 @@ void RunOutput::write_now(const Snapshot* fields) {
 }
 
 void RunOutput::write_what_is_due(ThreadTeam& team) {
-  if (writing_.has_ended()) finish_writing();  // a disk that is full ends the run now, not at the next dump
+  if (writing_.have_ended()) finish_writing();  // a disk that is full ends the run now, not at the next dump
   const std::optional<double> fields = field_schedule_.due_within(model_.times.time, model_.times.next);
   write(history_schedule_.due(model_.times.time), fields, team);
 }
@@ -85,8 +88,9 @@ void RunOutput::write(bool row, std::optional<double> fields, ThreadTeam& team) 
   if (fields) watch(model_);
   observe_history(model_, row_);
   if (fields || keeps) {
-    finish_writing();
-    state_ = nullptr;  // the one before is written over
+    finish_writing(1);
+    if (!writing_.have_ended() && last_written_ != nullptr && last_written_ == state_) observer_.turn();
+    state_ = nullptr;  // one before is filled anew
     const Snapshot& state = observer_.observe(model_, fields.value_or(model_.times.time), team);
     if (const std::string fault = what_results_cannot_hold(state); !fault.empty())
       throw Breakdown(fault + " at time " + written(model_.times.time) +

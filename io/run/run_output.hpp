@@ -1,8 +1,10 @@
 #pragma once
 /// What a run writes while it goes on: fields, history and restart files as they fall due; of a run that
 /// breaks down the last state that was good. Fields and rows are written by a thread of their own while steps
-/// go on: one write at a time, which the next observation awaits.
+/// go on: one write at a time, and at most one that waits.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -48,8 +50,8 @@ class RunOutput {
  private:
   /// Begin to write rows, and fields unless null. \throws FileError of the write before
   void begin_writing(const Snapshot* fields);
-  /// \throws FileError
-  void finish_writing();
+  /// Until at most so many writes are unfinished. \throws FileError
+  void finish_writing(std::size_t left = 0);
   /// Write rows, and fields unless null. \throws FileError
   void write_now(const Snapshot* fields);
   /// \param fields the time of them, if they are due
@@ -77,14 +79,17 @@ class RunOutput {
   ResultWriter& writer_;
   std::function<void()> after_write_;
   FieldObserver observer_;
-  History history_, written_;  ///< rows that wait; those that are being written
+  History history_;                         ///< rows that gather
+  std::array<History, 2> written_;          ///< those of the unfinished writes
+  std::size_t next_written_ = 0;            ///< that no write reads
+  const Snapshot* last_written_ = nullptr;  ///< that the last write reads
   std::vector<double> row_;
   double last_row_ = -1, last_dump_ = -1;  ///< their times
   OutputSchedule field_schedule_, history_schedule_, restart_schedule_;
   const Snapshot* state_ = nullptr;
   GoodState good_;
   std::int64_t next_kept_ = 0;
-  BackgroundJob writing_;  ///< reads the state and rows above: ends before them
+  BackgroundJobs writing_;  ///< read the states and rows above: end before them
 };
 
 }  // namespace brio

@@ -115,7 +115,7 @@ void ThreadTeam::work() {
   }
 }
 
-BackgroundJob::~BackgroundJob() {
+BackgroundJobs::~BackgroundJobs() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -124,38 +124,42 @@ BackgroundJob::~BackgroundJob() {
   if (thread_.joinable()) thread_.join();
 }
 
-void BackgroundJob::start(std::function<void()> job) {
-  assert(ended_);
+void BackgroundJobs::start(std::function<void()> job) {
   if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
   {
     const std::lock_guard lock(mutex_);
-    job_ = std::move(job);
-    ended_ = false;
+    waiting_.push_back(std::move(job));
+    ++unfinished_;
   }
   changed_.notify_all();
 }
 
-void BackgroundJob::finish() {
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return ended_.load(); });
-  }
+void BackgroundJobs::finish(std::size_t left) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return unfinished_ <= left; });
   if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
 }
 
-void BackgroundJob::work() {
+void BackgroundJobs::work() {
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [&] { return !ended_ || stop_; });
-    if (ended_) return;
+    changed_.wait(lock, [&] { return !waiting_.empty() || stop_; });
+    if (waiting_.empty()) return;
+    const std::function<void()> job = std::move(waiting_.front());
+    waiting_.pop_front();
     lock.unlock();
+    std::exception_ptr fault;
     try {
-      job_();
+      job();
     } catch (...) {
-      fault_ = std::current_exception();
+      fault = std::current_exception();
     }
     lock.lock();
-    ended_ = true;
+    if (fault) {
+      fault_ = fault;
+      waiting_.clear();
+    }
+    unfinished_ = fault ? 0 : unfinished_ - 1;
     changed_.notify_all();
   }
 }

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -74,21 +75,22 @@ class ThreadTeam {
   std::atomic<std::size_t> count_{0};
 };
 
-/// One job at a time on a thread of its own, while the caller goes on. The thread starts with the first job
-/// and sleeps between jobs: one that has slept is given a busy processor sooner than a new one.
-class BackgroundJob {
+/// Jobs one after another on a thread of their own, while the caller goes on. The thread starts with the
+/// first job and sleeps between jobs: one that has slept is given a busy processor sooner than a new one.
+/// After a job that throws, those that wait are dropped.
+class BackgroundJobs {
  public:
-  BackgroundJob() = default;
-  ~BackgroundJob();
-  BackgroundJob(const BackgroundJob&) = delete;
-  BackgroundJob& operator=(const BackgroundJob&) = delete;
+  BackgroundJobs() = default;
+  ~BackgroundJobs();
+  BackgroundJobs(const BackgroundJobs&) = delete;
+  BackgroundJobs& operator=(const BackgroundJobs&) = delete;
 
-  /// \pre no job runs \throws std::system_error if the system gives no thread
+  /// \throws std::system_error if the system gives no thread
   void start(std::function<void()> job);
-  /// Whether no job runs.
-  bool has_ended() const { return ended_; }
-  /// Wait until no job runs. \throws what it has thrown
-  void finish();
+  /// Whether no job runs or waits.
+  bool have_ended() const { return unfinished_ == 0; }
+  /// Wait until at most so many jobs run or wait. \throws what one has thrown
+  void finish(std::size_t left = 0);
 
  private:
   void work();
@@ -96,9 +98,9 @@ class BackgroundJob {
   std::thread thread_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::function<void()> job_;
+  std::deque<std::function<void()>> waiting_;
   std::exception_ptr fault_;
-  std::atomic<bool> ended_{true};  ///< written under the mutex
+  std::atomic<std::size_t> unfinished_{0};  ///< written under the mutex
   bool stop_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 
 #include "elements/element_state.hpp"
@@ -55,20 +56,21 @@ FieldObserver::FieldObserver(const Model& model, std::span<const std::string> va
   node_of_point_.resize(model.nodes.size() - index(std::ranges::count(point_of_node_, std::int64_t{-1})));
   for (std::size_t node = 0; node < point_of_node_.size(); ++node)
     if (point_of_node_[node] >= 0) node_of_point_[index(point_of_node_[node])] = static_cast<int>(node);
-  snapshot_.points.resize(3 * node_of_point_.size());
+  snapshot_->points.resize(3 * node_of_point_.size());
   add_point_fields(model, variables);
   if (std::ranges::find(variables, state_variable) != variables.end()) add_state(model);
   add_cell_fields(model, variables);
   note_parts(model);
+  deleted_ = deleted_so_far(model);
   take_topology(model);
   take_positions(model, 0, node_of_point_.size(), 0);
-  reference_ = snapshot_.points;
+  reference_ = snapshot_->points;
 }
 
 template <class Value>
 void FieldObserver::add_point_field(FieldArray field, Value value) {
   const auto components = index(field.components);
-  snapshot_.point_fields.push_back(std::move(field));
+  snapshot_->point_fields.push_back(std::move(field));
   point_values_.push_back([=](const Model& model, std::size_t begin, std::size_t end, double* values) {
     for (std::size_t point = begin; point < end; ++point) value(model, point, values + components * point);
   });
@@ -87,7 +89,7 @@ void FieldObserver::add_point_fields(const Model& model, std::span<const std::st
   add_point_field(field("displacement", 3, points, Storage::double_precision),
                   [this](const Model&, std::size_t point, double* out) {
                     for (std::size_t i = 3 * point; i < 3 * point + 3; ++i)
-                      *out++ = snapshot_.points[i] - reference_[i];
+                      *out++ = snapshot_->points[i] - reference_[i];
                   });
   // With the state of elements, from which runs can start, of every digit.
   const bool with_state = std::ranges::find(variables, state_variable) != variables.end();
@@ -116,14 +118,14 @@ void FieldObserver::add_point_fields(const Model& model, std::span<const std::st
 
 void FieldObserver::add_cell_field(std::string_view name, CellSource source) {
   const auto is_there = [&](const FieldArray& known) { return known.name == name; };
-  if (std::ranges::any_of(snapshot_.cell_fields, is_there)) return;
+  if (std::ranges::any_of(snapshot_->cell_fields, is_there)) return;
   const bool fixed = source.kind == CellSource::Kind::part || source.kind == CellSource::Kind::element;
   const int components = source.variable != nullptr ? source.variable->components : 1;
-  snapshot_.cell_fields.push_back(
+  snapshot_->cell_fields.push_back(
       field(std::string(name), components, 0, fixed ? Storage::integer : Storage::single_precision, fixed));
   // Without plasticity there is no plastic strain, and without failure no damage: 0. Of what other laws alone
   // know, not a number.
-  snapshot_.cell_fields.back().is_partial =
+  snapshot_->cell_fields.back().is_partial =
       source.variable != nullptr
           ? source.variable->is_partial()
           : source.kind == CellSource::Kind::history &&
@@ -165,10 +167,10 @@ void FieldObserver::add_cell_fields(const Model& model, std::span<const std::str
 void FieldObserver::add_state(const Model& model) {
   std::size_t components = 1;
   for (const Block& block : model.blocks) components = std::max(components, state_components(block));
-  state_field_ = snapshot_.cell_fields.size();
-  snapshot_.cell_fields.push_back(
+  state_field_ = snapshot_->cell_fields.size();
+  snapshot_->cell_fields.push_back(
       field(std::string(state_variable), static_cast<int>(components), 0, Storage::double_precision));
-  snapshot_.cell_fields.back().is_partial = true;
+  snapshot_->cell_fields.back().is_partial = true;
   cell_source_.push_back({CellSource::Kind::state});
 }
 
@@ -180,13 +182,13 @@ void FieldObserver::note_parts(const Model& model) {
       first = std::min(first, point);
       last = std::max(last, point);
     }
-    snapshot_.parts.push_back({.name = part.name, .first_point = first, .points = last + 1 - first});
+    snapshot_->parts.push_back({.name = part.name, .first_point = first, .points = last + 1 - first});
   }
 }
 
 // Cells of the elements that live, by part and element.
 void FieldObserver::take_topology(const Model& model) {
-  Topology& topology = snapshot_.topology;
+  Topology& topology = snapshot_->topology;
   topology = {};
   range_.clear();
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
@@ -210,27 +212,29 @@ void FieldObserver::take_topology(const Model& model) {
         topology.connectivity.push_back(point_of_node_[index(node)]);
       }
     }
-    snapshot_.parts[p].first_cell = static_cast<std::int64_t>(first_cell);
-    snapshot_.parts[p].cells = static_cast<std::int64_t>(topology.cell_type.size() - first_cell);
+    snapshot_->parts[p].first_cell = static_cast<std::int64_t>(first_cell);
+    snapshot_->parts[p].cells = static_cast<std::int64_t>(topology.cell_type.size() - first_cell);
   }
   topology.offset.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
-  for (FieldArray& cell_field : snapshot_.cell_fields)
+  for (FieldArray& cell_field : snapshot_->cell_fields)
     cell_field.values.resize(index(cell_field.components) * topology.cell_type.size());
-  deleted_ = deleted_so_far(model);
+  snapshot_->topology_version = topology_version_;
   is_topology_new_ = true;
 }
 
-void FieldObserver::follow(const Model& model) {
-  const std::int64_t deleted_then = deleted_;
-  take_topology(model);
-  deleted_ = deleted_then;
+void FieldObserver::follow(const Model& model) { take_topology(model); }
+
+void FieldObserver::turn() {
+  assert(!is_topology_new_);
+  if (!other_) other_ = std::make_unique<Snapshot>(*snapshot_);
+  std::swap(snapshot_, other_);
 }
 
 void FieldObserver::take_positions(const Model& model, std::size_t begin, std::size_t end, double after) {
   for (std::size_t p = begin; p < end; ++p) {
     const NodeRecord& record = model.nodes.record[index(node_of_point_[p])];
     for (std::size_t i = 0; i < 3; ++i)
-      snapshot_.points[3 * p + i] = record.position[i] + after * record.velocity[i];
+      snapshot_->points[3 * p + i] = record.position[i] + after * record.velocity[i];
   }
 }
 
@@ -248,7 +252,7 @@ void FieldObserver::number_points(const Model& model) {
 
 void FieldObserver::fill_points(const Model& model, std::size_t begin, std::size_t end) {
   for (std::size_t f = 0; f < point_values_.size(); ++f)
-    point_values_[f](model, begin, end, snapshot_.point_fields[f].values.data());
+    point_values_[f](model, begin, end, snapshot_->point_fields[f].values.data());
 }
 
 void FieldObserver::note_thickness(const Model& model) {
@@ -262,7 +266,7 @@ void FieldObserver::note_thickness(const Model& model) {
 
 // Of hexahedra and shells that are not rigid; none of others.
 std::span<const std::int64_t> FieldObserver::strained_corners(const Model& model, const Cell& at) const {
-  const Topology& topology = snapshot_.topology;
+  const Topology& topology = snapshot_->topology;
   const auto first = index(topology.offset[at.number]), count = index(topology.offset[at.number + 1]) - first;
   if (count < 4 || model.parts[at.part].rigid >= 0) return {};
   return std::span(topology.connectivity).subspan(first, count);
@@ -276,7 +280,7 @@ SymmetricTensor<double> FieldObserver::strain_of(const Model& model, const Eleme
   for (std::size_t k = 0; k < corner.size(); ++k) {
     const auto point = index(corner[k]);
     before[k] = Eigen::Vector3d(&reference_[3 * point]);
-    now[k] = Eigen::Vector3d(&snapshot_.points[3 * point]);
+    now[k] = Eigen::Vector3d(&snapshot_->points[3 * point]);
   }
   const std::span<const Eigen::Vector3d> from(before.data(), corner.size()), to(now.data(), corner.size());
   return logarithmic_strain(
@@ -330,7 +334,7 @@ void FieldObserver::fill_cell(const Model& model, const CellSource& source, cons
 // Of particles a row is not all: they remember their neighbours.
 void FieldObserver::fill_state(const Model& model, const PartInModel& part, std::size_t element,
                                std::size_t cell) {
-  FieldArray& field = snapshot_.cell_fields[state_field_];
+  FieldArray& field = snapshot_->cell_fields[state_field_];
   const auto components = index(field.components);
   double* row = field.values.data() + cell * components;
   std::fill_n(row, components, ElementSample::undefined);
@@ -345,7 +349,7 @@ void FieldObserver::fill_cells(const Model& model, const ElementRange& range) {
     if (part.element_slot[e] < 0 && part.rigid < 0) continue;
     const ElementSample sample = sample_of(model, part, e, in_full_);
     for (std::size_t k = 0; k < cell_source_.size(); ++k) {
-      FieldArray& field = snapshot_.cell_fields[k];
+      FieldArray& field = snapshot_->cell_fields[k];
       if (is_topology_new_ || !field.fixed_by_topology)
         fill_cell(model, cell_source_[k], sample, {range.part, e, part.number_of_element(e), cell}, field);
     }
@@ -355,20 +359,21 @@ void FieldObserver::fill_cells(const Model& model, const ElementRange& range) {
 }
 
 const Snapshot& FieldObserver::observe(const Model& model, double time, ThreadTeam& team) {
-  snapshot_.time = state_field_ == none ? time : model.times.time;
-  snapshot_.step = model.step;
-  if (deleted_so_far(model) != deleted_) {
-    take_topology(model);
-    ++snapshot_.topology_version;
+  snapshot_->time = state_field_ == none ? time : model.times.time;
+  snapshot_->step = model.step;
+  if (const std::int64_t deleted = deleted_so_far(model); deleted != deleted_) {
+    deleted_ = deleted;
+    ++topology_version_;
   }
-  const double after = snapshot_.time - model.times.time;
+  if (snapshot_->topology_version != topology_version_) take_topology(model);
+  const double after = snapshot_->time - model.times.time;
   team.for_ranges(node_of_point_.size(), points_per_range, [&](std::size_t begin, std::size_t end) {
     take_positions(model, begin, end, after);
     fill_points(model, begin, end);
   });
   team.for_each(range_.size(), [&](std::size_t i) { fill_cells(model, range_[i]); });
   is_topology_new_ = false;
-  return snapshot_;
+  return *snapshot_;
 }
 
 }  // namespace brio

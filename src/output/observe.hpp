@@ -2,6 +2,7 @@
 /// Output of a model: fields, history rows, end state.
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,11 +40,14 @@ class FieldObserver {
     return observe(model, time, alone);
   }
   const Snapshot& observe(const Model& model) { return observe(model, model.times.time); }
+  /// From now on another snapshot is filled, and the last one stays as it is until the next turn. The second
+  /// is allocated by the first turn. \pre one has been observed
+  void turn();
 
   /// Saved and restored (src/base/state_archive.hpp): which topology the last snapshot had.
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(snapshot_.topology_version, deleted_);
+    archive(topology_version_, deleted_);
   }
   /// After a restored model and observer: cells as they are.
   void follow(const Model& model);
@@ -93,10 +97,12 @@ class FieldObserver {
   void fill_cells(const Model& model, const ElementRange& range);
   void fill_state(const Model& model, const PartInModel& part, std::size_t element, std::size_t cell);
 
-  Snapshot snapshot_;
+  std::unique_ptr<Snapshot> snapshot_ = std::make_unique<Snapshot>(),
+                            other_;  ///< that is filled; null or not
   std::vector<int> node_of_point_;
   std::vector<std::int64_t> point_of_node_;
-  std::int64_t deleted_ = 0;               ///< elements, when the topology was taken
+  int topology_version_ = 0;
+  std::int64_t deleted_ = 0;               ///< elements, in the topology of that version
   std::vector<ElementRange> range_;        ///< of all elements
   bool is_topology_new_ = true;            ///< what it fixes is not filled yet
   std::vector<CellSource> cell_source_;    ///< of each cell field

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <new>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -59,23 +62,38 @@ TEST(ThreadTeam, ExceptionOfATaskReachesTheCallerAndTheTeamGoesOn) {
   }
 }
 
-TEST(BackgroundJob, RunsEachJobOnceAndTellsWhatItThrew) {
-  int runs = 0;
+TEST(BackgroundJobs, RunInOrderAndTellWhatTheyThrew) {
+  std::vector<int> ran;
   {
-    BackgroundJob job;
-    job.finish();  // of none
-    for (int repeat = 1; repeat <= 1000; ++repeat) {
-      job.start([&] { ++runs; });
-      job.finish();
-      ASSERT_TRUE(job.has_ended());
-      ASSERT_EQ(runs, repeat);
-      if (repeat % 100 != 0) continue;
-      job.start([] { throw std::bad_alloc(); });
-      EXPECT_THROW(job.finish(), std::bad_alloc);
+    BackgroundJobs jobs;
+    jobs.finish();  // of none
+    for (std::size_t repeat = 0; repeat < 3000; ++repeat) {
+      jobs.start([&, repeat] { ran.push_back(static_cast<int>(repeat)); });
+      jobs.finish(repeat % 3);
+      if (repeat % 3 != 0) continue;
+      ASSERT_EQ(ran.size(), repeat + 1);
+      ASSERT_TRUE(jobs.have_ended());
     }
-    job.start([&] { ++runs; });
+    jobs.finish();
+    ASSERT_EQ(ran.size(), 3000U);
+    EXPECT_TRUE(std::ranges::is_sorted(ran));
   }
-  EXPECT_EQ(runs, 1001) << "a job that runs is awaited";
+  int after = 0;
+  {
+    BackgroundJobs jobs;
+    std::atomic<bool> may_throw = false;
+    jobs.start([&] {
+      while (!may_throw) std::this_thread::yield();
+      throw std::bad_alloc();
+    });
+    jobs.start([&] { ++after; });
+    may_throw = true;
+    EXPECT_THROW(jobs.finish(), std::bad_alloc);
+    EXPECT_EQ(after, 0) << "what waits behind a job that throws is dropped";
+    jobs.start([&] { ++after; });
+    jobs.start([&] { ++after; });
+  }
+  EXPECT_EQ(after, 2) << "jobs that run or wait are awaited";
 }
 
 }  // namespace

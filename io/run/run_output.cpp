@@ -58,7 +58,7 @@ void RunOutput::begin_writing(const Snapshot* fields) {
 
 void RunOutput::finish_writing(std::size_t left) {
   writing_.finish(left);
-  after_write_();
+  if (writing_.have_ended()) after_write_();
 }
 
 void RunOutput::write_now(const Snapshot* fields) {

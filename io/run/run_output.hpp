@@ -25,7 +25,7 @@ namespace brio {
 class RunOutput {
  public:
   /// \param model as built: its positions are the reference of displacements \param after_write called by the
-  /// thread of the run when a write has ended
+  /// thread of the run when all writes have ended
   RunOutput(const Deck& deck, Model& model, ResultWriter& writer, std::function<void()> after_write);
 
   /// Of a state that is good. \throws Breakdown where results cannot hold it

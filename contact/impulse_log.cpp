@@ -11,26 +11,30 @@ using Eigen::Vector3d;
 
 void ImpulseLog::begin_step() {
   impulse.assign(wanted.size(), Vector3d::Zero());
+  friction.assign(wanted.size(), Vector3d::Zero());
   supports.clear();
 }
 
-void ImpulseLog::add(int first, int second, const Vector3d& of_second) {
+void ImpulseLog::add(int first, int second, const Vector3d& of_second, const Vector3d& of_friction) {
   const std::array<int, 2> pair{std::min(first, second), std::max(first, second)};
   const auto at = std::lower_bound(wanted.begin(), wanted.end(), pair);
   if (at == wanted.end() || *at != pair) return;
-  Vector3d& sum = impulse[index(at - wanted.begin())];
-  if (first == second) {
-    sum += of_second.cwiseAbs();
-  } else {
-    sum += first < second ? of_second : Vector3d(-of_second);
-  }
+  const auto add_to = [&](Vector3d& sum, const Vector3d& value) {
+    if (first == second) {
+      sum += value.cwiseAbs();
+    } else {
+      sum += first < second ? value : Vector3d(-value);
+    }
+  };
+  add_to(impulse[index(at - wanted.begin())], of_second);
+  add_to(friction[index(at - wanted.begin())], of_friction);
 }
 
 void ImpulseLog::add(const std::map<int, Vector3d>& impulse_of_part) {
   const auto count = static_cast<double>(impulse_of_part.size());
   for (auto a = impulse_of_part.begin(); a != impulse_of_part.end(); ++a)
     for (auto b = std::next(a); b != impulse_of_part.end(); ++b)
-      add(a->first, b->first, (a->second - b->second) / count);
+      add(a->first, b->first, (a->second - b->second) / count, Vector3d::Zero());
 }
 
 int ImpulseLog::part_of(const ContactScene& scene, std::span<const int> slaves) const {
@@ -48,7 +52,7 @@ void log_contacts(ContactScene& scene) {
     const auto own = index(contact.own);
     const std::span<const int> nodes(contact.node);
     log.add(log.part_of(scene, nodes.first(own)), log.part_of(scene, nodes.subspan(own)),
-            contact.impulse * contact.normal + contact.friction);
+            contact.impulse * contact.normal + contact.friction, contact.friction);
   }
 }
 

@@ -26,12 +26,14 @@ struct ImpulseLog {
   std::vector<int> part_of_body;           ///< of each rigid body
   std::vector<std::array<int, 2>> wanted;  ///< pairs of parts; each ascending, and all of them
   std::vector<Eigen::Vector3d> impulse;    ///< of each pair: of the second part on the first
+  std::vector<Eigen::Vector3d> friction;   ///< of it that of friction
   std::vector<SupportImpulse> supports;
   std::vector<Vector3<double>> reaction;  ///< scratch: of each velocity block
 
   void begin_step();
-  /// An impulse of the second part on the first; of a part on itself the sizes of the components are added.
-  void add(int first, int second, const Eigen::Vector3d& of_second);
+  /// An impulse of the second part on the first, and what of it is friction; of a part on itself the sizes of
+  /// the components are added.
+  void add(int first, int second, const Eigen::Vector3d& of_second, const Eigen::Vector3d& of_friction);
   /// Impulses that sum to zero over several parts: each pair gets the difference of its two over their
   /// number, the least distribution (exact for two parts).
   void add(const std::map<int, Eigen::Vector3d>& impulse_of_part);

@@ -18,7 +18,7 @@ writes PREFIX_0.png, PREFIX_1.png, ... one for each time, and prints what it dre
   --clip X Y Z         cut the scene open through its middle, normal to this direction
   --box X0 X1 Y0 Y1 Z0 Z1  what to frame; default all that occurs and is drawn, debris too
   --hide-edges         surface without the edges of elements
-  --thicken            shells with their thickness, beams as tubes and particles as spheres of their radius
+  --thicken            shells with their thickness, beams with their sections, particles as spheres
   --size WIDTH HEIGHT  default 800 600
   --largest BYTES      fewer colours, then fewer pixels, until a picture has no more
 """
@@ -26,11 +26,12 @@ import argparse
 import os
 import sys
 
-import numpy as np
 from paraview import simple
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(sys.argv[0])))
+from beam_sections import prisms  # noqa: E402
 from render_deck import Deck, ranges  # noqa: E402
+from render_extent import box_over, limits_over, place_camera  # noqa: E402
 from render_files import drawn, save_animation, save_picture  # noqa: E402
 from thicken import one_grid, place_of, thick_shapes  # noqa: E402
 
@@ -137,45 +138,6 @@ def colour_by_part(displays, deck, shown, view):
     style_bar(bar)
 
 
-def limits_over(source, times, place, name, components):
-    """Smallest and largest value at the given times."""
-    lower, upper = float("inf"), float("-inf")
-    for time in times:
-        source.UpdatePipeline(time)
-        arrays = source.PointData if place == "POINTS" else source.CellData
-        low, high = arrays[name].GetRange(-1 if components > 1 else 0)
-        lower, upper = min(lower, low), max(upper, high)
-    return (lower, upper) if upper > lower else (lower - 0.5, upper + 0.5)
-
-
-def box_over(sources, times):
-    """The box that holds what is drawn at all times, so that the camera can stand still."""
-    box = [float("inf"), float("-inf")] * 3
-    for time in times:
-        for source in sources:
-            source.UpdatePipeline(time)
-            bounds = source.GetDataInformation().GetBounds()
-            box = [min(a, b) if i % 2 == 0 else max(a, b) for i, (a, b) in enumerate(zip(box, bounds))]
-    return box
-
-
-def place_camera(view, box, direction, zoom, aspect):
-    """Parallel projection along `direction` that just holds the box."""
-    lower, upper = np.array(box[0::2]), np.array(box[1::2])
-    centre, half = (lower + upper) / 2, (upper - lower) / 2
-    towards = np.array(direction) / np.linalg.norm(direction)
-    up = np.array([0.0, 1.0, 0.0] if abs(towards[2]) > 0.99 else [0.0, 0.0, 1.0])
-    right = np.cross(up, towards)
-    right /= np.linalg.norm(right)
-    above = np.cross(towards, right)
-    width, height = np.dot(np.abs(right), half), np.dot(np.abs(above), half)
-    view.CameraParallelProjection = 1
-    view.CameraParallelScale = float(1.08 * np.fmax(height, width / aspect) / zoom)
-    view.CameraFocalPoint = list(centre)
-    view.CameraPosition = list(centre + 5 * np.linalg.norm(half) * towards)
-    view.CameraViewUp = list(up)
-
-
 class Scene:
     """What is drawn of a result."""
 
@@ -201,7 +163,8 @@ class Scene:
             sys.exit("all parts are hidden or faded")
         self.solid = source if not hidden and not faded else only_parts(source, self.shown)
         self.faded = [only_parts(source, faded - hidden)] if faded - hidden else []
-        self.box = options.box or box_over([self.solid] + self.faded, self.times)
+        drawn_shapes = [self.solid] + self.faded + (self.thick(self.solid) if options.thicken else [])
+        self.box = options.box or box_over(drawn_shapes, self.times)
         self.limits = options.range
         if self.colour and options.color != "part" and not self.limits:
             self.limits = limits_over(self.solid, self.times, self.colour[0], options.color, self.colour[1])
@@ -215,11 +178,19 @@ class Scene:
         clip.ClipType.Normal = self.options.clip
         return clip
 
+    def thick(self, source):
+        profiled = {part: section for part, section in self.deck.profiled.items() if part in self.shown}
+        if not profiled:
+            return list(thick_shapes(source, self.times[0]).values())
+        others = self.shown - set(profiled)
+        shapes = list(thick_shapes(only_parts(source, others), self.times[0]).values()) if others else []
+        return shapes + [prisms(only_parts(source, set(profiled)), profiled)]
+
     def show(self, view):
         displays = []
         solid = self.clipped(self.solid)
         solid.UpdatePipeline(self.times[0])
-        thick = list(thick_shapes(solid, self.times[0]).values()) if self.options.thicken else []
+        thick = self.thick(solid) if self.options.thicken else []
         for shape in [solid] + thick + [self.clipped(faded) for faded in self.faded]:
             display = simple.Show(shape, view)
             is_faded = len(displays) > len(thick)
@@ -229,7 +200,8 @@ class Scene:
             display.LineWidth = 1.0
             display.DiffuseColor = [0.75, 0.78, 0.82]
             display.Opacity = 0.2 if is_faded else 1.0
-            simple.ColorBy(display, None)
+            if display.ColorArrayName[1]:
+                simple.ColorBy(display, None)
             displays.append(display)
         solid_displays = displays[:1 + len(thick)]
         name = self.options.color

@@ -4,6 +4,7 @@ import os
 import h5py
 import yaml
 
+from beam_sections import profiled_parts
 
 class Deck:
     """Names of the parts, in the order of the field `part`, and unit labels."""
@@ -13,6 +14,7 @@ class Deck:
             text = file["deck/text"][()]
         deck = yaml.safe_load(text)
         self.parts = list(deck["parts"])
+        self.profiled = profiled_parts(deck["parts"])  # by number
         self.units = deck.get("units") or {}
 
     def numbers(self, names):

@@ -55,8 +55,9 @@ struct ForceOutput {
             "reactions", &ForceOutput::reactions, any_number,
             "columns reaction.NAME_x, _y, _z: force of a boundary condition on what it supports or stops"),
         optional("contact", &ForceOutput::contact, any_number,
-                 "columns contact.A.B_x, _y, _z: force on part A by part B, friction included; of a part on "
-                 "itself the sum of the sizes of the components"),
+                 "columns contact.A.B_x, _y, _z: force on part A by part B, friction included, and of "
+                 "friction alone contact.A.B.friction_x, _y, _z; of a part on itself the "
+                 "sum of the sizes of the components"),
         optional(
             "sections", &ForceOutput::sections, any_number,
             "columns section.NAME_x, _y, _z and moments section.NAME_mx, _my, _mz: internal force through "

@@ -244,15 +244,16 @@ void ForceSums::add(const ImpulseLog& log) {
     add_components(*this, condition_of_node[index(support.node)], impulse);
     add_skew_support(support.node, impulse);
   }
-  for (ContactSum& contact : contacts)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      contact.impulse[axis] += contact.sign * log.impulse[contact.pair][static_cast<Eigen::Index>(axis)];
+  for (ContactSum& contact : contacts) {
+    add_to(contact.impulse, to_vector(contact.sign * log.impulse[contact.pair]));
+    add_to(contact.friction, to_vector(contact.sign * log.friction[contact.pair]));
+  }
 }
 
 void ForceSums::begin_interval() {
   duration = 0;
   for (ReactionSum& reaction : reactions) reaction.impulse = {};
-  for (ContactSum& contact : contacts) contact.impulse = {};
+  for (ContactSum& contact : contacts) contact.impulse = contact.friction = {};
   for (SectionSum& section : sections) section.impulse = {};
 }
 
@@ -260,7 +261,10 @@ std::vector<double> ForceSums::impulses() const {
   std::vector<double> all{duration};
   const auto add_all = [&](const Vector& vector) { all.insert(all.end(), vector.begin(), vector.end()); };
   for (const ReactionSum& reaction : reactions) add_all(reaction.impulse);
-  for (const ContactSum& contact : contacts) add_all(contact.impulse);
+  for (const ContactSum& contact : contacts) {
+    add_all(contact.impulse);
+    add_all(contact.friction);
+  }
   for (const SectionSum& section : sections) {
     add_all(section.impulse.linear);
     add_all(section.impulse.angular);
@@ -277,7 +281,10 @@ void ForceSums::set_impulses(std::span<const double> saved) {
     for (double& component : vector) component = *next++;
   };
   for (ReactionSum& reaction : reactions) take(reaction.impulse);
-  for (ContactSum& contact : contacts) take(contact.impulse);
+  for (ContactSum& contact : contacts) {
+    take(contact.impulse);
+    take(contact.friction);
+  }
   for (SectionSum& section : sections) {
     take(section.impulse.linear);
     take(section.impulse.angular);
@@ -289,7 +296,10 @@ void add_columns(const ForceSums& sums, std::vector<std::string>& columns) {
     for (const char* ending : endings) columns.push_back(name + ending);
   };
   for (const ReactionSum& reaction : sums.reactions) add("reaction." + reaction.name, axes);
-  for (const ContactSum& contact : sums.contacts) add("contact." + contact.name, axes);
+  for (const ContactSum& contact : sums.contacts) {
+    add("contact." + contact.name, axes);
+    add("contact." + contact.name + ".friction", axes);
+  }
   for (const SectionSum& section : sums.sections) {
     add("section." + section.name, axes);
     add("section." + section.name, moment_axes);

@@ -32,12 +32,12 @@ struct SectionSum {
   Impulse impulse;         ///< moments about the point
 };
 
-/// Force on one part by another.
+/// Force on one part by another, and what of it is friction.
 struct ContactSum {
   std::string name;
   std::size_t pair = 0;  ///< of the log of contact
   double sign = 1;
-  Vector impulse{};
+  Vector impulse{}, friction{};
 };
 
 /// Direction along which a boundary condition pushes a node, and by how much of an impulse on it: that times
@@ -80,7 +80,8 @@ ForceSums make_force_sums(const ForceOutput& wanted, const Deck& deck, const Mod
 /// What contact must tell for them.
 ImpulseLog make_impulse_log(const ForceOutput& wanted, const Deck& deck, const Model& model);
 
-/// reaction.NAME_x ..., contact.A.B_x ..., section.NAME_x ..., section.NAME_mx ...
+/// reaction.NAME_x ..., contact.A.B_x ..., contact.A.B.friction_x ..., section.NAME_x ..., section.NAME_mx
+/// ...
 void add_columns(const ForceSums& sums, std::vector<std::string>& columns);
 /// Means over the interval.
 void add_values(const ForceSums& sums, std::vector<double>& row);

@@ -59,8 +59,9 @@ constexpr HistoryColumn further[] = {
     {"reaction.NAME_x", "force", "force of a named support or wall on the scene, mean since the last row"},
     {"contact.PART.PART_x", "force",
      "force of contact on the first part by the second, normal and friction, mean since the last row; of a "
-     "part on "
-     "itself the sum of the sizes"},
+     "part on itself the sum of the sizes"},
+    {"contact.PART.PART.friction_x", "force",
+     "what of it is friction; impact zones, which end sliding without friction, have none"},
     {"section.NAME_x", "force",
      "internal force through a plane, on what lies behind it by what lies ahead, mean since the last row"},
     {"section.NAME_mx", "moment",

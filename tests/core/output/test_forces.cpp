@@ -277,6 +277,36 @@ TEST(Forces, OfContactThatTheDeckDoesNotNameAreRefused) {
   }
 }
 
+// The normal is z: what acts across it is friction, of Coulomb's size while the block slides.
+TEST(Forces, FrictionIsWhatActsAlongASurface) {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  deck.parts = {box("block", {0.2, 0.2, 0.2}, {2, 2, 2}, {0, 0, 0.1001}, hex8()),
+                box("floor", {2, 2, 0.1}, {2, 2, 1}, {0.02, 0.01, -0.05}, Rigid{})};
+  deck.boundary_conditions = {fix("floor", {0, 1, 2, 3, 4, 5})};
+  deck.initial_conditions = {moving("block", {8, 6, -1})};
+  deck.contact.emplace();
+  deck.contact->options.friction = 0.3;
+  deck.time.end = 5e-4;
+  deck.output.history.forces = all_forces();
+  Model model = build_model(deck);
+  ThreadTeam team(1);
+  double largest = 0;
+  run(model, deck, team, [&](Model& now) {
+    const auto values = forces_of(now);
+    const Vector force = vector_of(values, "contact.block.floor"),
+                 friction = vector_of(values, "contact.block.floor.friction");
+    const double scale = 1e-6 * std::max(1.0, force[2]);  // the normal is that of points that are near
+    EXPECT_NEAR(friction[0], force[0], scale);
+    EXPECT_NEAR(friction[1], force[1], scale);
+    EXPECT_NEAR(friction[2], 0, scale);
+    EXPECT_NEAR(std::hypot(friction[0], friction[1]), 0.3 * force[2], 1e-3 * std::max(1.0, force[2]));
+    largest = std::max(largest, force[2]);
+    now.forces->begin_interval();
+  });
+  EXPECT_GT(largest, 1e3);
+}
+
 // ---- rows
 
 TEST(Forces, AreColumnsOfTheHistoryAndPartOfTheState) {

@@ -71,6 +71,7 @@ class ColumnImpulses {
     Momenta sum(body_of_.size(), Vector{});
     for (std::size_t c = 0; c < columns_.size(); c += 3) {
       const std::string name = columns_[c].substr(0, columns_[c].size() - 2);
+      if (name.ends_with(".friction")) continue;  // is in the force already
       const auto bodies = bodies_of_column(name);
       for (std::size_t i = 0; i < 3; ++i) {
         const double impulse = row_[c + i] * model.forces->duration;

@@ -14,16 +14,13 @@ namespace {
 
 constexpr std::size_t features_a_range = 4096, groups_a_range = 16;
 
-double square_in_frame(const double* from, const double* to, const std::array<double, 3>& frame) {
+double length_in_frame(const double* from, const double* to, const std::array<double, 3>& frame) {
   double square = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double d = to[axis] - from[axis] - frame[axis];
     square += d * d;
   }
-  return square * (paths_rounded_up * paths_rounded_up);
-}
-double length_in_frame(const double* from, const double* to, const std::array<double, 3>& frame) {
-  return std::sqrt(square_in_frame(from, to, frame));
+  return std::sqrt(square) * paths_rounded_up;
 }
 
 /// What was moved and the step of a node side by side, to be compared at once.
@@ -98,6 +95,7 @@ void FeatureMotion::join(const SurfaceFeatures& features, const Surface& surface
   joined_.insert(joined_.end(), change.new_slave.begin(), change.new_slave.end());
   node.resize(surface.slaves());
   way_.resize(surface.slaves());
+  solution_step_.resize(surface.slaves());
   for (auto [ways, count] : {std::pair(&of_node, surface.slaves()), std::pair(&of_face, surface.face.size()),
                              std::pair(&of_edge, features.edge.size())}) {
     ways->path.resize(count, 0);
@@ -116,6 +114,7 @@ void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surfac
       known_ && node.size() == surface.slaves() && of_edge.path.size() == features.edge.size();
   node.resize(surface.slaves());
   way_.resize(surface.slaves());
+  solution_step_.resize(surface.slaves());
   if (!follows) {
     for (auto [ways, count] : {std::pair(&of_node, node.size()), std::pair(&of_face, surface.face.size()),
                                std::pair(&of_edge, features.edge.size())})
@@ -256,11 +255,6 @@ void FeatureMotion::end_of_body_node(std::size_t slave, const RigidMotion& body,
   for (int axis = 0; axis < 3; ++axis) node[slave].end[axis] = node[slave].start[axis] + dt * v[axis];
 }
 
-bool FeatureMotion::is_within(int slave, double length) const {
-  const NodeMotion64& moved = node[index(slave)];
-  return length > 0 && square_in_frame(moved.start, moved.end, frame_of(index(slave))) <= length * length;
-}
-
 void FeatureMotion::set_limits(double factor, double surplus) {
   limit_factor_ = factor;
   limit_surplus_ = surplus;
@@ -268,10 +262,10 @@ void FeatureMotion::set_limits(double factor, double surplus) {
 
 // Take the step of a node that exceeds its limit for its step. \returns whether it does
 bool FeatureMotion::raise(std::size_t slave) {
-  const NodeMotion64& moved = node[slave];
-  const double limit = limit_factor_ * way_[slave].step + limit_surplus_;
-  if (square_in_frame(moved.start, moved.end, frame_of(slave)) <= limit * limit) return false;
-  way_[slave].step = length_in_frame(moved.start, moved.end, frame_of(slave));
+  const double step = length_in_frame(node[slave].start, node[slave].end, frame_of(slave));
+  solution_step_[slave] = step;
+  if (step <= limit_factor_ * way_[slave].step + limit_surplus_) return false;
+  way_[slave].step = step;
   of_node.ahead[slave] = of_node.path[slave] + approach_factor * way_[slave].step;
   return true;
 }

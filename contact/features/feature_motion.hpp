@@ -78,9 +78,9 @@ class FeatureMotion {
     return corrected_->ranges() + (driven_.size() + driven_a_range - 1) / driven_a_range;
   }
 
-  /// Whether a node's displacement in the frame of its group, to its last position at the end of the step, is
-  /// no longer than that.
-  bool is_within(int slave, double length) const;
+  /// Displacement in this step of a node in the frame of its group to its last end; 0 of those whose end is
+  /// as predicted.
+  double step_of_solution(int slave) const { return is_corrected(slave) ? solution_step_[index(slave)] : 0; }
 
   /// Forget the last step.
   void forget() { known_ = false; }
@@ -107,6 +107,10 @@ class FeatureMotion {
     archive(node, of_node, of_face, of_edge, groups, way_, driven_, joined_, limit_factor_, limit_surplus_,
             frame_, frame_sum_, magnitude_, restarts_, known_, predicted_, exceeds_);
   }
+  /// Whether that is more than paths look ahead.
+  bool exceeds_prediction(int slave) const {
+    return step_of_solution(slave) > approach_factor * way_[index(slave)].step;
+  }
 
  private:
   static constexpr std::size_t driven_a_range = 1024;
@@ -132,8 +136,9 @@ class FeatureMotion {
   void spread(const SurfaceFeatures& features, bool with_paths, ThreadTeam& team);
   void start_sums(std::size_t count);
 
-  std::vector<Way> way_;  ///< of each slave node
-  std::vector<Sum> sum_;  ///< one a range
+  std::vector<Way> way_;               ///< of each slave node
+  std::vector<double> solution_step_;  ///< likewise, of those that contact has moved in this step
+  std::vector<Sum> sum_;               ///< one a range
   std::vector<Vector3<double>> position_;
   std::vector<std::pair<double, double>> of_groups_;  ///< displacement along an axis, nodes
   std::vector<int> driven_;                           ///< slave nodes of rigid bodies

@@ -91,30 +91,11 @@ bool FeaturePairs::is_due(const SurfaceFeatures& features, const Surface& surfac
 bool FeaturePairs::is_due_after_solution(const SurfaceFeatures& features, const Surface& surface,
                                          const FeatureMotion& motion, ThreadTeam& team) {
   if (!motion.knows_corrected() || motion.exceeds_limits()) return is_due(features, surface, motion, team);
-  may_bend_.resize(motion.ranges_of_corrected());
-  for (std::vector<int>& faces : may_bend_) faces.clear();
-  std::atomic<bool> due = false;
-  motion.for_each_corrected(team, [&](std::size_t range, std::size_t s) {
-    if (surface.node[s] < 0) return;
-    const int slave = static_cast<int>(s);
-    if (!is_inside(s, motion, 1)) due.store(true, std::memory_order_relaxed);
-    // Each face once: at the first of its nodes that contact has moved.
-    const auto is_first = [&](int face) {
-      const std::array<int, 4>& corner = at(features.face_node, face);
-      return std::none_of(corner.begin(), corner.end(),
-                          [&](int other) { return other < slave && motion.is_corrected(other); });
-    };
-    for (int f : surface.faces_of.of(slave))
-      if (flat_.may_bend(features, f, motion) && is_first(f)) may_bend_[range].push_back(f);
+  std::atomic<bool> any_left = false;
+  motion.for_each_corrected(team, [&](std::size_t, std::size_t s) {
+    if (surface.node[s] >= 0 && !is_inside(s, motion, 1)) any_left.store(true, std::memory_order_relaxed);
   });
-  const auto bend = [&](std::size_t range) {
-    for (int f : may_bend_[range])
-      if (flat_.bends(features, f, motion)) due.store(true, std::memory_order_relaxed);
-  };
-  const std::size_t moved = motion.ranges_moved_by_solution();
-  team.for_each(moved, bend);
-  for (std::size_t range = moved; range < may_bend_.size(); ++range) bend(range);
-  return due;
+  return any_left || flat_.any_bends_by_solution(features, surface, motion, team);
 }
 
 double FeaturePairs::scale_of(std::size_t slave, const Scene& scene, const FeatureMotion& motion) {
@@ -209,7 +190,7 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   kept_.changed = !changes_.empty();
   const bool is_first = reach_.empty();
   reach_.resize(surface.slaves(), empty_box);
-  if (!is_first) flat_.change(surface.face.size(), changes_.face);
+  if (!is_first) flat_.change(features, changes_.face, changes_.edge);
   faces_.begin_search(surface.face.size());
   rounds_.begin_search(features.all_of_faces ? 0 : features.edge.size());
   if (is_first || !changes_.empty()) {
@@ -221,7 +202,7 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   if (!is_first && collect_leaving(scene, motion, team)) {
     lay_boxes_of_leaving(scene, motion);
     drop_pairs(scene, motion, team);
-    add_diagonals(scene, motion.groups);
+    add_hidden(scene, motion.groups);
     add_pairs(scene, motion.groups, team);
   } else {
     start_over(scene, motion, team);
@@ -232,7 +213,7 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   }
   close_up();
   changes_.clear();
-  if (!depth.empty()) open_all(scene, motion.groups);
+  if (!depth.empty()) open_all(scene, motion);
 }
 
 void FeaturePairs::close_up() {
@@ -334,10 +315,7 @@ bool FeaturePairs::collect_leaving(const Scene& scene, const FeatureMotion& moti
 // All leave, with new boxes.
 void FeaturePairs::start_over(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
   motion.restart(scene.features, scene.surface, team);
-  if (scene.depth.bends_faces)
-    flat_.forget(scene.surface.face.size());
-  else
-    flat_.measure(scene.features, motion);
+  flat_.forget(scene.features, !scene.depth.bends_faces);
   reach_.assign(scene.surface.slaves(), empty_box);
   for (std::size_t s = 0; s < reach_.size(); ++s)
     if (scene.surface.node[s] >= 0) place(s, scene, motion);

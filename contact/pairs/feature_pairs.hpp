@@ -14,7 +14,8 @@
 /// keep two skins instead of their radii, which overlap in the mesh. Pairs that are new after a deletion may
 /// be nearer than their radii: such a pair keeps two skins until its distance has once reached its radii.
 ///
-/// Diagonals of flat faces are not paired (face_flatness.hpp).
+/// Diagonals of flat faces are not paired, nor are sides between faces in one plane with edges that are not
+/// much longer than these (flatness.hpp).
 
 #include <array>
 #include <cstdint>
@@ -22,9 +23,9 @@
 #include <utility>
 #include <vector>
 
-#include "contact/features/face_flatness.hpp"
 #include "contact/features/feature_motion.hpp"
 #include "contact/features/features.hpp"
+#include "contact/features/flatness.hpp"
 #include "contact/options.hpp"
 #include "contact/pairs/active_pairs.hpp"
 #include "contact/pairs/feature_boxes.hpp"
@@ -89,7 +90,7 @@ class FeaturePairs {
   /// The next search is for all features.
   void expire() { reach_.clear(); }
   std::uint64_t searches() const { return searches_; }
-  const FaceFlatness& flatness() const { return flat_; }
+  const SurfaceFlatness& flatness() const { return flat_; }
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
@@ -142,8 +143,8 @@ class FeaturePairs {
   template <class Kind>
   void open_kind(const Scene& scene, const Kind& kind, PairBlocks& blocks, double surplus,
                  FeatureMotion& motion, ThreadTeam& team);
-  void open_all(const Scene& scene, MotionGroups& groups);
-  void open(const Scene& scene, Parents parents, std::size_t pair, MotionGroups& groups);
+  void open_all(const Scene& scene, FeatureMotion& motion);
+  void open(const Scene& scene, Parents parents, std::size_t pair, FeatureMotion& motion);
   /// Whether the boxes of a pair part, or it has changed.
   static bool parts(const SearchedBoxes& a, int i, const SearchedBoxes& b, int j);
   template <class Kind>
@@ -151,7 +152,7 @@ class FeaturePairs {
   void drop_pairs(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team);
   void add_edges(const Scene& scene, MotionGroups& groups, const PairRecord& record, int parent, int e,
                  int other);
-  void add_diagonals(const Scene& scene, MotionGroups& groups);
+  void add_hidden(const Scene& scene, MotionGroups& groups);
   static bool owns_opposite_sides(const Scene& scene, int face);
   void remember(const PairRecord& record, std::vector<std::uint64_t>& kept) const;
   Spacing spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b, bool only_skins) const;
@@ -162,8 +163,7 @@ class FeaturePairs {
 
   PairBlocks face_blocks_, round_blocks_;  ///< of pairs of faces, and of beams and particles with faces
   std::vector<CaptureBox> reach_;          ///< of each slave node: where it may be until the next search
-  FaceFlatness flat_;
-  std::vector<std::vector<int>> may_bend_;  ///< working space: faces, by range of nodes
+  SurfaceFlatness flat_;
   SearchedBoxes faces_, rounds_, debris_;
   std::vector<std::uint8_t> node_flag_;             ///< as those of the faces at each slave node
   std::vector<double> face_radius_, round_radius_;  ///< largest of the features of each
@@ -206,7 +206,7 @@ class FeaturePairs {
   enum class PairFate : std::uint8_t { stays, bends, closes, leaves };
   std::array<std::vector<PairFate>, 2> fate_;  ///< in a search, of each pair, by Parents
   PairFate fate_of(int parent) const { return fate_[index(parents_of(parent))][place_of_parent(parent)]; }
-  std::vector<std::uint64_t> bending_;  ///< edges of pairs with faces that bend
+  std::vector<std::uint64_t> bending_;  ///< edges that are paired in pairs with faces that bend
   std::uint64_t searches_ = 0;
   std::uint64_t most_pairs_ = 0;   ///< of `counts`, in this search
   std::uint64_t most_open_ = 0;    ///< pairs of features until the next search

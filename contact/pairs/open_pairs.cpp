@@ -81,6 +81,13 @@ bool is_open(const PairList& list, std::size_t pair) {
   return list.wake[pair] == infinity && list.spacing(pair) != Spacing::none;
 }
 
+/// Opposite sides of a face.
+bool is_of_one_face(const EdgeFeature& a, const EdgeFeature& b) {
+  return std::any_of(a.face.begin(), a.face.end(), [&](int f) {
+    return f >= 0 && std::find(b.face.begin(), b.face.end(), f) != b.face.end();
+  });
+}
+
 /// What is nearer than its radii although all of the pair was of one piece waits.
 Spacing spacing_under(const PairRecord& parent, Spacing spacing) {
   return spacing == Spacing::radii && parent.spacing == Spacing::skins ? Spacing::waiting : spacing;
@@ -177,22 +184,25 @@ void FeaturePairs::open_kind(const Scene& scene, const Kind& kind, PairBlocks& b
   for (std::size_t range = 0; range < near_.size(); ++range)
     for (std::size_t i = 0; i < near_[range]; ++i) {
       if (node_face.size() + edge_edge.size() > most_open_) throw TooManyNear();
-      open(scene, Kind::parents, index(awake_[range * pairs_a_range + i]), motion.groups);
+      open(scene, Kind::parents, index(awake_[range * pairs_a_range + i]), motion);
     }
 }
 
-void FeaturePairs::open_all(const Scene& scene, MotionGroups& groups) {
+void FeaturePairs::open_all(const Scene& scene, FeatureMotion& motion) {
   for (PairList* list : {&node_face, &edge_edge}) list->begin_changes();
-  for (std::size_t i = 0; i < face_face.size(); ++i) open(scene, Parents::faces, i, groups);
-  for (std::size_t i = 0; i < round_face.size(); ++i) open(scene, Parents::rounds, i, groups);
+  for (std::size_t i = 0; i < face_face.size(); ++i) open(scene, Parents::faces, i, motion);
+  for (std::size_t i = 0; i < round_face.size(); ++i) open(scene, Parents::rounds, i, motion);
   kept_.clear();
 }
 
-void FeaturePairs::open(const Scene& scene, Parents parents, std::size_t pair, MotionGroups& groups) {
+void FeaturePairs::open(const Scene& scene, Parents parents, std::size_t pair, FeatureMotion& motion) {
+  MotionGroups& groups = motion.groups;
   PairList& list = parents == Parents::faces ? face_face : round_face;
   const PairRecord record = list[pair];
   const int parent = parent_number(parents, pair), a = record.first, b = record.second;
   list.wake[pair] = infinity;
+  if (parents == Parents::faces) flat_.watch(scene.features, motion, a);
+  flat_.watch(scene.features, motion, b);
   const auto add_nodes = [&](std::span<const int> slaves, int f) {
     for (int s : slaves)
       if (const Spacing spacing = node_face_spacing(scene, s, f); spacing != Spacing::none)
@@ -232,8 +242,9 @@ void FeaturePairs::add_edges(const Scene& scene, MotionGroups& groups, const Pai
                  .parent = parent});
 }
 
-// Of open pairs with faces that bend: their diagonals, those of them that are not paired yet.
-void FeaturePairs::add_diagonals(const Scene& scene, MotionGroups& groups) {
+// Of open pairs with faces that bend: edges that flat shapes have hidden, those of them that are not paired
+// yet.
+void FeaturePairs::add_hidden(const Scene& scene, MotionGroups& groups) {
   if (std::none_of(fate_.begin(), fate_.end(), [](const std::vector<PairFate>& fate) {
         return std::find(fate.begin(), fate.end(), PairFate::bends) != fate.end();
       }))
@@ -245,8 +256,9 @@ void FeaturePairs::add_diagonals(const Scene& scene, MotionGroups& groups) {
       bending_.push_back(key_of(pair.first, pair.second));
   std::sort(bending_.begin(), bending_.end());
   const auto joins = [&](int e) {
-    const EdgeFeature& edge = at(scene.features.edge, e);
-    return edge.is_diagonal() && (faces_.flag_of(edge.face[0]) & SearchedBoxes::bends) != 0;
+    const std::array<int, 2>& face = at(scene.features.edge, e).face;
+    return std::any_of(face.begin(), face.end(),
+                       [&](int f) { return f >= 0 && (faces_.flag_of(f) & SearchedBoxes::bends) != 0; });
   };
   for (const Parents parents : {Parents::faces, Parents::rounds}) {
     const std::vector<PairFate>& fate = fate_[index(parents)];
@@ -378,7 +390,7 @@ Spacing FeaturePairs::edge_edge_spacing(const Scene& scene, int first, int secon
       spaced ? spacing_of_new(kept_.edge_edge, first, second, only_skins) : Spacing::skins;
   // At the start nothing may be missing when such a face bends.
   const bool radii = spacing == Spacing::radii && scene.depth.empty();
-  return flat_.pairs(a, radii) && flat_.pairs(b, radii) ? spacing : Spacing::none;
+  return is_of_one_face(a, b) || flat_.pairs(scene.features, first, second, radii) ? spacing : Spacing::none;
 }
 
 }  // namespace brio

@@ -7,32 +7,14 @@
 
 #include "contact/features/feature_motion.hpp"
 #include "contact/features/features.hpp"
+#include "contact/features/gather.hpp"
 #include "contact/geometry/closest_on_hull.hpp"
 #include "contact/geometry/closest_on_segments.hpp"
 #include "contact/geometry/separation.hpp"
 #include "contact/pairs/feature_pairs.hpp"
-#include "contact/pairs/gather.hpp"
 #include "src/base/index.hpp"
 
 namespace brio {
-
-using Pack = Lanes<double>;
-inline constexpr int pack_size = NumberTraits<Pack>::lanes;
-
-/// Bit i: the truth in lane i.
-BRIO_INLINE unsigned lane_bits(MaskOf<Pack> mask) { return bits_of_lanes(mask.v); }
-/// Visit the lanes of set bits, ascending.
-template <class Visit>
-BRIO_INLINE void for_lanes(unsigned bits, const Visit& visit) {
-  for (; bits != 0; bits &= bits - 1) visit(__builtin_ctz(bits));
-}
-constexpr unsigned first_lanes(int count) { return (1U << count) - 1; }
-
-/// Numbers of eight features.
-BRIO_INLINE Pack gather_numbers(const double* of, const int* index) {
-  return Pack(wide_of<double>(of[index[0]], of[index[1]], of[index[2]], of[index[3]], of[index[4]],
-                              of[index[5]], of[index[6]], of[index[7]]));
-}
 
 /// In single precision, in which directions are kept.
 BRIO_INLINE Pack rounded_to_float(Pack a) {

@@ -8,6 +8,8 @@
 #include <set>
 #include <tuple>
 
+#include "contact/features/flat_hull.hpp"
+#include "contact/features/flatness.hpp"
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/geometry/hull_point.hpp"
 #include "src/base/index.hpp"
@@ -72,20 +74,56 @@ std::set<std::pair<int, int>> listed(const PairList& pairs) {
   return found;
 }
 
-// Whether an edge is the diagonal of a face that is flat for what keeps its radii, or two skins.
-bool is_flat(const ContactScene& scene, const FeatureMotion& still, int e, bool radii) {
-  const EdgeFeature& edge = scene.features.edge[index(e)];
-  if (!edge.is_diagonal()) return false;
-  const auto f = index(edge.face[0]);
-  const std::array<int, 4>& corner = scene.features.face_node[f];
-  const double thickness = flat_thickness(scene.features, f, radii ? Flatness::radii : Flatness::all);
-  return flat_slack(
-             {still.start(corner[0]), still.start(corner[1]), still.start(corner[2]), still.start(corner[3])},
-             thickness)
-             .least() > 0;
-}
+// Where the nodes are now.
+class Hidden {
+ public:
+  Hidden(const ContactScene& scene, const FeatureMotion& still) : features_(scene.features), still_(still) {}
+  /// Whether one of the edges is a diagonal of a flat face, or a side at which two faces are flat that is not
+  /// much narrower than the other edge is long.
+  bool operator()(int a, int b, bool radii) const { return hides(a, b, radii) || hides(b, a, radii); }
 
-// What is near where the nodes are now is listed, but for diagonals of flat faces; nothing listed is dead.
+ private:
+  bool hides(int flat, int other, bool radii) const {
+    const EdgeFeature& edge = features_.edge[index(flat)];
+    const auto is_flat = [&](const auto& corners) {
+      double radius = HUGE_VAL;
+      for (int f : edge.face)
+        if (f >= 0) radius = std::min(radius, features_.face_radius[index(f)]);
+      const double thickness = flat_thickness(features_, radius, radii ? Flatness::radii : Flatness::all);
+      return flat_hull(corners).slack(thickness) > -1e-9 * features_.skin;
+    };
+    if (edge.is_diagonal()) {
+      const std::array<int, 4>& corner = features_.face_node[index(edge.face[0])];
+      return is_flat(std::array{at(corner[0]), at(corner[1]), at(corner[2]), at(corner[3])});
+    }
+    if (edge.kind != EdgeKind::side || edge.faces != 2) return false;
+    std::array<Vector3<double>, 6> corners{at(edge.node[0]), at(edge.node[1])};
+    double area = HUGE_VAL;
+    for (std::size_t k = 0; k < 2; ++k) {
+      std::size_t next = 2 + 2 * k;
+      const std::array<int, 4>& corner = features_.face_node[index(edge.face[k])];
+      for (int node : corner)
+        if (node != edge.node[0] && node != edge.node[1] && next < 4 + 2 * k) corners[next++] = at(node);
+      if (next == 3 + 2 * k) corners[next] = corners[next - 1];
+      const Vector3<double> normal = cross(at(corner[2]) - at(corner[0]), at(corner[3]) - at(corner[1]));
+      area = std::min(area, 0.5 * std::sqrt(dot(normal, normal)));
+    }
+    return is_flat(corners) && length(other) <= 1.05 * 2 * area / length(flat);
+  }
+  Vector3<double> at(int slave) const {
+    const Eigen::Vector3d x = still_.start(slave);
+    return {x[0], x[1], x[2]};
+  }
+  double length(int e) const {
+    const std::array<int, 2>& node = features_.edge_node[index(e)];
+    return (still_.start(node[1]) - still_.start(node[0])).norm();
+  }
+
+  const SurfaceFeatures& features_;
+  const FeatureMotion& still_;
+};
+
+// What is near where the nodes are now is listed, but for what flat faces hide; nothing listed is dead.
 void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
   FeatureMotion still;
   FeaturePairs near;
@@ -115,9 +153,10 @@ void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
     }
   }
   const auto all_edges = listed(scene.pairs.edge_edge);
+  const Hidden hidden(scene, still);
   for (const PairRecord& pair : near.edge_edge.records()) {
     const bool radii = pair.spacing == Spacing::radii;
-    if (is_flat(scene, still, pair.first, radii) || is_flat(scene, still, pair.second, radii)) continue;
+    if (hidden(pair.first, pair.second, radii)) continue;
     const auto segment = [&](int e) -> Segment {
       const std::array<int, 2>& node = features.edge_node[index(e)];
       return {still.start(node[0]), still.start(node[1])};

@@ -1,6 +1,6 @@
 /// Gathered lanes hold the positions of the nodes listed, from records and from compact arrays.
 
-#include "contact/pairs/gather.hpp"
+#include "contact/features/gather.hpp"
 
 #include <gtest/gtest.h>
 

@@ -276,10 +276,8 @@ std::size_t expect_near_ones_are_listed(RandomScene& scene, const Detector& dete
         return of(features.edge_radius, p.first) + of(features.edge_radius, p.second);
       },
       [&](const PairRecord& p) {
-        const auto paired = [&](int e) {
-          return detector.pairs.flatness().pairs(features.edge[index(e)], p.spacing == Spacing::radii);
-        };
-        return paired(p.first) && paired(p.second);
+        const bool radii = p.spacing == Spacing::radii;
+        return detector.pairs.flatness().pairs(features, p.first, p.second, radii);
       });
   return near;
 }

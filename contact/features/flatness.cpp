@@ -1,0 +1,364 @@
+#include "contact/features/flatness.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "contact/features/flat_hull.hpp"
+#include "contact/features/gather.hpp"
+#include "src/base/index.hpp"
+
+namespace brio {
+
+namespace {
+
+constexpr double share_of_skin = 0.5, share_of_radius = 0.03;
+/// Of the thickness up to which a shape stays flat, so that it does not change at every search.
+constexpr double share_to_become_flat = 0.5;
+constexpr std::size_t shapes_a_range = 2048;
+/// Edges that are longer than so many widths of the faces at a flat side are paired with it.
+constexpr double widths_of_paired = 2;
+constexpr float not_measured = std::numeric_limits<float>::infinity();
+
+/// Faces, as what follows asks of a kind of shapes.
+struct Faces {
+  const SurfaceFeatures& features;
+  const FeatureMotion& motion;
+
+  std::size_t count() const { return features.face_node.size(); }
+  bool exists(std::size_t f) const { return features.diagonal_of_face[f][0] >= 0; }
+  const std::array<int, 4>& nodes(std::size_t f) const { return features.face_node[f]; }
+  double radius(std::size_t f) const { return features.face_radius[f]; }
+  double path(std::size_t f) const { return motion.of_face.path[f]; }
+  double ahead(std::size_t f) const { return motion.of_face.ahead[f]; }
+  /// Of the corners that contact has moved in this step.
+  double step_of_solution(std::size_t f) const {
+    double longest = 0;
+    for (int slave : nodes(f)) longest = std::max(longest, motion.step_of_solution(slave));
+    return longest;
+  }
+  /// Whether contact has moved a corner with a number below that farther than predicted.
+  bool exceeds_prediction(std::size_t f, int below = std::numeric_limits<int>::max()) const {
+    const std::array<int, 4>& corner = nodes(f);
+    return std::any_of(corner.begin(), corner.end(),
+                       [&](int slave) { return slave < below && motion.exceeds_prediction(slave); });
+  }
+  /// Of the corners over that of the shape.
+  double path_of_corners(std::size_t) const { return 1; }
+};
+
+/// Sides between two faces. Their corners move by no more than the sum of the paths of both faces in the
+/// frame of either, and by half as much again where these have frames of different groups, which corners that
+/// they share hold together.
+struct Sides {
+  const Faces& faces;
+  const std::vector<std::array<int, 6>>& node;
+  const SurfaceFeatures& features = faces.features;
+  const FeatureMotion& motion = faces.motion;
+
+  std::size_t count() const { return features.edge.size(); }
+  bool exists(std::size_t e) const {
+    const EdgeFeature& edge = features.edge[e];
+    return edge.kind == EdgeKind::side && edge.faces == 2 && edge.face[1] >= 0;
+  }
+  const std::array<int, 6>& nodes(std::size_t e) const { return node[e]; }
+  std::size_t face(std::size_t e, std::size_t k) const { return index(features.edge[e].face[k]); }
+  double radius(std::size_t e) const { return std::min(faces.radius(face(e, 0)), faces.radius(face(e, 1))); }
+  double path(std::size_t e) const { return faces.path(face(e, 0)) + faces.path(face(e, 1)); }
+  double ahead(std::size_t e) const { return faces.ahead(face(e, 0)) + faces.ahead(face(e, 1)); }
+  double step_of_solution(std::size_t e) const {
+    return faces.step_of_solution(face(e, 0)) + faces.step_of_solution(face(e, 1));
+  }
+  double path_of_corners(std::size_t e) const {
+    const auto group = [&](std::size_t k) {
+      return motion.groups.of_node(features.face_node[face(e, k)][0]);
+    };
+    return group(0) == group(1) ? 1 : 1.5;
+  }
+};
+
+/// At most eight shapes at both ends of the step.
+struct PackOfHulls {
+  FlatHull<Pack> start, end;
+};
+
+// The last of them in the lanes that are left over.
+template <class Kind>
+PackOfHulls hulls_of(const Kind& kind, const int* shapes, std::size_t count) {
+  constexpr std::size_t corners = std::tuple_size_v<std::remove_cvref_t<decltype(kind.nodes(0))>>;
+  alignas(32) int node[corners][pack_size];
+  for (std::size_t lane = 0; lane < pack_size; ++lane) {
+    const auto& own = kind.nodes(index(shapes[std::min(lane, count - 1)]));
+    for (std::size_t k = 0; k < corners; ++k) node[k][lane] = own[k];
+  }
+  constexpr std::size_t stride = sizeof(NodeMotion64) / sizeof(double);
+  const auto hull_at = [&](const double* rows) {
+    std::array<Vector3<Pack>, corners> at;
+    for (std::size_t k = 0; k < corners; ++k) at[k] = gather_points<Pack>(rows, stride, node[k]);
+    return flat_hull(at);
+  };
+  return {hull_at(kind.motion.node.data()->start), hull_at(kind.motion.node.data()->end)};
+}
+
+template <class Kind>
+double thickness_of(const Kind& kind, const FlatShapes& shapes, std::size_t i) {
+  return flat_thickness(kind.features, kind.radius(i), shapes.flat[i]);
+}
+
+/// \param visit (shape, hull at the start, at the end) of those in a list
+template <class Kind, class Visit>
+void for_hulls(const Kind& kind, std::span<const int> list, const Visit& visit) {
+  for (std::size_t begin = 0; begin < list.size(); begin += pack_size) {
+    const std::size_t count = std::min<std::size_t>(pack_size, list.size() - begin);
+    const PackOfHulls hulls = hulls_of(kind, &list[begin], count);
+    const auto in_lane = [](const FlatHull<Pack>& of, std::size_t k) {
+      return FlatHull<double>{of.thickness[static_cast<int>(k)], of.unfolded[static_cast<int>(k)]};
+    };
+    for (std::size_t k = 0; k < count; ++k)
+      visit(index(list[begin + k]), in_lane(hulls.start, k), in_lane(hulls.end, k));
+  }
+}
+
+// Whether its path may be longer at the end of this step: as predicted, or as contact has moved a corner.
+template <class Kind>
+bool may_reach(const Kind& kind, std::size_t i, double path) {
+  return kind.ahead(i) > path ||
+         (kind.motion.is_solution() && kind.step_of_solution(i) > path - kind.path(i));
+}
+
+template <class Kind>
+bool may_bend(const Kind& kind, const FlatShapes& shapes, std::size_t i) {
+  return shapes.flat[i] != Flatness::none && may_reach(kind, i, shapes.until[i]);
+}
+
+// Take over the shape at the start of the step. \returns whether it may bend in the step
+template <class Kind>
+bool renew(const Kind& kind, FlatShapes& shapes, std::size_t i, const FlatHull<double>& start) {
+  shapes.until[i] = kind.path(i) + start.slack(thickness_of(kind, shapes, i)) / kind.path_of_corners(i);
+  return may_reach(kind, i, shapes.until[i]);
+}
+
+template <class Kind>
+Flatness flatness_of(const Kind& kind, std::size_t i, const FlatHull<double>& start,
+                     const FlatHull<double>& end) {
+  for (const Flatness flatness : {Flatness::all, Flatness::radii}) {
+    const double thickness = share_to_become_flat * flat_thickness(kind.features, kind.radius(i), flatness);
+    if (start.slack(thickness) > 0 && end.slack(thickness) > 0) return flatness;
+  }
+  return Flatness::none;
+}
+
+/// \param visit (shape, hull at the start, at the end) of listed shapes that may bend in this step, by
+/// ranges. Those for which it is true are at risk.
+template <class Kind, class Visit>
+void for_bending(const Kind& kind, FlatShapes& shapes, ThreadTeam& team, const Visit& visit) {
+  shapes.at_risk.resize((shapes.list.size() + shapes_a_range - 1) / shapes_a_range + 1);
+  shapes.at_risk.back().clear();
+  team.for_ranges(shapes.list.size(), shapes_a_range, [&](std::size_t begin, std::size_t end) {
+    std::vector<int>& at_risk = shapes.at_risk[begin / shapes_a_range];
+    at_risk.clear();
+    for (std::size_t k = begin; k < end; ++k)
+      if (may_bend(kind, shapes, index(shapes.list[k]))) at_risk.push_back(shapes.list[k]);
+    auto last = at_risk.begin();
+    for_hulls(kind, at_risk,
+              [&](std::size_t i, const FlatHull<double>& start, const FlatHull<double>& end_hull) {
+                if (visit(i, start, end_hull)) *last++ = static_cast<int>(i);
+              });
+    at_risk.erase(last, at_risk.end());
+  });
+}
+
+template <class Kind>
+bool any_bends_of(const Kind& kind, FlatShapes& shapes, ThreadTeam& team) {
+  std::atomic<bool> any = false;
+  for_bending(kind, shapes, team,
+              [&](std::size_t i, const FlatHull<double>& start, const FlatHull<double>& end) {
+                if (!renew(kind, shapes, i, start)) return false;
+                if (!(end.slack(thickness_of(kind, shapes, i)) >= 0))
+                  any.store(true, std::memory_order_relaxed);
+                return true;
+              });
+  return any;
+}
+
+/// \param visit shapes that are less flat than they were
+template <class Kind, class Visit>
+void take_over_bent(const Kind& kind, FlatShapes& shapes, ThreadTeam& team, const Visit& visit) {
+  for_bending(kind, shapes, team,
+              [&](std::size_t i, const FlatHull<double>& start, const FlatHull<double>& end) {
+                if (!renew(kind, shapes, i, start)) return false;
+                const Flatness now = flatness_of(kind, i, start, end);
+                if (now > std::exchange(shapes.flat[i], std::max(now, shapes.flat[i]))) visit(i);
+                return shapes.flat[i] != Flatness::none;
+              });
+  shapes.close_up();
+}
+
+// Of those that contact may have bent.
+template <class Kind>
+bool any_moved_bends(const Kind& kind, const FlatShapes& shapes, ThreadTeam& team) {
+  std::atomic<bool> any = false;
+  for (const std::vector<std::vector<int>>* lists : {&shapes.at_risk, &shapes.moved})
+    team.for_each(lists->size(), [&](std::size_t range) {
+      bool bent = false;
+      for_hulls(kind, (*lists)[range],
+                [&](std::size_t i, const FlatHull<double>&, const FlatHull<double>& end) {
+                  bent |= !(end.slack(thickness_of(kind, shapes, i)) >= 0);
+                });
+      if (bent) any.store(true, std::memory_order_relaxed);
+    });
+  return any;
+}
+
+template <class Kind>
+void begin_to_watch(const Kind& kind, FlatShapes& shapes, int i) {
+  const auto one = index(i);
+  if (!kind.exists(one) || shapes.flat[one] != Flatness::none) return;
+  for_hulls(kind, std::array{i},
+            [&](std::size_t, const FlatHull<double>& start, const FlatHull<double>& end) {
+              shapes.flat[one] = flatness_of(kind, one, start, end);
+              if (shapes.flat[one] == Flatness::none) return;
+              shapes.list.push_back(i);
+              if (!renew(kind, shapes, one, start)) return;
+              if (shapes.at_risk.empty()) shapes.at_risk.emplace_back();
+              shapes.at_risk.back().push_back(i);
+            });
+}
+
+std::array<int, 6> nodes_of_side(const SurfaceFeatures& features, const EdgeFeature& edge) {
+  std::array<int, 6> node{edge.node[0], edge.node[1]};
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::size_t next = 2 + 2 * k;
+    for (int corner : features.face_node[index(edge.face[k])])
+      if (corner != edge.node[0] && corner != edge.node[1] && next < 4 + 2 * k) node[next++] = corner;
+    if (next == 3 + 2 * k) node[next] = node[next - 1];
+  }
+  return node;
+}
+
+}  // namespace
+
+double flat_thickness(const SurfaceFeatures& features, double radius, Flatness flatness) {
+  const double for_all = share_of_skin * features.skin;
+  return flatness == Flatness::all ? for_all : std::max(for_all, share_of_radius * radius);
+}
+
+void FlatShapes::forget(std::size_t count) {
+  flat.assign(count, Flatness::none);
+  until.assign(count, 0);
+  list.clear();
+  for (std::vector<int>& of_range : at_risk) of_range.clear();
+}
+
+void FlatShapes::change(std::size_t count, std::span<const int> changed) {
+  flat.resize(count, Flatness::none);
+  until.resize(count, 0);
+  for (int i : changed) flat[index(i)] = Flatness::none;
+  close_up();
+}
+
+void FlatShapes::close_up() {
+  std::erase_if(list, [&](int i) { return flat[index(i)] == Flatness::none; });
+}
+
+void SurfaceFlatness::forget(const SurfaceFeatures& features, bool finds_flat) {
+  faces_.forget(features.face_node.size());
+  sides_.forget(features.edge.size());
+  is_watched_.assign(features.face_node.size(), 0);
+  finds_flat_ = finds_flat;
+  side_node_.assign(features.edge.size(), {});
+  length_.assign(features.edge.size(), not_measured);
+  width_.assign(features.edge.size(), 0);
+}
+
+void SurfaceFlatness::change(const SurfaceFeatures& features, std::span<const int> faces,
+                             std::span<const int> edges) {
+  faces_.change(features.face_node.size(), faces);
+  sides_.change(features.edge.size(), edges);
+  is_watched_.resize(features.face_node.size(), 0);
+  side_node_.resize(features.edge.size());
+  length_.resize(features.edge.size(), not_measured);
+  width_.resize(features.edge.size(), 0);
+  for (int f : faces) is_watched_[index(f)] = 0;
+  for (int e : edges) {
+    length_[index(e)] = not_measured;
+    for (int f : features.edge[index(e)].face)
+      if (f >= 0) is_watched_[index(f)] = 0;
+  }
+}
+
+void SurfaceFlatness::watch(const SurfaceFeatures& features, const FeatureMotion& motion, int face) {
+  if (!finds_flat_ || is_watched_[index(face)] != 0) return;
+  is_watched_[index(face)] = 1;
+  const Faces faces{features, motion};
+  begin_to_watch(faces, faces_, face);
+  for (int e : features.diagonal_of_face[index(face)])
+    if (e >= 0) measure_edge(features, motion, e);
+  for (int e : features.edge_of_face[index(face)]) {
+    if (e < 0) continue;
+    measure_edge(features, motion, e);
+    begin_to_watch(Sides{faces, side_node_}, sides_, e);
+  }
+}
+
+void SurfaceFlatness::measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge) {
+  const EdgeFeature& own = features.edge[index(edge)];
+  const double length = (motion.start(own.node[1]) - motion.start(own.node[0])).norm();
+  length_[index(edge)] = static_cast<float>(length);
+  if (!Sides{Faces{features, motion}, side_node_}.exists(index(edge))) return;
+  side_node_[index(edge)] = nodes_of_side(features, own);
+  double area = std::numeric_limits<double>::infinity();
+  for (int face : own.face) {
+    const std::array<int, 4>& corner = features.face_node[index(face)];
+    const Eigen::Vector3d first = motion.start(corner[2]) - motion.start(corner[0]),
+                          second = motion.start(corner[3]) - motion.start(corner[1]);
+    area = std::min(area, 0.5 * first.cross(second).norm());
+  }
+  width_[index(edge)] = static_cast<float>(widths_of_paired * area / length);
+}
+
+bool SurfaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion,
+                                ThreadTeam& team) {
+  const Faces faces{features, motion};
+  return any_bends_of(faces, faces_, team) || any_bends_of(Sides{faces, side_node_}, sides_, team);
+}
+
+// Those at risk as predicted, and those with a corner that has moved farther than predicted: a face at the
+// first of these corners, a side with the first of its faces that has one.
+bool SurfaceFlatness::any_bends_by_solution(const SurfaceFeatures& features, const Surface& surface,
+                                            const FeatureMotion& motion, ThreadTeam& team) {
+  const Faces faces{features, motion};
+  const Sides sides{faces, side_node_};
+  for (FlatShapes* shapes : {&faces_, &sides_}) {
+    shapes->moved.resize(motion.ranges_of_corrected());
+    for (std::vector<int>& of_range : shapes->moved) of_range.clear();
+  }
+  motion.for_each_corrected(team, [&](std::size_t range, std::size_t s) {
+    const int slave = static_cast<int>(s);
+    if (surface.node[s] < 0 || !motion.exceeds_prediction(slave)) return;
+    for (int f : surface.faces_of.of(slave)) {
+      if (faces.exceeds_prediction(index(f), slave)) continue;
+      if (may_bend(faces, faces_, index(f))) faces_.moved[range].push_back(f);
+      for (int e : features.edge_of_face[index(f)]) {
+        if (e < 0 || !may_bend(sides, sides_, index(e))) continue;
+        const int first = features.edge[index(e)].face[0];
+        if (first == f || !faces.exceeds_prediction(index(first))) sides_.moved[range].push_back(e);
+      }
+    }
+  });
+  return any_moved_bends(faces, faces_, team) || any_moved_bends(sides, sides_, team);
+}
+
+void SurfaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion,
+                                std::uint8_t mark, std::vector<std::uint8_t>& flags, ThreadTeam& team) {
+  const Faces faces{features, motion};
+  const auto flag = [&](int face) { std::atomic_ref(flags[index(face)]).fetch_or(mark); };
+  take_over_bent(faces, faces_, team, [&](std::size_t f) { flag(static_cast<int>(f)); });
+  take_over_bent(Sides{faces, side_node_}, sides_, team, [&](std::size_t e) {
+    for (int face : features.edge[e].face) flag(face);
+  });
+}
+
+}  // namespace brio

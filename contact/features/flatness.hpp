@@ -1,0 +1,108 @@
+#pragma once
+/// Flat faces and flat sides: edges that are no separate features.
+///
+/// A segment that crosses a flat polygon crosses its rim, or has an end that crosses the polygon. So
+/// diagonals of flat faces are not paired; nor is a side at which two faces lie in one plane paired with
+/// edges that are not longer than twice the width of these faces: the ends of such an edge are nodes in
+/// contact with these faces or their neighbours, and over its length the surface bends by little more than
+/// two faces do.
+///
+/// A face counts as flat where it is convex and its hull is thinner than half of the skin, or for what keeps
+/// its radius, than 0.03 of that; a side, where its faces lie on both sides of it and the hull of both is so
+/// thin.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "contact/features/feature_motion.hpp"
+#include "contact/features/features.hpp"
+#include "src/base/index.hpp"
+
+namespace brio {
+
+/// What a shape is flat for: pairs that keep two skins, and so all; pairs that keep their radii; none.
+enum class Flatness : std::uint8_t { all, radii, none };
+
+/// Thickness of the hull of faces with that radius below which they are flat.
+double flat_thickness(const SurfaceFeatures& features, double radius, Flatness flatness);
+
+/// What is known of shapes of one kind.
+struct FlatShapes {
+  std::vector<Flatness> flat;
+  std::vector<double> until;  ///< path of a shape until which it surely is as flat
+  std::vector<int> list;      ///< of those that are flat, none twice
+
+  /// Working space, in ranges: those that may bend in this step as predicted; those that contact has moved
+  /// by more than that.
+  std::vector<std::vector<int>> at_risk, moved;
+
+  void forget(std::size_t count);
+  void change(std::size_t count, std::span<const int> changed);
+  /// No longer those that are not flat.
+  void close_up();
+  bool is_flat(int i, bool radii) const {
+    const Flatness flatness = flat[index(i)];
+    return flatness == Flatness::all || (flatness == Flatness::radii && radii);
+  }
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(flat, until, list);
+  }
+};
+
+/// Faces that may come near others, and their sides; others count as not flat.
+class SurfaceFlatness {
+ public:
+  /// No face is watched. \param finds_flat whether any will be found flat
+  void forget(const SurfaceFeatures& features, bool finds_flat);
+  /// The surface has changed. \param faces, edges that are not flat until they are watched anew
+  void change(const SurfaceFeatures& features, std::span<const int> faces, std::span<const int> edges);
+  /// A face and its sides, as they are over the present step.
+  void watch(const SurfaceFeatures& features, const FeatureMotion& motion, int face);
+
+  /// Whether a shape is no longer as flat as it was at the end of the step, as predicted.
+  bool any_bends(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team);
+  /// The same after a solution.
+  bool any_bends_by_solution(const SurfaceFeatures& features, const Surface& surface,
+                             const FeatureMotion& motion, ThreadTeam& team);
+  /// Take over what shapes have become that bend more. \param mark that the flags of their faces get
+  void take_over(const SurfaceFeatures& features, const FeatureMotion& motion, std::uint8_t mark,
+                 std::vector<std::uint8_t>& flags, ThreadTeam& team);
+
+  /// Whether two edges are paired. \param radii as what keeps them
+  bool pairs(const SurfaceFeatures& features, int a, int b, bool radii) const {
+    return !hides(features, a, b, radii) && !hides(features, b, a, radii);
+  }
+  /// Thickness below which the hull of a face stays while its diagonals are not paired, with what keeps their
+  /// radii; 0: they are.
+  double thickness_of_flat(const SurfaceFeatures& features, int face, bool radii) const {
+    return faces_.is_flat(face, radii)
+               ? flat_thickness(features, features.face_radius[index(face)], faces_.flat[index(face)])
+               : 0;
+  }
+
+  /// Saved and restored (src/base/state_archive.hpp).
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(faces_, sides_, is_watched_, finds_flat_, side_node_, length_, width_);
+  }
+
+ private:
+  bool hides(const SurfaceFeatures& features, int flat, int other, bool radii) const {
+    const EdgeFeature& edge = features.edge[index(flat)];
+    if (edge.is_diagonal()) return faces_.is_flat(edge.face[0], radii);
+    return sides_.is_flat(flat, radii) && length_[index(other)] <= width_[index(flat)];
+  }
+  void measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge);
+
+  FlatShapes faces_, sides_;              ///< sides by edge; of diagonals and beams nothing
+  std::vector<std::uint8_t> is_watched_;  ///< each face
+  bool finds_flat_ = false;
+  std::vector<std::array<int, 6>> side_node_;  ///< of each side: its ends, then the others of either face
+  std::vector<float> length_;                  ///< of each edge; infinite: not measured yet
+  std::vector<float> width_;                   ///< of each side: twice that of its faces across it
+};
+
+}  // namespace brio

@@ -1,0 +1,91 @@
+// Flat faces and sides, whose edges are no features of their own.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "contact/features/flat_hull.hpp"
+#include "src/base/index.hpp"
+
+namespace brio {
+namespace {
+
+using Point = Vector3<double>;
+using Corners = std::array<Point, 4>;
+
+Corners warped(double by) { return {Point{0, 0, by}, Point{1, 0, 0}, Point{1, 1, by}, Point{0, 1, 0}}; }
+
+TEST(Flatness, ThicknessIsThatBetweenTheDiagonals) {
+  for (const double by : {0.0, 1e-3, -2e-2}) {
+    EXPECT_NEAR(flat_hull(warped(by)).thickness, std::abs(by), 1e-12);
+    EXPECT_NEAR(flat_hull(warped(by)).slack(std::abs(by) + 0.01), 0.005, 1e-12);
+    EXPECT_LT(flat_hull(warped(by)).slack(std::abs(by) - 1e-9), 0);
+  }
+}
+
+TEST(Flatness, IsNotOfFacesThatAreNotConvexOrHaveNoArea) {
+  Corners dart = warped(0);
+  for (std::size_t k = 0; k < 4; ++k) {
+    Corners at = warped(0);
+    const Point middle{0.5, 0.5, 0};
+    at[k] = middle + 0.2 * (middle - at[k]);
+    EXPECT_LT(flat_hull(at).unfolded, 0) << k;
+  }
+  std::swap(dart[1], dart[2]);  // sides cross
+  EXPECT_LT(flat_hull(dart).unfolded, 0);
+  const Corners line{Point{0, 0, 0}, Point{1, 0, 0}, Point{2, 0, 0}, Point{3, 0, 0}};
+  EXPECT_LT(flat_hull(line).slack(0.1), 0);
+}
+
+// Two faces of widths 1 and 2 at a side of length 1, bent by an angle.
+std::array<Point, 6> bent(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {Point{0, 0, 0},  Point{0, 1, 0},         Point{-1, 0, 0},
+          Point{-1, 1, 0}, Point{2 * c, 0, 2 * s}, Point{2 * c, 1, 2 * s}};
+}
+
+// Of a bent side the height of the triangle of both widths.
+TEST(Flatness, ThicknessOfASideIsThatOfItsBend) {
+  for (const double angle : {0.0, 1e-3, 0.2, -0.5, 1.5}) {
+    const double base = std::sqrt(5 + 4 * std::cos(angle));
+    EXPECT_NEAR(flat_hull(bent(angle)).thickness, 2 * std::abs(std::sin(angle)) / base, 1e-12) << angle;
+  }
+  EXPECT_NEAR(flat_hull(bent(0)).slack(0.1), 0.05, 1e-12);
+  EXPECT_NEAR(flat_hull(bent(0)).slack(10), 0.25, 1e-12) << "the narrow face may fold over";
+}
+
+TEST(Flatness, IsNotOfASideWithBothFacesOnOneSide) {
+  EXPECT_LT(flat_hull(bent(3.14159)).slack(0.1), 0);
+  std::array<Point, 6> no_area = bent(0);
+  no_area[1] = no_area[0];
+  EXPECT_LT(flat_hull(no_area).slack(0.1), 0);
+}
+
+// Corners that move by no more than the slack leave a shape flat.
+template <class Shape>
+void expect_slack_lasts(const Shape& flat) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> value(-1, 1);
+  const auto any = [&]() -> Point { return {value(random), value(random), value(random)}; };
+  const double thickness = 0.05;
+  int tried = 0;
+  for (int k = 0; k < 40000; ++k) {
+    Shape at = flat;
+    for (Point& x : at) x = x + Point{0.3 * value(random), 0.3 * value(random), 0.03 * value(random)};
+    const double slack = flat_hull(at).slack(thickness);
+    if (slack <= 0) continue;
+    ++tried;
+    for (Point& x : at) {
+      const Point way = any();
+      x = x + slack / std::sqrt(dot(way, way)) * way;
+    }
+    ASSERT_GE(flat_hull(at).slack(thickness), -1e-2 * slack);
+  }
+  EXPECT_GT(tried, 1000);
+}
+TEST(Flatness, LastsForTheSlack) { expect_slack_lasts(warped(0)); }
+TEST(Flatness, OfASideLastsForTheSlack) { expect_slack_lasts(bent(0)); }
+
+}  // namespace
+}  // namespace brio

@@ -20,7 +20,7 @@
 #include "contact/geometry/closest_point.hpp"
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/geometry/separation.hpp"
-#include "contact/pairs/gather.hpp"
+#include "contact/features/gather.hpp"
 #include "src/base/index.hpp"
 
 namespace brio {

@@ -18,8 +18,6 @@ constexpr double share_of_skin = 0.5, share_of_radius = 0.03;
 /// Of the thickness up to which a shape stays flat, so that it does not change at every search.
 constexpr double share_to_become_flat = 0.5;
 constexpr std::size_t shapes_a_range = 2048;
-/// Edges that are longer than so many widths of the faces at a flat side are paired with it.
-constexpr double widths_of_paired = 2;
 constexpr float not_measured = std::numeric_limits<float>::infinity();
 
 /// Faces, as what follows asks of a kind of shapes.
@@ -316,7 +314,7 @@ void SurfaceFlatness::measure_edge(const SurfaceFeatures& features, const Featur
                           second = motion.start(corner[3]) - motion.start(corner[1]);
     area = std::min(area, 0.5 * first.cross(second).norm());
   }
-  width_[index(edge)] = static_cast<float>(widths_of_paired * area / length);
+  width_[index(edge)] = static_cast<float>(area / length);
 }
 
 bool SurfaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion,

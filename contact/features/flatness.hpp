@@ -3,9 +3,8 @@
 ///
 /// A segment that crosses a flat polygon crosses its rim, or has an end that crosses the polygon. So
 /// diagonals of flat faces are not paired; nor is a side at which two faces lie in one plane paired with
-/// edges that are not longer than twice the width of these faces: the ends of such an edge are nodes in
-/// contact with these faces or their neighbours, and over its length the surface bends by little more than
-/// two faces do.
+/// edges that are not longer than these faces are wide: the ends of such an edge are nodes in contact with
+/// these faces or their neighbours, and over its length the surface bends by little more than at the side.
 ///
 /// A face counts as flat where it is convex and its hull is thinner than half of the skin, or for what keeps
 /// its radius, than 0.03 of that; a side, where its faces lie on both sides of it and the hull of both is so
@@ -102,7 +101,7 @@ class SurfaceFlatness {
   bool finds_flat_ = false;
   std::vector<std::array<int, 6>> side_node_;  ///< of each side: its ends, then the others of either face
   std::vector<float> length_;                  ///< of each edge; infinite: not measured yet
-  std::vector<float> width_;                   ///< of each side: twice that of its faces across it
+  std::vector<float> width_;                   ///< of each side: that of the narrower face across it
 };
 
 }  // namespace brio

@@ -15,7 +15,7 @@
 /// be nearer than their radii: such a pair keeps two skins until its distance has once reached its radii.
 ///
 /// Diagonals of flat faces are not paired, nor are sides between faces in one plane with edges that are not
-/// much longer than these (flatness.hpp).
+/// longer than these are wide (flatness.hpp).
 
 #include <array>
 #include <cstdint>

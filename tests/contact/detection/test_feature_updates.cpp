@@ -78,8 +78,8 @@ std::set<std::pair<int, int>> listed(const PairList& pairs) {
 class Hidden {
  public:
   Hidden(const ContactScene& scene, const FeatureMotion& still) : features_(scene.features), still_(still) {}
-  /// Whether one of the edges is a diagonal of a flat face, or a side at which two faces are flat that is not
-  /// much narrower than the other edge is long.
+  /// Whether one of the edges is a diagonal of a flat face, or a side at which two faces are flat that are
+  /// not narrower than the other edge is long.
   bool operator()(int a, int b, bool radii) const { return hides(a, b, radii) || hides(b, a, radii); }
 
  private:
@@ -108,7 +108,7 @@ class Hidden {
       const Vector3<double> normal = cross(at(corner[2]) - at(corner[0]), at(corner[3]) - at(corner[1]));
       area = std::min(area, 0.5 * std::sqrt(dot(normal, normal)));
     }
-    return is_flat(corners) && length(other) <= 1.05 * 2 * area / length(flat);
+    return is_flat(corners) && length(other) <= 1.05 * area / length(flat);
   }
   Vector3<double> at(int slave) const {
     const Eigen::Vector3d x = still_.start(slave);

@@ -15,12 +15,12 @@
 #include <string_view>
 #include <vector>
 
+#include "contact/features/gather.hpp"
 #include "contact/geometry/closest_on_hull.hpp"
 #include "contact/geometry/closest_on_segments.hpp"
 #include "contact/geometry/closest_point.hpp"
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/geometry/separation.hpp"
-#include "contact/features/gather.hpp"
 #include "src/base/index.hpp"
 
 namespace brio {

@@ -73,7 +73,6 @@ class FeatureMotion {
       for (std::size_t i = begin; i < end; ++i) visit(first + begin / driven_a_range, index(driven_[i]));
     });
   }
-  std::size_t ranges_moved_by_solution() const { return corrected_->ranges(); }
   std::size_t ranges_of_corrected() const {
     return corrected_->ranges() + (driven_.size() + driven_a_range - 1) / driven_a_range;
   }

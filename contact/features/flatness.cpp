@@ -152,19 +152,20 @@ Flatness flatness_of(const Kind& kind, std::size_t i, const FlatHull<double>& st
 /// ranges. Those for which it is true are at risk.
 template <class Kind, class Visit>
 void for_bending(const Kind& kind, FlatShapes& shapes, ThreadTeam& team, const Visit& visit) {
-  shapes.at_risk.resize((shapes.list.size() + shapes_a_range - 1) / shapes_a_range + 1);
-  shapes.at_risk.back().clear();
-  team.for_ranges(shapes.list.size(), shapes_a_range, [&](std::size_t begin, std::size_t end) {
-    std::vector<int>& at_risk = shapes.at_risk[begin / shapes_a_range];
-    at_risk.clear();
+  shapes.seen = shapes.list.size();
+  shapes.risks.resize((shapes.seen + shapes_a_range - 1) / shapes_a_range);
+  team.for_ranges(shapes.seen, shapes_a_range, [&](std::size_t begin, std::size_t end) {
+    int* const first = &shapes.at_risk[begin];
+    int* last = first;
     for (std::size_t k = begin; k < end; ++k)
-      if (may_bend(kind, shapes, index(shapes.list[k]))) at_risk.push_back(shapes.list[k]);
-    auto last = at_risk.begin();
-    for_hulls(kind, at_risk,
+      if (may_bend(kind, shapes, index(shapes.list[k]))) *last++ = shapes.list[k];
+    const std::span<const int> bending(first, last);
+    last = first;
+    for_hulls(kind, bending,
               [&](std::size_t i, const FlatHull<double>& start, const FlatHull<double>& end_hull) {
                 if (visit(i, start, end_hull)) *last++ = static_cast<int>(i);
               });
-    at_risk.erase(last, at_risk.end());
+    shapes.risks[begin / shapes_a_range] = index(last - first);
   });
 }
 
@@ -194,19 +195,24 @@ void take_over_bent(const Kind& kind, FlatShapes& shapes, ThreadTeam& team, cons
   shapes.close_up();
 }
 
-// Of those that contact may have bent.
 template <class Kind>
-bool any_moved_bends(const Kind& kind, const FlatShapes& shapes, ThreadTeam& team) {
-  std::atomic<bool> any = false;
-  for (const std::vector<std::vector<int>>* lists : {&shapes.at_risk, &shapes.moved})
-    team.for_each(lists->size(), [&](std::size_t range) {
-      bool bent = false;
-      for_hulls(kind, (*lists)[range],
-                [&](std::size_t i, const FlatHull<double>&, const FlatHull<double>& end) {
-                  bent |= !(end.slack(thickness_of(kind, shapes, i)) >= 0);
-                });
-      if (bent) any.store(true, std::memory_order_relaxed);
-    });
+bool any_ends_bent(const Kind& kind, const FlatShapes& shapes, std::span<const int> list) {
+  bool bent = false;
+  for_hulls(kind, list, [&](std::size_t i, const FlatHull<double>&, const FlatHull<double>& end) {
+    bent |= !(end.slack(thickness_of(kind, shapes, i)) >= 0);
+  });
+  return bent;
+}
+
+// Of those at risk as predicted, and of those that are watched since.
+template <class Kind>
+bool any_at_risk_bends(const Kind& kind, const FlatShapes& shapes, ThreadTeam& team) {
+  std::atomic<bool> any = any_ends_bent(kind, shapes, std::span(shapes.list).subspan(shapes.seen));
+  team.for_each(shapes.risks.size(), [&](std::size_t range) {
+    if (any_ends_bent(kind, shapes,
+                      std::span(shapes.at_risk).subspan(range * shapes_a_range, shapes.risks[range])))
+      any.store(true, std::memory_order_relaxed);
+  });
   return any;
 }
 
@@ -219,9 +225,7 @@ void begin_to_watch(const Kind& kind, FlatShapes& shapes, int i) {
               shapes.flat[one] = flatness_of(kind, one, start, end);
               if (shapes.flat[one] == Flatness::none) return;
               shapes.list.push_back(i);
-              if (!renew(kind, shapes, one, start)) return;
-              if (shapes.at_risk.empty()) shapes.at_risk.emplace_back();
-              shapes.at_risk.back().push_back(i);
+              renew(kind, shapes, one, start);
             });
 }
 
@@ -247,7 +251,15 @@ void FlatShapes::forget(std::size_t count) {
   flat.assign(count, Flatness::none);
   until.assign(count, 0);
   list.clear();
-  for (std::vector<int>& of_range : at_risk) of_range.clear();
+  make_room();
+}
+
+void FlatShapes::make_room() {
+  list.reserve(flat.size());
+  at_risk.resize(flat.size());
+  risks.reserve(flat.size() / shapes_a_range + 1);
+  risks.clear();
+  seen = 0;
 }
 
 void FlatShapes::change(std::size_t count, std::span<const int> changed) {
@@ -255,10 +267,12 @@ void FlatShapes::change(std::size_t count, std::span<const int> changed) {
   until.resize(count, 0);
   for (int i : changed) flat[index(i)] = Flatness::none;
   close_up();
+  make_room();
 }
 
 void FlatShapes::close_up() {
   std::erase_if(list, [&](int i) { return flat[index(i)] == Flatness::none; });
+  seen = list.size();
 }
 
 void SurfaceFlatness::forget(const SurfaceFeatures& features, bool finds_flat) {
@@ -329,24 +343,27 @@ bool SurfaceFlatness::any_bends_by_solution(const SurfaceFeatures& features, con
                                             const FeatureMotion& motion, ThreadTeam& team) {
   const Faces faces{features, motion};
   const Sides sides{faces, side_node_};
-  for (FlatShapes* shapes : {&faces_, &sides_}) {
-    shapes->moved.resize(motion.ranges_of_corrected());
-    for (std::vector<int>& of_range : shapes->moved) of_range.clear();
-  }
-  motion.for_each_corrected(team, [&](std::size_t range, std::size_t s) {
+  if (any_at_risk_bends(faces, faces_, team) || any_at_risk_bends(sides, sides_, team)) return true;
+  std::atomic<bool> any = false;
+  motion.for_each_corrected(team, [&](std::size_t, std::size_t s) {
     const int slave = static_cast<int>(s);
     if (surface.node[s] < 0 || !motion.exceeds_prediction(slave)) return;
+    bool bent = false;
     for (int f : surface.faces_of.of(slave)) {
       if (faces.exceeds_prediction(index(f), slave)) continue;
-      if (may_bend(faces, faces_, index(f))) faces_.moved[range].push_back(f);
+      if (may_bend(faces, faces_, index(f))) bent |= any_ends_bent(faces, faces_, std::array{f});
+      std::array<int, 4> moved;
+      std::size_t count = 0;
       for (int e : features.edge_of_face[index(f)]) {
         if (e < 0 || !may_bend(sides, sides_, index(e))) continue;
         const int first = features.edge[index(e)].face[0];
-        if (first == f || !faces.exceeds_prediction(index(first))) sides_.moved[range].push_back(e);
+        if (first == f || !faces.exceeds_prediction(index(first))) moved[count++] = e;
       }
+      bent |= any_ends_bent(sides, sides_, std::span(moved).first(count));
     }
+    if (bent) any.store(true, std::memory_order_relaxed);
   });
-  return any_moved_bends(faces, faces_, team) || any_moved_bends(sides, sides_, team);
+  return any;
 }
 
 void SurfaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion,

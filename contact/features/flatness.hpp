@@ -33,14 +33,18 @@ struct FlatShapes {
   std::vector<double> until;  ///< path of a shape until which it surely is as flat
   std::vector<int> list;      ///< of those that are flat, none twice
 
-  /// Working space, in ranges: those that may bend in this step as predicted; those that contact has moved
-  /// by more than that.
-  std::vector<std::vector<int>> at_risk, moved;
+  /// Working space: of the list those that may bend in this step as predicted, by ranges, how many of each,
+  /// and from which place on the list has grown since.
+  std::vector<int> at_risk;
+  std::vector<std::size_t> risks;
+  std::size_t seen = 0;
 
   void forget(std::size_t count);
   void change(std::size_t count, std::span<const int> changed);
   /// No longer those that are not flat.
   void close_up();
+  /// For all of them, so that steps allocate nothing.
+  void make_room();
   bool is_flat(int i, bool radii) const {
     const Flatness flatness = flat[index(i)];
     return flatness == Flatness::all || (flatness == Flatness::radii && radii);

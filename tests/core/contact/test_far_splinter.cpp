@@ -15,7 +15,7 @@ struct Course {
 };
 
 // A plate of bricks under a heap of cubes that is thrown at it, and a splinter at a hundred times its speed.
-Course course(bool with_splinter) {
+Course course(bool with_splinter, double perturbation = 0) {
   Deck deck;
   deck.materials = {{"material", elastic()}};
   deck.parts.push_back(box("plate", {8, 8, 1}, {8, 8, 1}, {0, 0, -0.55}, hex8()));
@@ -26,7 +26,7 @@ Course course(bool with_splinter) {
         const std::string name = "cube" + std::to_string(count++);
         deck.parts.push_back(
             box(name, {1, 1, 1}, {2, 2, 2}, {1.05 * x + 0.2 * z, 1.05 * y, 0.55 + 1.05 * z}, hex8()));
-        deck.initial_conditions.push_back(moving(name, {0, 0, -5}));
+        deck.initial_conditions.push_back(moving(name, {0, 0, -5 * (1 + perturbation)}));
       }
   if (with_splinter) {
     deck.parts.push_back(box("splinter", {1, 1, 1}, {2, 2, 2}, {0, 0, 100}, hex8()));
@@ -44,7 +44,9 @@ Course course(bool with_splinter) {
 TEST(FarSplinter, WakesNoPairOfOthers) {
   const Course alone = course(false), with = course(true);
   EXPECT_GT(alone.top, -4.9) << "the heap has met the plate";
-  EXPECT_NEAR(with.top, alone.top, 1e-3 * std::abs(alone.top));
+  // The heap alone, thrown a little faster, tells how sensitive it is.
+  const double spread = std::abs(course(false, 1e-10).top - alone.top);
+  EXPECT_NEAR(with.top, alone.top, 1e-3 * std::abs(alone.top) + spread);
   EXPECT_LT(static_cast<double>(with.looked_at), 1.05 * static_cast<double>(alone.looked_at));
 }
 

@@ -152,6 +152,7 @@ Flatness flatness_of(const Kind& kind, std::size_t i, const FlatHull<double>& st
 /// ranges. Those for which it is true are at risk.
 template <class Kind, class Visit>
 void for_bending(const Kind& kind, FlatShapes& shapes, ThreadTeam& team, const Visit& visit) {
+  shapes.make_room();  // a restored run has none yet
   shapes.seen = shapes.list.size();
   shapes.risks.resize((shapes.seen + shapes_a_range - 1) / shapes_a_range);
   team.for_ranges(shapes.seen, shapes_a_range, [&](std::size_t begin, std::size_t end) {

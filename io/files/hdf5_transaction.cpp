@@ -110,18 +110,6 @@ int rank(const Piece& piece) {
   return is_node ? 256 - piece.bytes[level_at] : 257;
 }
 
-/// A process that is killed may leave a write between two of the system's pages. From the last page to the
-/// first: the beginning of an index node counts its entries, so that what stands behind is not read before.
-bool write_backwards(TransactionFile& file, const Piece& piece) {
-  constexpr haddr_t page = 4096;
-  for (haddr_t end = piece.end(); end > piece.address;) {
-    const haddr_t begin = std::max(piece.address, (end - 1) / page * page);
-    if (!write_all(file, begin, &piece.bytes[begin - piece.address], end - begin)) return false;
-    end = begin;
-  }
-  return true;
-}
-
 /// Each write of these leaves a file that reads as before.
 void apply_waiting(TransactionFile& file) {
   std::sort(file.waiting.begin(), file.waiting.end(), [](const Piece& a, const Piece& b) {
@@ -129,7 +117,7 @@ void apply_waiting(TransactionFile& file) {
   });
   file.committed = file.end_of_file;  // once the superblock knows the new length, the file must keep it
   for (const Piece& piece : file.waiting) {
-    if (!write_backwards(file, piece)) return;
+    if (!write_all(file, piece.address, piece.bytes.data(), piece.bytes.size())) return;
   }
   file.waiting.clear();
   if (file.end_of_file > file.end_of_allocation) set_length(file, file.end_of_allocation);

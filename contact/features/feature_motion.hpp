@@ -73,13 +73,14 @@ class FeatureMotion {
       for (std::size_t i = begin; i < end; ++i) visit(first + begin / driven_a_range, index(driven_[i]));
     });
   }
-  std::size_t ranges_of_corrected() const {
-    return corrected_->ranges() + (driven_.size() + driven_a_range - 1) / driven_a_range;
-  }
 
   /// Displacement in this step of a node in the frame of its group to its last end; 0 of those whose end is
   /// as predicted.
   double step_of_solution(int slave) const { return is_corrected(slave) ? solution_step_[index(slave)] : 0; }
+  /// Whether that is more than paths look ahead.
+  bool exceeds_prediction(int slave) const {
+    return step_of_solution(slave) > approach_factor * way_[index(slave)].step;
+  }
 
   /// Forget the last step.
   void forget() { known_ = false; }
@@ -105,10 +106,6 @@ class FeatureMotion {
   void serialize(Archive& archive) {
     archive(node, of_node, of_face, of_edge, groups, way_, driven_, joined_, limit_factor_, limit_surplus_,
             frame_, frame_sum_, magnitude_, restarts_, known_, predicted_, exceeds_);
-  }
-  /// Whether that is more than paths look ahead.
-  bool exceeds_prediction(int slave) const {
-    return step_of_solution(slave) > approach_factor * way_[index(slave)].step;
   }
 
  private:

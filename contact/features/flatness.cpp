@@ -25,7 +25,6 @@ struct Faces {
   const SurfaceFeatures& features;
   const FeatureMotion& motion;
 
-  std::size_t count() const { return features.face_node.size(); }
   bool exists(std::size_t f) const { return features.diagonal_of_face[f][0] >= 0; }
   const std::array<int, 4>& nodes(std::size_t f) const { return features.face_node[f]; }
   double radius(std::size_t f) const { return features.face_radius[f]; }
@@ -56,7 +55,6 @@ struct Sides {
   const SurfaceFeatures& features = faces.features;
   const FeatureMotion& motion = faces.motion;
 
-  std::size_t count() const { return features.edge.size(); }
   bool exists(std::size_t e) const {
     const EdgeFeature& edge = features.edge[e];
     return edge.kind == EdgeKind::side && edge.faces == 2 && edge.face[1] >= 0;

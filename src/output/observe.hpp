@@ -97,8 +97,8 @@ class FieldObserver {
   void fill_cells(const Model& model, const ElementRange& range);
   void fill_state(const Model& model, const PartInModel& part, std::size_t element, std::size_t cell);
 
-  std::unique_ptr<Snapshot> snapshot_ = std::make_unique<Snapshot>(),
-                            other_;  ///< that is filled; null or not
+  std::unique_ptr<Snapshot> snapshot_ = std::make_unique<Snapshot>();  ///< that is filled
+  std::unique_ptr<Snapshot> other_;                                    ///< null until the first turn
   std::vector<int> node_of_point_;
   std::vector<std::int64_t> point_of_node_;
   int topology_version_ = 0;

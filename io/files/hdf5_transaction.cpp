@@ -276,7 +276,11 @@ TransactionFile* transaction(hid_t file) {
 hid_t transaction_access() {
   static const hid_t driver = H5FDregister(&driver_class());
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-  if (driver < 0 || access < 0 || H5Pset_driver(access, driver, nullptr) < 0) return -1;
+  // A kill takes effect between the pages of a write: index nodes (2 to 4 kB) keep within one.
+  constexpr hsize_t smallest_node = 2048, page = 4096;
+  if (driver < 0 || access < 0 || H5Pset_driver(access, driver, nullptr) < 0 ||
+      H5Pset_alignment(access, smallest_node, page) < 0)
+    return -1;
   return access;
 }
 

@@ -7,13 +7,13 @@
 ///   - new bytes go beyond the end of the last committed state, straight to the file;
 ///   - raw data goes straight to its place (an append never changes rows that were there before);
 ///   - every other change to committed bytes waits in memory until HDF5 flushes, and is then applied in an
-///   order in
-///     which each single write leaves a file that reads as before: the superblock (it only learns of a longer
-///     file), then index nodes from the root down (a parent knows a new child before its sibling forgets the
-///     rows that moved there), then headers by address;
+///     order in which each single write leaves a file that reads as before: the superblock (it only learns of
+///     a longer file), then index nodes from the root down (a parent knows a new child before its sibling
+///     forgets the rows that moved there), then headers by address. An index node lies within one page of the
+///     file, because a kill takes effect between the pages of a write;
 ///   - when anything could not be written, nothing that waits is applied, and closing cuts the file back to
-///   its last
-///     committed length. HDF5 is not told of the failure: it closes in peace, and the owner asks afterwards.
+///     its last committed length. HDF5 is not told of the failure: it closes in peace, and the owner asks
+///     afterwards.
 /// A reader that opens the file meets a lock only while changes are applied.
 ///
 /// This guards against the death of the process. Against that of the machine, `transaction_sync` has every

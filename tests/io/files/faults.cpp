@@ -3,6 +3,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -14,6 +15,9 @@ Fault planned = Fault::none;
 int strikes_at = 0;
 int operations = 0;
 int syncs = 0;
+
+/// The system looks for a signal that kills between the pages of a write.
+constexpr off_t page = 4096;
 
 /// \return whether a write must fail for want of space.
 bool struck() {
@@ -43,7 +47,20 @@ ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t offset) {
     errno = ENOSPC;
     return -1;
   }
-  return syscall(SYS_pwrite64, descriptor, bytes, size, offset);
+  if (brio::test::planned != brio::test::Fault::kill)
+    return syscall(SYS_pwrite64, descriptor, bytes, size, offset);
+  const auto* const begin = static_cast<const char*>(bytes);
+  size_t done = 0;
+  while (true) {
+    const off_t at = offset + static_cast<off_t>(done);
+    const size_t left_of_page = static_cast<size_t>(brio::test::page - at % brio::test::page);
+    const ssize_t written =
+        syscall(SYS_pwrite64, descriptor, begin + done, std::min(size - done, left_of_page), at);
+    if (written < 0) return written;
+    done += static_cast<size_t>(written);
+    if (done == size) return static_cast<ssize_t>(size);
+    brio::test::struck();
+  }
 }
 
 ssize_t write(int descriptor, const void* bytes, size_t size) {

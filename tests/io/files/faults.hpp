@@ -6,7 +6,7 @@ namespace brio::test {
 
 enum class Fault {
   none,
-  kill,      ///< the process dies in place of the operation
+  kill,      ///< the process dies in place of the operation, or between two pages of a write
   no_space,  ///< this and every later write finds the disk full
 };
 

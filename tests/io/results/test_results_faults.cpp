@@ -198,6 +198,23 @@ TEST(KilledWriterSlow, LeavesTheDumpsBeforeAFileThatItOpens) {
   for (const int before : {1, 64}) kill_at_each_operation_of_dump(before, false);
 }
 
+/// Else a kill could leave one half as it was: then its count knows rows whose keys are not there.
+TEST(KilledWriter, FindsNoIndexNodeOfATableAcrossTwoPages) {
+  const Folder folder;
+  ResultWriter writer(folder.path(), "scene", {}, two_columns);
+  for (int dump = 0; dump < 130; ++dump) writer.write(cloud(dump));
+  writer.note_position();  // closes the file
+  const std::string bytes = test::text_of(writer.vtkhdf());
+  const std::string_view signature("TREE\x01", 5);  // then level, number of children, two neighbours
+  constexpr std::size_t page = 4096;
+  int nodes = 0;
+  for (std::size_t at = bytes.find(signature); at != std::string::npos; at = bytes.find(signature, at + 1)) {
+    ++nodes;
+    EXPECT_EQ(at % page, 0U) << "node at byte " << at;
+  }
+  EXPECT_GT(nodes, 20);
+}
+
 /// A compressed chunk that is written again may move; so none is.
 TEST(KilledWriter, LeavesCompressedDumpsWhereverItDies) {
   const Folder folder, backup;

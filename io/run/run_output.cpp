@@ -86,7 +86,7 @@ void RunOutput::write(bool row, std::optional<double> fields, ThreadTeam& team) 
   if (fields) audit_contacts(model_, team);
   const StageTimer timer(model_.stages, Stage::output);
   if (fields) watch(model_);
-  observe_history(model_, row_);
+  observe_history(model_, history_sums_, row_, team);
   if (fields || keeps) {
     finish_writing(1);
     if (!writing_.have_ended() && last_written_ != nullptr && last_written_ == state_) observer_.turn();

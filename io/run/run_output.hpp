@@ -83,6 +83,7 @@ class RunOutput {
   std::array<History, 2> written_;          ///< those of the unfinished writes
   std::size_t next_written_ = 0;            ///< that no write reads
   const Snapshot* last_written_ = nullptr;  ///< that the last write reads
+  HistorySums history_sums_;
   std::vector<double> row_;
   double last_row_ = -1, last_dump_ = -1;  ///< their times
   OutputSchedule field_schedule_, history_schedule_, restart_schedule_;

@@ -126,12 +126,14 @@ Vector3<Eight> in_lanes(const Row4 (&rows)[8]) {
 
 }  // namespace
 
-Momentum momentum(const Nodes& nodes) {
+Momentum momentum(const Nodes& nodes) { return momentum(nodes, 0, nodes.size()); }
+
+Momentum momentum(const Nodes& nodes, std::size_t first, std::size_t end) {
   Vector3<Eight> linear{0.0, 0.0, 0.0}, angular{0.0, 0.0, 0.0}, spin{0.0, 0.0, 0.0};
   Eight linear_size(0.0), angular_size(0.0);
-  for (std::size_t begin = 0; begin < nodes.size(); begin += 8) {
+  for (std::size_t begin = first; begin < end; begin += 8) {
     Row4 position[8]{}, impulse[8]{}, turning[8]{};
-    for (std::size_t k = 0; k < std::min<std::size_t>(8, nodes.size() - begin); ++k) {
+    for (std::size_t k = 0; k < std::min<std::size_t>(8, end - begin); ++k) {
       const std::size_t i = begin + k;
       position[k] = load_row(nodes.record[i].position);
       impulse[k] = nodes.mass[i] * load_row(nodes.record[i].velocity);

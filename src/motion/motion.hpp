@@ -37,7 +37,16 @@ struct Momentum {
   Impulse total;
   double linear_size = 0;
   double angular_size = 0;
+
+  Momentum& operator+=(const Momentum& other) {
+    total += other.total;
+    linear_size += other.linear_size;
+    angular_size += other.angular_size;
+    return *this;
+  }
 };
 Momentum momentum(const Nodes& nodes);
+/// Of the nodes [begin, end).
+Momentum momentum(const Nodes& nodes, std::size_t begin, std::size_t end);
 
 }  // namespace brio

@@ -118,8 +118,25 @@ class FieldObserver {
 /// first hundred parts).
 std::vector<std::string> history_columns(const Model& model);
 
+/// Working space of a row: sums over ranges of nodes and, for mean velocities, over ranges of the nodes of a
+/// part.
+struct HistorySums {
+  struct PartRange {
+    std::size_t part, begin, end;  ///< of its nodes
+    Row4 momentum{};
+    double mass = 0;
+  };
+  std::vector<Momentum> of_nodes;
+  std::vector<PartRange> of_parts;
+};
+
 /// One row, into `row`; updates the momentum balance.
-void observe_history(Model& model, std::vector<double>& row);
+void observe_history(Model& model, HistorySums& sums, std::vector<double>& row, ThreadTeam& team);
+inline void observe_history(Model& model, std::vector<double>& row) {
+  HistorySums sums;
+  ThreadTeam alone;
+  observe_history(model, sums, row, alone);
+}
 
 /// End state in figures; the caller adds version, deck, status, wall time, memory and threads.
 Summary observe_end(Model& model);

@@ -62,7 +62,7 @@ Summary::ContactAudits summary_of(const ContactAudits& audits, const Model& mode
 }  // namespace
 
 Summary observe_end(Model& model) {
-  balance_momentum(model);
+  balance_momentum(model, momentum(model.nodes));
   Summary summary;
   summary.steps = model.step;
   summary.time = model.times.time;

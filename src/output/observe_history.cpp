@@ -14,26 +14,79 @@ namespace {
 
 constexpr std::size_t most_parts_in_history = 100;
 
-// Mean velocity of a part: momentum over mass.
-Vector mean_velocity(const PartInModel& part, const Nodes& nodes, const RigidBodies& rigid,
-                     std::span<const double> moved_mass) {
-  if (part.rigid >= 0) {
-    const Eigen::Vector3d& v = rigid.motion[index(part.rigid)].velocity;
-    return {v[0], v[1], v[2]};
+std::size_t parts_in_history(const Model& model) {
+  return std::min(model.parts.size(), most_parts_in_history);
+}
+
+void make_room(HistorySums& sums, const Model& model) {
+  if (!sums.of_nodes.empty()) return;
+  sums.of_nodes.resize((model.nodes.size() + nodes_per_range - 1) / nodes_per_range);
+  for (std::size_t p = 0; p < parts_in_history(model); ++p) {
+    const PartInModel& part = model.parts[p];
+    if (part.rigid >= 0) continue;
+    for (std::size_t begin = 0; begin < part.node.size(); begin += nodes_per_range)
+      sums.of_parts.push_back({p, begin, std::min(begin + nodes_per_range, part.node.size())});
   }
+}
+
+void sum_up(HistorySums::PartRange& range, const PartInModel& part, const Nodes& nodes,
+            std::span<const double> moved_mass) {
   constexpr std::size_t sums = 4;  // that do not wait for each other
   std::array<Row4, sums> momentum{};
   std::array<double, sums> mass{};
-  for (std::size_t i = 0; i < part.node.size(); ++i) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
     const auto node = index(part.node[i]);
     const double own = nodes.mass[node] + (moved_mass.empty() ? 0 : moved_mass[node]);
     mass[i % sums] += own;
     momentum[i % sums] += own * load_row(nodes.record[node].velocity);
   }
-  const double of_part = (mass[0] + mass[1]) + (mass[2] + mass[3]);
-  const Row4 sum = (momentum[0] + momentum[1]) + (momentum[2] + momentum[3]);
-  if (of_part <= 0) return {};
-  return {sum[0] / of_part, sum[1] / of_part, sum[2] / of_part};
+  range.mass = (mass[0] + mass[1]) + (mass[2] + mass[3]);
+  range.momentum = (momentum[0] + momentum[1]) + (momentum[2] + momentum[3]);
+}
+
+void sum_up(HistorySums& sums, const Model& model, ThreadTeam& team) {
+  const std::size_t ranges = sums.of_nodes.size();
+  team.for_each(ranges + sums.of_parts.size(), [&](std::size_t task) {
+    if (task < ranges) {
+      const std::size_t begin = task * nodes_per_range;
+      sums.of_nodes[task] =
+          momentum(model.nodes, begin, std::min(begin + nodes_per_range, model.nodes.size()));
+      return;
+    }
+    HistorySums::PartRange& range = sums.of_parts[task - ranges];
+    sum_up(range, model.parts[range.part], model.nodes, model.ties.moved_mass);
+  });
+}
+
+Momentum total(const std::vector<Momentum>& ranges) {
+  Momentum sum;
+  for (const Momentum& range : ranges) sum += range;
+  return sum;
+}
+
+// Momentum over mass. \param range the first of the part's; moves on to that of the next part
+Vector mean_velocity(std::size_t part, const HistorySums& sums, std::size_t& range) {
+  Row4 momentum{};
+  double mass = 0;
+  for (; range < sums.of_parts.size() && sums.of_parts[range].part == part; ++range) {
+    momentum += sums.of_parts[range].momentum;
+    mass += sums.of_parts[range].mass;
+  }
+  if (mass <= 0) return {};
+  return {momentum[0] / mass, momentum[1] / mass, momentum[2] / mass};
+}
+
+void add_mean_velocities(const Model& model, const HistorySums& sums, std::vector<double>& row) {
+  std::size_t range = 0;
+  for (std::size_t p = 0; p < parts_in_history(model); ++p) {
+    if (const int body = model.parts[p].rigid; body >= 0) {
+      const Eigen::Vector3d& v = model.rigid.motion[index(body)].velocity;
+      row.insert(row.end(), v.data(), v.data() + 3);
+      continue;
+    }
+    const Vector velocity = mean_velocity(p, sums, range);
+    row.insert(row.end(), velocity.begin(), velocity.end());
+  }
 }
 
 // Of a vector one for each axis.
@@ -51,7 +104,7 @@ void add_column(std::string_view name, std::vector<std::string>& columns) {
 std::vector<std::string> history_columns(const Model& model) {
   std::vector<std::string> columns;
   for (const HistoryColumn& column : common_columns()) add_column(column.name, columns);
-  for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p)
+  for (std::size_t p = 0; p < parts_in_history(model); ++p)
     for (const char* axis : {".velocity_x", ".velocity_y", ".velocity_z"})
       columns.push_back(model.parts[p].name + axis);
   if (model.added_mass) columns.emplace_back("added_mass");
@@ -66,8 +119,10 @@ std::vector<std::string> history_columns(const Model& model) {
   return columns;
 }
 
-void observe_history(Model& model, std::vector<double>& row) {
-  balance_momentum(model);
+void observe_history(Model& model, HistorySums& sums, std::vector<double>& row, ThreadTeam& team) {
+  make_room(sums, model);
+  sum_up(sums, model, team);
+  balance_momentum(model, total(sums.of_nodes));
   const EnergyBalance& energy = model.energy;
   const MomentumBalance& balance = model.momentum;
   row.assign({model.times.time, static_cast<double>(model.step), model.times.next, energy.kinetic,
@@ -81,10 +136,7 @@ void observe_history(Model& model, std::vector<double>& row) {
   for (const Vector& vector : {balance.supports.linear, balance.walls.linear})
     row.insert(row.end(), vector.begin(), vector.end());
   row.push_back(static_cast<double>(deleted_so_far(model)));
-  for (std::size_t p = 0; p < std::min(model.parts.size(), most_parts_in_history); ++p) {
-    const Vector velocity = mean_velocity(model.parts[p], model.nodes, model.rigid, model.ties.moved_mass);
-    row.insert(row.end(), velocity.begin(), velocity.end());
-  }
+  add_mean_velocities(model, sums, row);
   if (model.added_mass) row.push_back(model.added_mass->total());
   if (model.contact_audits)
     for (const std::int64_t count :

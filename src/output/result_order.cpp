@@ -23,8 +23,7 @@ std::vector<std::int64_t> points_of_nodes(const Model& model) {
   return points;
 }
 
-void balance_momentum(Model& model) {
-  Momentum now = momentum(model.nodes);
+void balance_momentum(Model& model, Momentum now) {
   add_momentum(model.rigid, now);
   model.momentum.now = now.total;
   model.momentum.linear_scale = std::max(model.momentum.linear_scale, now.linear_size);

@@ -254,7 +254,7 @@ TEST_F(Program, UnwritableFolderEndsWithFour) {
 TEST_F(Program, FileThatMayNotGrowEndsWithFourAndStaysReadable) {
   write("cube.yaml", small_deck);
   const Ending ending =
-      brio("run cube.yaml --set output.fields.every=1e-4 --set time.end=0.1", "ulimit -f 600; ");
+      brio("run cube.yaml --set output.fields.every=1e-4 --set time.end=0.1", "ulimit -f 800; ");
   EXPECT_EQ(ending.exit_code, 4) << ending.faults;
   EXPECT_EQ(brio("info cube.results").exit_code, 0);
 }

@@ -85,7 +85,7 @@ TEST(TorsionalSprings, ABodyOscillatesAsTheClosedFormSays) {
       deck, model, [&](double t) { return spin / hinge_rate * std::sin(hinge_rate * t); });
   EXPECT_LE(error, 1e-6 * spin / hinge_rate);
   EXPECT_NEAR(model.control.stable, 2 / hinge_rate, 1e-12 / hinge_rate);
-  balance_momentum(model);
+  balance_momentum(model, momentum(model.nodes));
   EXPECT_LE(model.momentum.angular_imbalance(), 1e-12);
 }
 
@@ -149,7 +149,7 @@ TEST(TorsionalSprings, ConserveMomentumAndEnergyOfBodiesThatTumble) {
     ThreadTeam team(1);
     double least = 0, most = 0, error = 0;
     run(model, deck, team, [&](Model& m) {
-      balance_momentum(m);
+      balance_momentum(m, momentum(m.nodes));
       EXPECT_LE(m.momentum.linear_imbalance(), 1e-12);
       EXPECT_LE(m.momentum.angular_imbalance(), 1e-12);
       least = std::min(least, m.springs.spring[0].elongation);
@@ -228,7 +228,7 @@ TEST(TorsionalSprings, NodesOfShellsOscillateAsTheClosedFormSays) {
     });
     EXPECT_LE(error, 2e-6 * angle);
     EXPECT_LE(model.energy.error_max, 1e-6);
-    balance_momentum(model);
+    balance_momentum(model, momentum(model.nodes));
     // No node moves, so that the imbalance is not divided by any momentum.
     EXPECT_EQ(model.momentum.angular_scale, 0);
     EXPECT_LE(model.momentum.angular_imbalance(), 1e-12 * deck.springs[0].stiffness * angle / fast);

@@ -1,5 +1,5 @@
 #pragma once
-/// Snapshot of the model at one time (a dump of the results): plain arrays that the owner of the step loop
+/// Snapshot of the model at one time (a dump of the results): plain arrays that the observer (observe.hpp)
 /// fills and a writer reads. The same snapshot is filled again for the next dump, so that its buffers are
 /// allocated once.
 

@@ -19,6 +19,8 @@ namespace brio {
 /// At most eight points.
 class FewPoints {
  public:
+  using Number = double;
+
   void add(const Vector3<double>& x) { point_[count_++] = x; }
   std::size_t size() const { return count_; }
   bool empty() const { return count_ == 0; }
@@ -48,35 +50,68 @@ class FewPoints {
   std::size_t count_ = 0;
 };
 
+/// The points of eight features.
+template <std::size_t Count>
+struct PackOfCorners {
+  using Number = Pack;
+  const std::array<Vector3<Pack>, Count>& point;
+
+  BRIO_INLINE Vector3<Pack> mean() const {
+    Vector3<Pack> sum{0.0, 0.0, 0.0};
+    for (const Vector3<Pack>& x : point) sum = sum + x;
+    return Pack(1 / static_cast<double>(Count)) * sum;
+  }
+  BRIO_INLINE Vector3<Pack> farthest(const Vector3<Pack>& direction) const {
+    Vector3<Pack> best = point[0];
+    Pack height = dot(direction, point[0]);
+#pragma GCC unroll 4
+    for (std::size_t i = 1; i < Count; ++i) {
+      const Pack other = dot(direction, point[i]);
+      best = where(other > height, point[i], best);
+      height = max(height, other);
+    }
+    return best;
+  }
+};
+
+template <class T>
 struct DistanceBound {
-  double distance = 0;                 ///< no point of one hull is nearer to one of the other; 0: not known
-  Vector3<double> direction{0, 0, 0};  ///< of unit length, from the second to the first, along which it is so
+  T distance = T(0.0);  ///< no point of one hull is nearer to one of the other; 0: not known
+  /// Of unit length, from the second to the first, along which it is so.
+  Vector3<T> direction{T(0.0), T(0.0), T(0.0)};
 };
 
 /// Of two hulls, none of them empty. Found to a tenth of the distance, or what few steps give.
-inline DistanceBound distance_bound(const FewPoints& first, const FewPoints& second) {
+template <class Points, class OtherPoints>
+BRIO_INLINE DistanceBound<typename Points::Number> distance_bound(const Points& first,
+                                                                  const OtherPoints& second) {
+  using T = typename Points::Number;
   constexpr int most_steps = 8;
   constexpr double good_share = 0.9, roundings = 1e-12;
-  DistanceBound best;
-  Vector3<double> nearest = first.mean() - second.mean();
-  for (int step = 0; step < most_steps; ++step) {
-    const double square = dot(nearest, nearest);
-    if (!(square > least_square)) break;
-    const Vector3<double> support = first.farthest(-1.0 * nearest) - second.farthest(nearest);
-    const double height = dot(nearest, support), length = std::sqrt(square);
-    const double bound = (1 - roundings) * height / length;
-    if (bound > best.distance) best = {bound, (1 / length) * nearest};
-    if (best.distance >= good_share * length) break;
-    const Vector3<double> way = support - nearest;
-    const double way_square = dot(way, way);
-    if (!(way_square > least_square)) break;
-    nearest = nearest + clamp_to_unit((square - height) / way_square) * way;
+  DistanceBound<T> best;
+  Vector3<T> nearest = first.mean() - second.mean();
+  T square = dot(nearest, nearest);
+  MaskOf<T> goes_on = square > T(least_square);
+  for (int step = 0; step < most_steps && any(goes_on); ++step) {
+    const Vector3<T> support = first.farthest(T(-1.0) * nearest) - second.farthest(nearest);
+    const T height = dot(nearest, support), length = sqrt(where(goes_on, square, T(1.0)));
+    const T bound = T(1 - roundings) * height / length;
+    const MaskOf<T> is_better = goes_on & (bound > best.distance);
+    best = {where(is_better, bound, best.distance),
+            where(is_better, (T(1.0) / length) * nearest, best.direction)};
+    const Vector3<T> way = support - nearest;
+    const T way_square = dot(way, way);
+    goes_on = goes_on & (!(best.distance >= T(good_share) * length)) & (way_square > T(least_square));
+    const T share = clamp_to_unit((square - height) / where(goes_on, way_square, T(1.0)));
+    nearest = where(goes_on, nearest + share * way, nearest);
+    square = dot(nearest, nearest);
+    goes_on = goes_on & (square > T(least_square));
   }
   return best;
 }
 
 /// Of a hull and the origin.
-inline DistanceBound distance_bound(const FewPoints& points) {
+inline DistanceBound<double> distance_bound(const FewPoints& points) {
   FewPoints origin;
   origin.add({0, 0, 0});
   return distance_bound(points, origin);
@@ -103,14 +138,14 @@ class CommonCorners {
       if (!has(first, second[k])) second_.add(at.second[k]);
   }
 
-  DistanceBound distance() const {
+  DistanceBound<double> distance() const {
     if (common_.empty()) return distance_bound(first_, second_);
     if (common_.size() == 1) return {distance_bound(away_from(common_[0], {0, 0, 0})).distance, {0, 0, 0}};
     if (common_.size() > 2) return {};
     const Vector3<double>&p = common_[0], &q = common_[1];
-    const DistanceBound between = distance_bound(away_from(p, q - p));
-    const DistanceBound along = distance_bound(with(first_, p), with(second_, q));
-    const DistanceBound back = distance_bound(with(first_, q), with(second_, p));
+    const DistanceBound<double> between = distance_bound(away_from(p, q - p));
+    const DistanceBound<double> along = distance_bound(with(first_, p), with(second_, q));
+    const DistanceBound<double> back = distance_bound(with(first_, q), with(second_, p));
     return {std::min({between.distance, along.distance, back.distance}), {0, 0, 0}};
   }
 
@@ -151,15 +186,15 @@ double distance_of_pieces(const Points& at, unsigned one_piece) {
 }
 
 /// Of opposite sides of one face.
-inline DistanceBound distance_of_opposite_sides(const std::array<Vector3<double>, 4>& at) {
+inline DistanceBound<double> distance_of_opposite_sides(const std::array<Vector3<double>, 4>& at) {
   const auto side = [&](std::size_t k, std::size_t l) {
     FewPoints ends;
     ends.add(at[k]);
     ends.add(at[l]);
     return ends;
   };
-  const DistanceBound one = distance_bound(side(0, 1), side(2, 3)),
-                      other = distance_bound(side(1, 2), side(3, 0));
+  const DistanceBound<double> one = distance_bound(side(0, 1), side(2, 3)),
+                              other = distance_bound(side(1, 2), side(3, 0));
   return {std::min(one.distance, other.distance), {0, 0, 0}};
 }
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "contact/pairs/edge_pairs.hpp"
-#include "contact/pairs/feature_distance.hpp"
 #include "contact/pairs/feature_pairs.hpp"
-#include "contact/pairs/pair_packs.hpp"
+#include "contact/pairs/path_left.hpp"
 #include "contact/surface/exclusion.hpp"
 #include "src/base/index.hpp"
 
@@ -15,64 +14,6 @@ namespace {
 
 /// Distance beyond contact, over the mean edge, from which on a pair of faces is closed.
 constexpr double distance_to_close = 0.1;
-/// A direction is kept as long as it separates a pair for so many steps like this one.
-constexpr double steps_to_keep = 4;
-
-/// Pairs of faces, or of beams or particles with faces, as passes over pairs take them (pair_packs.hpp).
-template <Parents Of>
-struct ParentPairs {
-  static constexpr Parents parents = Of;
-  static constexpr bool of_faces = Of == Parents::faces;
-  using Pairs = PackOfPairs<of_faces ? 4 : 2, 4>;
-  const SurfaceFeatures& features;
-  const FeatureMotion& motion;
-  PairList& list;
-  const std::vector<double>& radius_of_first;
-  const std::vector<double>& radius_of_face;
-
-  const PathAndAhead& first_ways() const { return of_faces ? motion.of_face : motion.of_edge; }
-  const PathAndAhead& second_ways() const { return motion.of_face; }
-  const std::vector<double>& first_radii() const { return radius_of_first; }
-  const std::vector<double>& second_radii() const { return radius_of_face; }
-  const auto& first_nodes(int first) const {
-    if constexpr (of_faces)
-      return at(features.face_node, first);
-    else
-      return at(features.edge_node, first);
-  }
-  const std::array<int, 4>& second_nodes(int face) const { return at(features.face_node, face); }
-};
-using FacesAndFaces = ParentPairs<Parents::faces>;
-using RoundsAndFaces = ParentPairs<Parents::rounds>;
-
-template <class Kind>
-DistanceBound distance_of_features(const OnePair<Kind>& one, const typename OnePair<Kind>::Points& at) {
-  if constexpr (Kind::of_faces)
-    if (one.a == one.b) return distance_of_opposite_sides(at.first);
-  return CommonCorners(one, at).distance();
-}
-
-/// Path that a pair has left until it may come near, from the start of this step. \param ahead of this step
-template <class Kind>
-double path_left(const OnePair<Kind>& one, double band, double ahead) {
-  const auto points = one.points(one.kind.motion.node.data()->start);
-  const double skins = 2 * one.kind.features.skin;
-  const bool is_one_piece = one.record.spacing == Spacing::skins;
-  const double radii = is_one_piece ? skins : one.radii();
-  const Vector3<double> direction = one.direction();
-  if (dot(direction, direction) > 0.5) {
-    const double height = height_between(direction, points.first, points.second);
-    const double left = (1 - rounding_of_direction) * height - radii - band;
-    if (left > steps_to_keep * ahead) return left;
-  }
-  const DistanceBound bound = distance_of_features(one, points);
-  one.kind.list.set_direction(one.pair, bound.direction.x, bound.direction.y, bound.direction.z);
-  if (is_one_piece || one.record.one_piece == 0) return bound.distance - radii - band;
-  // What is of one piece is nearer than the radii of what is not.
-  const double left = bound.distance - skins - band;
-  return left > 0 ? std::min(left, distance_of_pieces(points, one.record.one_piece) - radii - band) : left;
-}
-
 std::uint64_t key_of(int a, int b) {
   return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
 }
@@ -169,17 +110,9 @@ void FeaturePairs::open_kind(const Scene& scene, const Kind& kind, PairBlocks& b
   select_active_pairs(blocks, list, kind.first_ways(), kind.second_ways(), motion, surplus, team, awake_);
   if (awake_.empty()) return;
   near_.assign((awake_.size() + pairs_a_range - 1) / pairs_a_range, 0);
+  const PathsLeft<Kind> paths(kind, scene.band, surplus);
   team.for_ranges(awake_.size(), pairs_a_range, [&](std::size_t begin, std::size_t end) {
-    std::size_t last = begin;
-    for (std::size_t i = begin; i < end; ++i) {
-      prefetch_pairs(kind, awake_.data(), i, end);
-      const OnePair<Kind> one(kind, awake_[i]);
-      const double path = one.path(), ahead = one.ahead() - path + surplus;
-      const double left = path_left(one, scene.band, ahead);
-      list.wake[one.pair] = path + left;
-      if (!(left > ahead)) awake_[last++] = awake_[i];
-    }
-    near_[begin / pairs_a_range] = last - begin;
+    near_[begin / pairs_a_range] = paths.keep_near({&awake_[begin], end - begin});
   });
   for (std::size_t range = 0; range < near_.size(); ++range)
     for (std::size_t i = 0; i < near_[range]; ++i) {

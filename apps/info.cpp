@@ -7,10 +7,11 @@
 namespace brio {
 
 void print_info(const std::filesystem::path& result, bool verify) {
-  write_out_text(read_apart(result, [&] {
-    if (is_restart_file(result)) return restart_text(result);
-    std::string text = info_text(read_info(result));
-    return verify ? text + verify_result(result) : text;
+  const std::filesystem::path file = result_file(result);
+  write_out_text(read_apart(file, [&] {
+    if (is_restart_file(file)) return restart_text(file);
+    std::string text = info_text(read_info(file));
+    return verify ? text + verify_result(file) : text;
   }));
 }
 

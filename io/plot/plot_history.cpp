@@ -11,6 +11,7 @@
 #include "io/files/file_error.hpp"
 #include "io/files/text_file.hpp"
 #include "io/plot/cfc_filter.hpp"
+#include "io/results/read_info.hpp"
 #include "io/results/read_result.hpp"
 #include "io/study/gnuplot.hpp"
 
@@ -25,14 +26,6 @@ struct HistoryCurve {
   std::string title;
   std::vector<double> x, y;
 };
-
-// The file of a folder.
-std::filesystem::path file_of(const std::filesystem::path& result) {
-  if (!std::filesystem::is_directory(result)) return result;
-  for (const auto& entry : std::filesystem::directory_iterator(result))
-    if (entry.path().extension() == ".vtkhdf") return entry.path();
-  throw FileError(result, "it holds no result; a folder with a .vtkhdf file is expected");
-}
 
 bool is_zero(const std::vector<double>& values) {
   return std::ranges::all_of(values, [](double value) { return value == 0; });
@@ -72,7 +65,7 @@ std::vector<double> other_axis(const std::string& name, const ReadHistory& histo
 
 void add_curves(const PlotOptions& options, const std::filesystem::path& result,
                 std::vector<HistoryCurve>& curves) {
-  const std::filesystem::path file = file_of(result);
+  const std::filesystem::path file = result_file(result);
   const ReadHistory history = ResultReader(file).history();
   const std::vector<double> times = history.column("time", file);
   for (const std::string& name : columns_of(options, history, file)) {
@@ -111,7 +104,7 @@ std::string script(const std::vector<HistoryCurve>& curves, const PlotOptions& o
 
 std::filesystem::path picture_of(const PlotOptions& options) {
   if (!options.output.empty()) return options.output;
-  return file_of(options.results.front()).stem().string() + ".plot.svg";
+  return result_file(options.results.front()).stem().string() + ".plot.svg";
 }
 
 std::string plot_commands(const PlotOptions& options) {

@@ -20,25 +20,6 @@ namespace {
 
 using std::string;
 
-std::filesystem::path result_file(const std::filesystem::path& path) {
-  if (!std::filesystem::is_directory(path)) return path;
-  std::vector<std::filesystem::path> found;
-  bool begun = false;
-  for (const auto& entry : std::filesystem::directory_iterator(path)) {
-    if (entry.path().extension() == ".vtkhdf") found.push_back(entry.path());
-    begun = begun || entry.path().filename().string().ends_with(".vtkhdf.partial");
-  }
-  if (found.size() == 1) return found[0];
-  if (found.empty()) {
-    throw FileError(path, begun ? "the run in this folder has not completed its first dump"
-                                : "no .vtkhdf file in this folder");
-  }
-  std::sort(found.begin(), found.end());
-  string names;
-  for (const auto& file : found) names.append(" ").append(file.filename().string());
-  throw FileError(path, "several results in this folder, name one of:" + names);
-}
-
 void must_be_result(const Hdf5File& file) {
   for (const char* part : {"/VTKHDF/Steps/Values", "/deck/title", "/history/values"}) {
     if (!file.contains("/VTKHDF") && file.contains("/deck"))
@@ -179,6 +160,25 @@ string verify_file(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::filesystem::path result_file(const std::filesystem::path& path) {
+  if (!std::filesystem::is_directory(path)) return path;
+  std::vector<std::filesystem::path> found;
+  bool begun = false;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    if (entry.path().extension() == ".vtkhdf") found.push_back(entry.path());
+    begun = begun || entry.path().filename().string().ends_with(".vtkhdf.partial");
+  }
+  if (found.size() == 1) return found[0];
+  if (found.empty()) {
+    throw FileError(path, begun ? "the run in this folder has not completed its first dump"
+                                : "no .vtkhdf file in this folder");
+  }
+  std::sort(found.begin(), found.end());
+  string names;
+  for (const auto& file : found) names.append(" ").append(file.filename().string());
+  throw FileError(path, "several results in this folder, name one of:" + names);
+}
 
 ResultInfo read_info(const std::filesystem::path& path) {
   return guarded(path, [&] { return read_file(path); });

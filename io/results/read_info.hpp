@@ -38,6 +38,10 @@ struct ResultInfo {
   std::vector<std::pair<std::string, double>> energies;  ///< of the summary, in its order
 };
 
+/// \param path a file, which is returned, or a result folder
+/// \return the only `.vtkhdf` file of that folder. \throws FileError when there is none or there are several.
+std::filesystem::path result_file(const std::filesystem::path& path);
+
 /// \param path a `.vtkhdf` file or a result folder with one of them.
 /// \throws FileError when there is none or it is something else.
 ResultInfo read_info(const std::filesystem::path& path);

@@ -253,11 +253,11 @@ TEST(FallingCube, TiltedGainsNothingWhicheverFaceItMeets) {
 struct Settled {
   double kinetic = 0;  ///< largest over the last quarter, over m g h
   double kinetic_before = 0;
-  double drift = 0;  ///< largest change of a position over the second half
+  double drift = 0;  ///< largest change of a position over the second half, along the axes that are held
   double added = 0;
 };
 
-Settled settle(Deck deck, int steps) {
+Settled settle(Deck deck, int steps, std::initializer_list<std::size_t> held = {0, 1, 2}) {
   Gravity gravity = down();
   gravity.factor = Curve{{{0, 0}, {0.05, 1}}};
   deck.loads.push_back(gravity);
@@ -273,7 +273,7 @@ Settled settle(Deck deck, int steps) {
     if (step > steps / 2) kinetic = std::max(kinetic, model.energy.kinetic_half / unit);
   });
   for (std::size_t i = 0; i < middle.size(); ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const std::size_t axis : held)
       result.drift =
           std::max(result.drift, std::abs(model.nodes.record[i].position[axis] - middle[i].position[axis]));
   result.added = model.energy.contact_added_max / unit;
@@ -325,10 +325,11 @@ TEST(BrickWallSlow, SettlesUnderWeightAndASidewaysPush) {
     deck.loads = {force};
     deck.contact.emplace();
     deck.contact->options.friction = friction;
-    const Settled rest = settle(deck, 4000);
+    // Without friction nothing holds a brick across the wall.
+    const Settled rest = friction > 0 ? settle(deck, 4000) : settle(deck, 4000, {0, 2});
     // Short of what is wanted, 1e-6 and 1e-4: constraints that come and go where columns touch stir the wall.
     EXPECT_LE(rest.kinetic, 3e-5);
-    EXPECT_LE(rest.drift, 1e-3);
+    EXPECT_LE(rest.drift, 5e-4);
     EXPECT_LE(rest.added, 1e-3);
   }
 }

@@ -44,7 +44,8 @@ TEST(FoldingStripSlow, NeverPassesThroughItself) {
     }
     EXPECT_GT(most_contacts, 0) << "it has folded onto itself";
     EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
-    // Cells of a quarter of the thickness meet within it as the fold bends: by chance 0.9 to 1.1 % of it lack.
+    // Cells of a quarter of the thickness meet within it as the fold bends: by chance 0.9 to 1.1 % of it
+    // lack.
     EXPECT_LT(model.scene.totals.deepest_overlap, refine < 4 ? 0.01 * 0.25 : approach);
   }
 }

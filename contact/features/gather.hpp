@@ -19,17 +19,12 @@ struct alignas(32) PointRow {
 /// apart and aligned to 32 bytes.
 template <class T>
 BRIO_INLINE Vector3<T> gather_points(const double* first, std::size_t stride, const int* node) {
-  const auto row = [&](int lane) { return first + stride * index(node[lane]); };
   if constexpr (NumberTraits<T>::lanes == 1) {
-    const double* only = row(0);
+    const double* only = first + stride * index(node[0]);
     return {only[0], only[1], only[2]};
   } else {
-    Row4 rows[8];
-#pragma GCC unroll 8
-    for (int lane = 0; lane < 8; ++lane) rows[lane] = load_row(row(lane));
-    Row8 x, y, z;
-    transpose_rows(rows, x, y, z);
-    return {T(x), T(y), T(z)};
+    const LaneRows rows(first, stride, node);
+    return {rows.x, rows.y, rows.z};
   }
 }
 

@@ -136,7 +136,7 @@ class NodeExchange<ParticleKernel, double> {
 
   void gather(const int* node, int count, ParticleMotion<Number>& motion) {
     if (cloud_.is_eulerian()) {
-      sum_over_neighbours_now(cloud_, nodes_, node, count, step_, sums_);
+      sum_over_neighbours_now(cloud_, node, count, step_, sums_);
     } else {
       sum_over_neighbours(cloud_, nodes_, node, count, sums_);
     }

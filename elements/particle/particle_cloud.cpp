@@ -62,6 +62,7 @@ void remove_pair(ParticleCloud& cloud, std::size_t from, int to) {
     ++kept;
   }
   cloud.count[from] = static_cast<int>(kept - begin);
+  for (; cloud.is_eulerian() && kept < end; ++kept) cloud.neighbour[kept] = cloud.without_volume();
 }
 
 /// The three numbers of a row that are a vector.
@@ -69,8 +70,8 @@ double sum3(Row4 row) { return row[0] + row[1] + row[2]; }
 
 }  // namespace
 
-ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume, std::span<const int> first,
-                                  std::span<const int> candidate, double smoothing, const Nodes& nodes) {
+ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume, double smoothing,
+                                  const Nodes& nodes, ThreadTeam& team) {
   const std::size_t n = volume.size();
   ParticleCloud cloud;
   cloud.first_node = first_node;
@@ -81,22 +82,25 @@ ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume
   cloud.correction = AlignedBuffer<SymmetricTensor<double>>(n);
   cloud.hourglass_weight = AlignedBuffer<double>(n);
   cloud.gradient_size = AlignedBuffer<double>(n);
-  cloud.force = AlignedBuffer<ParticleForce>(n);
+  cloud.force = AlignedBuffer<ParticleForce>(n + 1);  // the last one of no particle
   std::vector<int> neighbour;
   std::vector<ParticlePair> pair;
+  std::vector<ReachingPoint> points(n);
   for (std::size_t i = 0; i < n; ++i) {
     cloud.volume[i] = volume[i];
     cloud.spacing[i] = edge_of_cube(volume[i]);
+    std::copy_n(nodes.record[index(first_node) + i].position, 3, points[i].position);
+    points[i].reach = smoothing * cloud.spacing[i];
   }
+  NeighbourSearch search;
+  search.find(points, team);
   for (std::size_t i = 0; i < n; ++i) {
     cloud.first[i] = neighbour.size();
-    for (int k = first[i]; k < first[i + 1]; ++k) {
-      const int j = candidate[index(k)];
+    for (const int j : search.of(i)) {
       const auto other = index(j);
-      if (other == i) continue;
       const Vector3<double> x = pair_vector(nodes, first_node + static_cast<int>(i), first_node + j);
       const double length = smoothing * 0.5 * (cloud.spacing[i] + cloud.spacing[other]);
-      const double s = volume[i] * volume[other] * kernel_weight(dot(x, x), 1 / length);
+      const double s = volume[i] * volume[other] * kernel_weight(dot(x, x), length);
       if (!(s > 0)) continue;
       neighbour.push_back(j);
       pair.push_back({{s * x.x, s * x.y, s * x.z, s}});

@@ -38,6 +38,12 @@ struct alignas(32) ParticleForce {
   double column[3][4];
 };
 
+/// What pairs of the updated-Lagrangian kernel read of a particle, in one cache line.
+struct alignas(64) ParticlePlace {
+  double position[3], smoothing_length;
+  double velocity[3], volume;  ///< volume at the start
+};
+
 /// Edge of a cube. Volumes in units of eight times each other have edges of the same bits, which is not so of
 /// std::cbrt.
 inline double edge_of_cube(double volume) {
@@ -65,6 +71,7 @@ struct ParticleCloud {
   double smoothing = 0;                         ///< length at the start over the spacing
   double skin = 0;                              ///< by which neighbours are searched further
   AlignedBuffer<double> smoothing_length;       ///< now
+  AlignedBuffer<ParticlePlace> place;           ///< now, and one without volume, which fills up packs
   AlignedBuffer<double> next_smoothing_length;  ///< of the step that follows
   AlignedBuffer<double> weight;                 ///< s of each pair, in place of `pair`
   AlignedBuffer<ParticleForce> residual;        ///< viscosity times L, and viscosity, for residual velocities
@@ -72,6 +79,7 @@ struct ParticleCloud {
   /// Positions at the last search, and the smoothing lengths; -1 where a particle has been cut.
   AlignedBuffer<NodeVector> searched_at;
   bool is_eulerian() const { return !smoothing_length.empty(); }
+  int without_volume() const { return static_cast<int>(size()); }
   bool is_cut(std::size_t i) const { return searched_at[i].component[3] < 0; }
 
   std::size_t size() const { return volume.size(); }
@@ -79,7 +87,7 @@ struct ParticleCloud {
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(first, count, neighbour, pair, correction, hourglass_weight, gradient_size, force,
+    archive(first, count, neighbour, pair, correction, hourglass_weight, gradient_size, force, skin,
             smoothing_length, next_smoothing_length, weight, residual, pair_force, searched_at);
   }
 };

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "elements/particle/neighbour_search.hpp"
 #include "elements/particle/particle_cloud.hpp"
 #include "src/base/lanes.hpp"
 
@@ -26,13 +27,12 @@ struct alignas(64) NeighbourSums {
   double share[6][lane_count<double>];                 ///< S of particle_support.hpp: xx yy zz xy yz xz
 };
 
-/// Pairs closer than twice the mean of their smoothing lengths, of lists that hold at least these.
+/// Pairs closer than twice the mean of their smoothing lengths.
 /// \param volume of each particle
-/// \param first, candidates of particle i are candidate[first[i]] to candidate[first[i + 1] - 1]
 /// \param smoothing smoothing length over the cube root of the volume
 /// \throws std::invalid_argument naming a particle without neighbours in three directions
-ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume, std::span<const int> first,
-                                  std::span<const int> candidate, double smoothing, const Nodes& nodes);
+ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume, double smoothing,
+                                  const Nodes& nodes, ThreadTeam& team);
 
 /// Sums for `count` particles of a pack; the lanes behind repeat the last.
 void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
@@ -44,15 +44,16 @@ void add_pair_forces(const ParticleCloud& cloud, Nodes& nodes, const int* node, 
 /// Changes the kernel of the cloud to updated Lagrangian. \param smoothing smoothing length over the spacing
 void start_eulerian(ParticleCloud& cloud, double smoothing, const Nodes& nodes);
 
-/// New lists of neighbours, from candidates that hold all that are as close as smoothing lengths and skin
-/// say.
-void set_neighbours(ParticleCloud& cloud, std::span<const int> first, std::span<const int> candidate,
-                    const Nodes& nodes);
+/// New lists of neighbours, closer than their smoothing lengths and the skin together.
+void set_neighbours(ParticleCloud& cloud, const NeighbourSearch& found, const Nodes& nodes, ThreadTeam& team);
+
+/// Where particles are, and their smoothing lengths, in the present time step. \param begin, end of particles
+void place_particles(ParticleCloud& cloud, const Nodes& nodes, std::size_t begin, std::size_t end);
 
 /// As sum_over_neighbours and add_pair_forces, for the updated-Lagrangian kernel: F = I. \param step that led
 /// here
-void sum_over_neighbours_now(ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
-                             double step, NeighbourSums& sums);
+void sum_over_neighbours_now(ParticleCloud& cloud, const int* node, int count, double step,
+                             NeighbourSums& sums);
 /// \param repulsion fraction of the tension of a pair \returns work of forces that are not those of stress
 double add_pair_forces_now(ParticleCloud& cloud, Nodes& nodes, const int* node, int count, double repulsion,
                            double step);

@@ -6,6 +6,7 @@
 
 #include "elements/particle/particle_pairs.hpp"
 #include "src/base/index.hpp"
+#include "src/base/lane_math.hpp"
 
 namespace brio {
 
@@ -17,16 +18,24 @@ BRIO_INLINE T kernel_shape(T q) {
   return where(q < T(1.0), near, where(q < T(2.0), 0.25 * rest * rest * rest, T(0.0)));
 }
 
-/// -W'(r) / r. \param inverse_length 1 / h
+/// 1 / r, a large number where r = 0.
 template <class T>
-BRIO_INLINE T kernel_weight(T distance_squared, T inverse_length) {
+BRIO_INLINE T inverse_distance(T distance_squared) {
+  constexpr double hardly_apart = 1e-290;
+  return inverse_square_root(max(distance_squared, hardly_apart));
+}
+
+/// -W'(r) / r. \param length h
+template <class T>
+BRIO_INLINE T kernel_weight(T distance_squared, T length) {
+  const T inverse_length = 1.0 / length;
+  const T inverse = inverse_distance(distance_squared);
+  const T q = distance_squared * inverse * inverse_length;
+  const T rest = 2.0 - q;
   const T inverse_squared = inverse_length * inverse_length;
-  const T q_squared = distance_squared * inverse_squared;
-  const T q = sqrt(q_squared);
   const T size = std::numbers::inv_pi * inverse_squared * inverse_squared * inverse_length;
-  const MaskOf<T> is_near = q < T(1.0);
-  const T shape = where(is_near, 3.0 - 2.25 * q, 0.75 * (2.0 - q) * (2.0 - q) / where(is_near, T(1.0), q));
-  return where(q_squared < T(4.0), size * shape, T(0.0));
+  const T shape = where(q < T(1.0), 3.0 - 2.25 * q, 0.75 * rest * rest * (length * inverse));
+  return where(q < T(2.0), size * shape, T(0.0));
 }
 
 /// A neighbourhood whose moments have a determinant below this share of that of a round one lies in a plane
@@ -34,18 +43,21 @@ BRIO_INLINE T kernel_weight(T distance_squared, T inverse_length) {
 inline constexpr double least_roundness = 1e-6;
 
 /// The inverse times the determinant.
-inline SymmetricTensor<double> adjugate(const SymmetricTensor<double>& m) {
+template <class T>
+BRIO_INLINE SymmetricTensor<T> adjugate(const SymmetricTensor<T>& m) {
   return {m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz, m.xx * m.yy - m.xy * m.xy,
           m.xz * m.yz - m.xy * m.zz, m.xy * m.xz - m.yz * m.xx, m.xy * m.yz - m.xz * m.yy};
 }
 
 /// The inverse; 0 where the neighbours do not stand in three directions.
-inline SymmetricTensor<double> inverse_moments(const SymmetricTensor<double>& m) {
-  const SymmetricTensor<double> cofactor = adjugate(m);
-  const double determinant = m.xx * cofactor.xx + m.xy * cofactor.xy + m.xz * cofactor.xz;
-  const double mean = trace(m) / 3;
-  if (!(determinant > least_roundness * mean * mean * mean)) return {};
-  return (1 / determinant) * cofactor;
+template <class T>
+BRIO_INLINE SymmetricTensor<T> inverse_moments(const SymmetricTensor<T>& m) {
+  const SymmetricTensor<T> cofactor = adjugate(m);
+  const T determinant = m.xx * cofactor.xx + m.xy * cofactor.xy + m.xz * cofactor.xz;
+  const T mean = trace(m) / 3.0;
+  const MaskOf<T> is_round = determinant > least_roundness * mean * mean * mean;
+  const T inverse = where(is_round, 1.0 / where(is_round, determinant, T(1.0)), T(0.0));
+  return inverse * cofactor;
 }
 
 /// Fills the lanes behind the first `count` with the last of these.

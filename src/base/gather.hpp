@@ -26,8 +26,8 @@ BRIO_INLINE void store_row(double* row, Row4 r) {
 
 #if defined(BRIO_AVX512)
 
-/// First three entries of eight rows: x, y, z with one row a lane.
-BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z) {
+/// Eight rows (x, y, z, w), one a lane.
+BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z, Row8& w) {
   Row8 pair[4];
 #pragma GCC unroll 8
   for (int k = 0; k < 4; ++k) pair[k] = __builtin_shufflevector(rows[k], rows[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
@@ -38,6 +38,7 @@ BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z) {
   x = __builtin_shufflevector(xz01, xz23, 0, 1, 8, 9, 4, 5, 12, 13);
   y = __builtin_shufflevector(yw01, yw23, 0, 1, 8, 9, 4, 5, 12, 13);
   z = __builtin_shufflevector(xz01, xz23, 2, 3, 10, 11, 6, 7, 14, 15);
+  w = __builtin_shufflevector(yw01, yw23, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
 /// The inverse, with a fourth: eight rows (x, y, z, w).
@@ -56,6 +57,22 @@ BRIO_INLINE void transpose_lanes(Row8 x, Row8 y, Row8 z, Row8 w, Row4 rows[8]) {
   rows[7] = __builtin_shufflevector(xy_odd, z_odd, 6, 7, 14, 15);
 }
 
+/// Entry k: the sum over the lanes of number k.
+BRIO_INLINE Row8 sums_over_lanes(const Row8 (&number)[8]) {
+  Row8 two[4];
+#pragma GCC unroll 8
+  for (int k = 0; k < 4; ++k)
+    two[k] = __builtin_shufflevector(number[2 * k], number[2 * k + 1], 0, 8, 2, 10, 4, 12, 6, 14) +
+             __builtin_shufflevector(number[2 * k], number[2 * k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  Row8 four[2];
+#pragma GCC unroll 8
+  for (int k = 0; k < 2; ++k)
+    four[k] = __builtin_shufflevector(two[2 * k], two[2 * k + 1], 0, 1, 8, 9, 4, 5, 12, 13) +
+              __builtin_shufflevector(two[2 * k], two[2 * k + 1], 2, 3, 10, 11, 6, 7, 14, 15);
+  return __builtin_shufflevector(four[0], four[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+         __builtin_shufflevector(four[0], four[1], 4, 5, 6, 7, 12, 13, 14, 15);
+}
+
 BRIO_INLINE Wide<float> narrow_pair(Row8 first, Row8 second) {
   typedef float Half __attribute__((vector_size(32)));
   const Half low = __builtin_convertvector(first, Half);
@@ -72,7 +89,7 @@ BRIO_INLINE void widen_pair(Wide<float> lanes, Row8* wide) {
 
 #else
 
-BRIO_INLINE void transpose_four_rows(const Row4* rows, Row4& x, Row4& y, Row4& z) {
+BRIO_INLINE void transpose_four_rows(const Row4* rows, Row4& x, Row4& y, Row4& z, Row4& w) {
   const Row4 xz01 = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
   const Row4 xz23 = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
   const Row4 yw01 = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
@@ -80,11 +97,12 @@ BRIO_INLINE void transpose_four_rows(const Row4* rows, Row4& x, Row4& y, Row4& z
   x = __builtin_shufflevector(xz01, xz23, 0, 1, 4, 5);
   y = __builtin_shufflevector(yw01, yw23, 0, 1, 4, 5);
   z = __builtin_shufflevector(xz01, xz23, 2, 3, 6, 7);
+  w = __builtin_shufflevector(yw01, yw23, 2, 3, 6, 7);
 }
-/// First three entries of eight rows: x, y, z with one row a lane.
-BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z) {
-  transpose_four_rows(rows, x.low, y.low, z.low);
-  transpose_four_rows(rows + 4, x.high, y.high, z.high);
+/// Eight rows (x, y, z, w), one a lane.
+BRIO_INLINE void transpose_rows(const Row4 rows[8], Row8& x, Row8& y, Row8& z, Row8& w) {
+  transpose_four_rows(rows, x.low, y.low, z.low, w.low);
+  transpose_four_rows(rows + 4, x.high, y.high, z.high, w.high);
 }
 
 BRIO_INLINE void transpose_four_lanes(Row4 x, Row4 y, Row4 z, Row4 w, Row4* rows) {
@@ -101,6 +119,19 @@ BRIO_INLINE void transpose_four_lanes(Row4 x, Row4 y, Row4 z, Row4 w, Row4* rows
 BRIO_INLINE void transpose_lanes(Row8 x, Row8 y, Row8 z, Row8 w, Row4 rows[8]) {
   transpose_four_lanes(x.low, y.low, z.low, w.low, rows);
   transpose_four_lanes(x.high, y.high, z.high, w.high, rows + 4);
+}
+
+BRIO_INLINE Row4 sums_of_four(Row4 a, Row4 b, Row4 c, Row4 d) {
+  const Row4 ab = __builtin_shufflevector(a, b, 0, 4, 2, 6) + __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Row4 cd = __builtin_shufflevector(c, d, 0, 4, 2, 6) + __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  return __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+}
+/// Entry k: the sum over the lanes of number k.
+BRIO_INLINE Row8 sums_over_lanes(const Row8 (&n)[8]) {
+  return {sums_of_four(n[0].low, n[1].low, n[2].low, n[3].low) +
+              sums_of_four(n[0].high, n[1].high, n[2].high, n[3].high),
+          sums_of_four(n[4].low, n[5].low, n[6].low, n[7].low) +
+              sums_of_four(n[4].high, n[5].high, n[6].high, n[7].high)};
 }
 
 typedef float Float4 __attribute__((vector_size(16)));
@@ -121,6 +152,18 @@ BRIO_INLINE void widen_pair(Wide<float> lanes, Row8* wide) {
 }
 
 #endif
+
+/// Rows of eight records, whose rows are `stride` doubles apart, one a lane.
+struct LaneRows {
+  Lanes<double> x, y, z, w;
+
+  BRIO_INLINE LaneRows(const double* first, std::size_t stride, const int* record) {
+    Row4 rows[8];
+#pragma GCC unroll 8
+    for (int lane = 0; lane < 8; ++lane) rows[lane] = load_row(first + stride * index(record[lane]));
+    transpose_rows(rows, x.v, y.v, z.v, w.v);
+  }
+};
 
 /// Three doubles a lane for all lanes of a pack: one group of eight for double, two for float.
 template <Floating Real>
@@ -146,11 +189,8 @@ BRIO_INLINE WideVector<Real> gather_rows(const double* first, std::size_t stride
   WideVector<Real> wide;
 #pragma GCC unroll 8
   for (int group = 0; group < WideVector<Real>::groups; ++group) {
-    Row4 rows[8];
-#pragma GCC unroll 8
-    for (int lane = 0; lane < 8; ++lane)
-      rows[lane] = load_row(first + stride * index(node[8 * group + lane]));
-    transpose_rows(rows, wide.x[group], wide.y[group], wide.z[group]);
+    const LaneRows rows(first, stride, node + 8 * group);
+    wide.x[group] = rows.x.v, wide.y[group] = rows.y.v, wide.z[group] = rows.z.v;
   }
   return wide;
 }

@@ -207,4 +207,22 @@ BRIO_INLINE Lanes<Real> pow(Lanes<Real> x, std::type_identity_t<double> y) {
   return pow(x, Lanes<Real>(y));
 }
 
+/// 1 / sqrt(a) within 3e-16 of itself, a normal and positive: Newton's method from an estimate of the
+/// processor, or else from half of the exponent (Lomont 2003). Faster than a root and a quotient.
+BRIO_INLINE double inverse_square_root(double a) { return 1 / std::sqrt(a); }
+BRIO_INLINE Lanes<double> inverse_square_root(Lanes<double> a) {
+#if defined(BRIO_AVX512)
+  Lanes<double> root(_mm512_maskz_rsqrt14_pd(0xff, a.v));
+  constexpr int passes = 2;
+#else
+  Lanes<double> root(
+      bits_as<double>(broadcast<std::int64_t>(0x5fe6eb50c7b537a9) - (bits_as<std::int64_t>(a.v) >> 1)));
+  constexpr int passes = 4;
+#endif
+  const Lanes<double> half = 0.5 * a;
+#pragma GCC unroll 8
+  for (int pass = 0; pass < passes; ++pass) root *= 1.5 - half * root * root;
+  return root;
+}
+
 }  // namespace brio

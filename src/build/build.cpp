@@ -154,14 +154,16 @@ void add_point_masses(const Deck& deck, std::span<const Mesh> meshes, Model& mod
     }
 }
 
-void start_elements(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+void start_elements(const Deck& deck, std::span<const Mesh> meshes, int threads, Model& model) {
   Nodes& nodes = model.nodes;
   const AtReference at_reference(meshes, model);
   for (std::size_t p = 0; p < model.blocks.size(); ++p) {
     if (model.parts[p].rigid >= 0) continue;
     try {
-      if (!meshes[p].volume.empty())
-        find_neighbours(model.blocks[p], particle_volumes(meshes[p], model.parts[p]), nodes);
+      if (!meshes[p].volume.empty()) {
+        ThreadTeam team(threads);
+        find_neighbours(model.blocks[p], particle_volumes(meshes[p], model.parts[p]), nodes, team);
+      }
       model.blocks[p].kernel.initialize(model.blocks[p], nodes);
     } catch (const BadElement& fault) {
       const PartInModel& part = model.parts[p];
@@ -175,9 +177,9 @@ void start_elements(const Deck& deck, std::span<const Mesh> meshes, Model& model
   }
 }
 
-void lump_masses(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+void lump_masses(const Deck& deck, std::span<const Mesh> meshes, int threads, Model& model) {
   Nodes& nodes = model.nodes;
-  start_elements(deck, meshes, model);
+  start_elements(deck, meshes, threads, model);
   for (PartInModel& part : model.parts) {
     const Block& block = model.blocks[part.block];
     for (std::size_t e = 0; e < block.element_count; ++e) part.mass += block.kernel.mass(block, e);
@@ -232,14 +234,14 @@ std::vector<PairRule> pair_rules(const ContactSection& contact, std::span<const 
 }
 
 // Elements start as they are after nodes were moved out of overlaps; mass and inertia of rigid bodies stay.
-void follow_moved_nodes(const Deck& deck, std::span<const Mesh> meshes, Model& model) {
+void follow_moved_nodes(const Deck& deck, std::span<const Mesh> meshes, int threads, Model& model) {
   Nodes& nodes = model.nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     nodes.mass[i] = 0;
     if (nodes.has_rotations()) nodes.rotational_inertia[i] = 0;
   }
   for (PartInModel& part : model.parts) part.mass = 0;
-  lump_masses(deck, meshes, model);
+  lump_masses(deck, meshes, threads, model);
   measure_arms(model);
 }
 
@@ -312,10 +314,10 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads, std::sp
   make_ties(deck, meshes, connectivity, model);
   if (!model.ties.joined.empty()) join_nodes(model);
   release_joined(model);
-  lump_masses(deck, meshes, model);
+  lump_masses(deck, meshes, threads, model);
   const std::size_t of_walls = model.initial_overlaps.size();
   make_contact(deck, meshes, connectivity, threads, model);
-  if (model.initial_overlaps.size() > of_walls) follow_moved_nodes(deck, meshes, model);
+  if (model.initial_overlaps.size() > of_walls) follow_moved_nodes(deck, meshes, threads, model);
   model.damping = damping_of_parts(deck, model);
   if (!model.ties.empty()) condense(model.ties, model.nodes);
   set_states(states, model);

@@ -119,8 +119,8 @@ Vector sum_of(const Vector3<Eight>& lanes) { return {sum_of(lanes.x), sum_of(lan
 
 // Of rows of 4 numbers.
 Vector3<Eight> in_lanes(const Row4 (&rows)[8]) {
-  Row8 x, y, z;
-  transpose_rows(rows, x, y, z);
+  Row8 x, y, z, fourth;
+  transpose_rows(rows, x, y, z, fourth);
   return {Eight(x), Eight(y), Eight(z)};
 }
 

@@ -11,82 +11,93 @@ namespace brio {
 
 namespace {
 
-/// Search margin (Verlet skin) over the smallest initial smoothing length.
-constexpr double search_skin_share = 0.3;
+/// Search margin (Verlet skin) over the largest smoothing length: what a step moves at least, and at most.
+constexpr double largest_skin = 0.3;
+/// Of the first search, where it is not known yet how fast particles move.
+constexpr double first_skin = 0.05;
+/// Price of a search over that of the pairs of a step.
+constexpr double price_of_search = 0.3;
 
 const double* position(const ParticleCloud& cloud, const Nodes& nodes, std::size_t i) {
   return nodes.record[index(cloud.first_node) + i].position;
 }
 
-// Points and boxes of the particles that live, which reach as far as the search must see.
-void fill_boxes(const ParticleCloud& cloud, const Nodes& nodes, ParticleSearch& search) {
-  const double largest = *std::max_element(cloud.smoothing_length.begin(), cloud.smoothing_length.end());
-  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-  search.point.assign(cloud.size(), {nowhere, nowhere, nowhere});
-  search.box.assign(cloud.size(), empty_box);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
+ParticleDrift drift_of_range(const ParticleCloud& cloud, std::size_t begin, std::size_t end) {
+  ParticleDrift drift;
+  for (std::size_t i = begin; i < end; ++i) {
     if (cloud.is_cut(i)) continue;
-    const double* x = position(cloud, nodes, i);
-    const double reach = cloud.smoothing_length[i] + largest + cloud.skin;
-    search.point[i] = {x[0], x[1], x[2]};
-    search.box[i] = {{x[0] - reach, x[1] - reach, x[2] - reach}, {x[0] + reach, x[1] + reach, x[2] + reach}};
-  }
-}
-
-// Whether a pair may have come into the reach of its kernel that is in no list: no two particles have moved
-// further towards each other than the displacements of all are apart.
-bool lists_are_old(const ParticleCloud& cloud, const Nodes& nodes) {
-  CaptureBox moved = empty_box;
-  double growth = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.is_cut(i)) continue;
-    const double* x = position(cloud, nodes, i);
+    const double* x = cloud.place[i].position;
     const double* then = cloud.searched_at[i].component;
     for (int axis = 0; axis < 3; ++axis) {
-      moved.lower[axis] = std::min(moved.lower[axis], x[axis] - then[axis]);
-      moved.upper[axis] = std::max(moved.upper[axis], x[axis] - then[axis]);
+      drift.lower[axis] = std::min(drift.lower[axis], x[axis] - then[axis]);
+      drift.upper[axis] = std::max(drift.upper[axis], x[axis] - then[axis]);
     }
-    growth = std::max(growth, cloud.smoothing_length[i] - then[3]);
+    drift.growth = std::max(drift.growth, cloud.smoothing_length[i] - then[3]);
   }
-  if (!moved.holds_anything()) return false;
-  const double apart = std::hypot(moved.upper[0] - moved.lower[0], moved.upper[1] - moved.lower[1],
-                                  moved.upper[2] - moved.lower[2]);
-  return apart + 2 * growth >= cloud.skin;
+  return drift;
+}
+
+// Pairs cost (1 + skin / reach)^3 times as much as without a skin, and there is a search every skin /
+// approach steps: the skin of the least price. It covers the motion of a step, which pairs are weighed in the
+// middle of.
+double skin_of_least_price(double approach_of_step, double largest_length) {
+  const double reach = 2 * largest_length;
+  const double cheapest = std::sqrt(price_of_search / 3 * approach_of_step * reach);
+  return std::max(std::min(cheapest, largest_skin * largest_length), approach_of_step);
+}
+
+void search_anew(ParticleSearch& search, ParticleCloud& cloud, const Nodes& nodes, ThreadTeam& team) {
+  search.points.resize(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    ReachingPoint& point = search.points[i];
+    std::copy_n(cloud.place[i].position, 3, point.position);
+    point.reach = cloud.is_cut(i) ? -1 : cloud.smoothing_length[i] + 0.5 * cloud.skin;
+  }
+  search.search.find(search.points, team);
+  set_neighbours(cloud, search.search, nodes, team);
+  ++search.searches;
+  search.steps_since = 0;
 }
 
 }  // namespace
 
-void find_neighbours(Block& block, std::span<const double> volume, const Nodes& nodes) {
-  const auto& particle = std::get<Particle>(block.element);
-  const int first_node = block.node(0, 0);
-  const double reach =
-      2 * particle.smoothing() * edge_of_cube(*std::max_element(volume.begin(), volume.end()));
-  ParticleSearch search{};
-  for (std::size_t i = 0; i < volume.size(); ++i) {
-    const double* x = nodes.record[index(first_node) + i].position;
-    search.point.push_back({x[0], x[1], x[2]});
-    search.box.push_back(
-        {{x[0] - reach, x[1] - reach, x[2] - reach}, {x[0] + reach, x[1] + reach, x[2] + reach}});
+void ParticleDrift::join(const ParticleDrift& other) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lower[axis] = std::min(lower[axis], other.lower[axis]);
+    upper[axis] = std::max(upper[axis], other.upper[axis]);
   }
-  ThreadTeam team(1);
-  search.search.find(search.point, search.box, team, search.pairs, search.counts);
-  block.cloud = make_particle_cloud(first_node, volume, search.pairs.first, search.pairs.node,
-                                    particle.smoothing(), nodes);
-  if (!particle.is_eulerian()) return;
-  ParticleCloud& cloud = *block.cloud;
-  start_eulerian(cloud, particle.smoothing(), nodes);
-  cloud.skin =
-      search_skin_share * *std::min_element(cloud.smoothing_length.begin(), cloud.smoothing_length.end());
+  growth = std::max(growth, other.growth);
+}
+
+// No two particles have moved further towards each other than the displacements of all are apart.
+double ParticleDrift::approach() const {
+  if (!(lower[0] <= upper[0])) return 0;
+  return std::hypot(upper[0] - lower[0], upper[1] - lower[1], upper[2] - lower[2]) + 2 * growth;
+}
+
+void find_neighbours(Block& block, std::span<const double> volume, const Nodes& nodes, ThreadTeam& team) {
+  const auto& particle = std::get<Particle>(block.element);
+  block.cloud = make_particle_cloud(block.node(0, 0), volume, particle.smoothing(), nodes, team);
+  if (particle.is_eulerian()) start_eulerian(*block.cloud, particle.smoothing(), nodes);
 }
 
 void follow_neighbours(ParticleSearch& search, Block& block, const Nodes& nodes, ThreadTeam& team) {
   ParticleCloud& cloud = *block.cloud;
-  std::copy(cloud.next_smoothing_length.begin(), cloud.next_smoothing_length.end(),
-            cloud.smoothing_length.begin());
-  if (search.counts.searches > 0 && !lists_are_old(cloud, nodes)) return;
-  fill_boxes(cloud, nodes, search);
-  search.search.find(search.point, search.box, team, search.pairs, search.counts);
-  set_neighbours(cloud, search.pairs.first, search.pairs.node, nodes);
+  search.drifts.resize((cloud.size() + nodes_per_range - 1) / nodes_per_range);
+  team.for_ranges(cloud.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
+    place_particles(cloud, nodes, begin, end);
+    search.drifts[begin / nodes_per_range] = drift_of_range(cloud, begin, end);
+  });
+  ParticleDrift drift;
+  for (const ParticleDrift& of_range : search.drifts) drift.join(of_range);
+  const double approach = drift.approach();
+  ++search.steps_since;
+  if (search.searches > 0 && approach < cloud.skin) return;
+  const double largest = *std::max_element(cloud.smoothing_length.begin(), cloud.smoothing_length.end());
+  cloud.skin = search.searches == 0
+                   ? first_skin * largest
+                   : skin_of_least_price(approach / static_cast<double>(search.steps_since), largest);
+  search_anew(search, cloud, nodes, team);
 }
 
 double share_of_paired(const ParticleCloud& cloud, const Nodes& nodes) {

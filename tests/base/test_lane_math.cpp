@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "src/base/gather.hpp"
 
 namespace brio {
 namespace {
@@ -132,6 +135,31 @@ TYPED_TEST(LaneMath, EndsOfTheDomain) {
   EXPECT_EQ(pow(T(largest), 2.0)[0], infinity);
   EXPECT_TRUE(std::isnan(pow(T(-1.0), 2.0)[0]));
   EXPECT_TRUE(std::isnan(pow(T(nan), 0.5)[0]));
+}
+
+TEST(LanesOfDoubles, InverseSquareRootIsRightToTheLastPlaces) {
+  std::mt19937_64 engine(4);
+  double worst = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const auto a = lanes_from<double>(engine, -960, 960, true);
+    const auto root = inverse_square_root(a);
+    for (int lane = 0; lane < lane_count<double>; ++lane)
+      worst = std::max(worst, units(root[lane], 1 / std::sqrt(static_cast<long double>(a[lane]))));
+  }
+  EXPECT_LE(worst, 2.5);
+}
+
+TEST(LanesOfDoubles, SumsOverLanesAreThoseOfEachNumber) {
+  Row8 number[8];
+  double expected[8] = {};
+  for (int k = 0; k < 8; ++k)
+    for (int lane = 0; lane < 8; ++lane) {
+      const double value = (1 << lane) + 1000 * k;
+      set_lane(number[k], lane, value);
+      expected[k] += value;
+    }
+  const Row8 sums = sums_over_lanes(number);
+  for (int k = 0; k < 8; ++k) EXPECT_EQ(sums[k], expected[k]) << k;
 }
 
 }  // namespace

@@ -33,12 +33,8 @@ struct IrregularCloud {
           volume.push_back(share(random));
           nodes.mass[index(node)] = volume.back();
         }
-    std::vector<int> first{0}, candidate;
-    for (int i = 0; i < node; ++i) {
-      for (int j = 0; j < node; ++j) candidate.push_back(j);
-      first.push_back(static_cast<int>(candidate.size()));
-    }
-    cloud = make_particle_cloud(0, volume, first, candidate, 1.3, nodes);
+    ThreadTeam team(1);
+    cloud = make_particle_cloud(0, volume, 1.3, nodes, team);
   }
 };
 
@@ -97,13 +93,7 @@ TEST(ParticleCloud, LinearFieldsHaveExactGradientsInsideAndAtTheSurface) {
 TEST(ParticleCloud, KernelOfNowHasExactGradientsOfVelocities) {
   IrregularCloud irregular;
   start_eulerian(irregular.cloud, 1.5, irregular.nodes);
-  irregular.cloud.skin = 0.3;
-  std::vector<int> first{0}, candidate;
   const int n = static_cast<int>(irregular.nodes.size());
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) candidate.push_back(j);
-    first.push_back(static_cast<int>(candidate.size()));
-  }
   std::mt19937 random(9);
   std::uniform_real_distribution<double> shift(-0.2, 0.2);
   for (NodeRecord& record : irregular.nodes.record) {
@@ -111,10 +101,18 @@ TEST(ParticleCloud, KernelOfNowHasExactGradientsOfVelocities) {
     const Vector3<double> v = times(of_velocities, record.position);
     record.velocity[0] = v.x - 2, record.velocity[1] = v.y + 9, record.velocity[2] = v.z;
   }
-  set_neighbours(irregular.cloud, first, candidate, irregular.nodes);
+  place_particles(irregular.cloud, irregular.nodes, 0, irregular.nodes.size());
+  std::vector<ReachingPoint> points;
+  for (const ParticlePlace& place : irregular.cloud.place)
+    points.push_back({{place.position[0], place.position[1], place.position[2]}, place.smoothing_length});
+  points.pop_back();  // that without volume
+  ThreadTeam team(1);
+  NeighbourSearch search;
+  search.find(points, team);
+  set_neighbours(irregular.cloud, search, irregular.nodes, team);
   for (int particle = 0; particle < n; ++particle) {
     NeighbourSums sums;
-    sum_over_neighbours_now(irregular.cloud, irregular.nodes, &particle, 1, 0.0, sums);
+    sum_over_neighbours_now(irregular.cloud, &particle, 1, 0.0, sums);
     const Gradients found = gradients_of(sums);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
@@ -212,15 +210,13 @@ TEST(ParticleCloud, CutParticleLeavesExactGradientsToItsNeighbours) {
 
 TEST(ParticleCloud, RefusesParticlesThatLieInAPlane) {
   Nodes nodes(16, false);
-  std::vector<int> first{0}, candidate;
   for (int i = 0; i < 16; ++i) {
     nodes.record[index(i)].position[0] = i % 4;
     nodes.record[index(i)].position[1] = i / 4;
-    for (int j = 0; j < 16; ++j) candidate.push_back(j);
-    first.push_back(static_cast<int>(candidate.size()));
   }
   const std::vector<double> volume(16, 1.0);
-  EXPECT_THROW(make_particle_cloud(0, volume, first, candidate, 1.2, nodes), std::invalid_argument);
+  ThreadTeam team(1);
+  EXPECT_THROW(make_particle_cloud(0, volume, 1.2, nodes, team), std::invalid_argument);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ double sum3(Row4 row) { return row[0] + row[1] + row[2]; }
 }  // namespace
 
 ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume, double smoothing,
-                                  const Nodes& nodes, ThreadTeam& team) {
+                                  bool in_packs, const Nodes& nodes, ThreadTeam& team) {
   const std::size_t n = volume.size();
   ParticleCloud cloud;
   cloud.first_node = first_node;
@@ -83,8 +83,6 @@ ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume
   cloud.hourglass_weight = AlignedBuffer<double>(n);
   cloud.gradient_size = AlignedBuffer<double>(n);
   cloud.force = AlignedBuffer<ParticleForce>(n + 1);  // the last one of no particle
-  std::vector<int> neighbour;
-  std::vector<ParticlePair> pair;
   std::vector<ReachingPoint> points(n);
   for (std::size_t i = 0; i < n; ++i) {
     cloud.volume[i] = volume[i];
@@ -94,25 +92,31 @@ ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume
   }
   NeighbourSearch search;
   search.find(points, team);
+  std::size_t total = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    cloud.first[i] = neighbour.size();
-    for (const int j : search.of(i)) {
-      const auto other = index(j);
-      const Vector3<double> x = pair_vector(nodes, first_node + static_cast<int>(i), first_node + j);
-      const double length = smoothing * 0.5 * (cloud.spacing[i] + cloud.spacing[other]);
-      const double s = volume[i] * volume[other] * kernel_weight(dot(x, x), length);
-      if (!(s > 0)) continue;
-      neighbour.push_back(j);
-      pair.push_back({{s * x.x, s * x.y, s * x.z, s}});
-      ++cloud.count[i];
-    }
+    cloud.first[i] = total;
+    const std::size_t found = search.of(i).size();
+    total += in_packs ? places_in_packs(found) : found;
   }
-  cloud.neighbour = AlignedBuffer<int>(neighbour.size());
-  cloud.pair = AlignedBuffer<ParticlePair>(pair.size());
-  std::copy(neighbour.begin(), neighbour.end(), cloud.neighbour.begin());
-  std::copy(pair.begin(), pair.end(), cloud.pair.begin());
+  cloud.neighbour = AlignedBuffer<int>(total);
+  cloud.pair = AlignedBuffer<ParticlePair>(total);
+  std::fill(cloud.neighbour.begin(), cloud.neighbour.end(), cloud.without_volume());
+  team.for_ranges(n, particles_a_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      std::size_t next = cloud.first[i];
+      for (const int j : search.of(i)) {
+        const Vector3<double> x = pair_vector(nodes, first_node + static_cast<int>(i), first_node + j);
+        const double length = smoothing * 0.5 * (cloud.spacing[i] + cloud.spacing[index(j)]);
+        const double s = volume[i] * volume[index(j)] * kernel_weight(dot(x, x), length);
+        if (!(s > 0)) continue;
+        cloud.neighbour[next] = j;
+        cloud.pair[next++] = {{s * x.x, s * x.y, s * x.z, s}};
+      }
+      cloud.count[i] = static_cast<int>(next - cloud.first[i]);
+      correct(cloud, i);
+    }
+  });
   for (std::size_t i = 0; i < n; ++i) {
-    correct(cloud, i);
     if (trace(cloud.correction[i]) > 0) {
       cloud.largest_gradient_size = std::max(cloud.largest_gradient_size, cloud.gradient_size[i]);
       continue;
@@ -168,25 +172,30 @@ void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const i
   repeat_last_lane(sums, count);
 }
 
+Row4 pair_forces_on(const ParticleCloud& cloud, const double* position, std::size_t stride, std::size_t i) {
+  const Row4 x0 = load_row(position + stride * i);
+  const ParticleForce& own = cloud.force[i];
+  const Row4 a0 = load_row(own.column[0]), a1 = load_row(own.column[1]), a2 = load_row(own.column[2]);
+  Row4 force = {};
+  const std::size_t begin = cloud.first[i];
+  for (std::size_t k = begin; k < begin + index(cloud.count[i]); ++k) {
+    const auto j = index(cloud.neighbour[k]);
+    const double* w = cloud.pair[k].weighted;
+    const ParticleForce& other = cloud.force[j];
+    const Row4 x = load_row(position + stride * j) - x0;
+    const Row4 first = a0 + load_row(other.column[0]);
+    const double stiffness = first[3];
+    force += (w[0] * first + w[1] * (a1 + load_row(other.column[1]))) +
+             (w[2] * (a2 + load_row(other.column[2])) + (stiffness * w[3]) * x);
+  }
+  return force;
+}
+
 void add_pair_forces(const ParticleCloud& cloud, Nodes& nodes, const int* node, int count) {
+  const double* position = nodes.record[index(cloud.first_node)].position;
   for (int lane = 0; lane < count; ++lane) {
-    const auto i = index(node[lane] - cloud.first_node);
-    const NodeRecord* record = nodes.record.data() + cloud.first_node;
-    const Row4 x0 = load_row(record[i].position);
-    const ParticleForce& own = cloud.force[i];
-    const Row4 a0 = load_row(own.column[0]), a1 = load_row(own.column[1]), a2 = load_row(own.column[2]);
-    Row4 force = {};
-    const std::size_t begin = cloud.first[i];
-    for (std::size_t k = begin; k < begin + index(cloud.count[i]); ++k) {
-      const int j = cloud.neighbour[k];
-      const double* w = cloud.pair[k].weighted;
-      const ParticleForce& other = cloud.force[index(j)];
-      const Row4 x = load_row(record[j].position) - x0;
-      const Row4 first = a0 + load_row(other.column[0]);
-      const double stiffness = first[3];
-      force += (w[0] * first + w[1] * (a1 + load_row(other.column[1]))) +
-               (w[2] * (a2 + load_row(other.column[2])) + (stiffness * w[3]) * x);
-    }
+    const Row4 force = pair_forces_on(cloud, position, sizeof(NodeRecord) / sizeof(double),
+                                      index(node[lane] - cloud.first_node));
     double* row = nodes.force[index(node[lane])].component;
     store_row(row, load_row(row) + Row4{force[0], force[1], force[2], 0});
   }

@@ -44,6 +44,11 @@ struct alignas(64) ParticlePlace {
   double velocity[3], volume;  ///< volume at the start
 };
 
+inline constexpr std::size_t particles_a_task = 1024;
+
+/// Places of a list of so many neighbours in whole packs of eight.
+constexpr std::size_t places_in_packs(std::size_t count) { return (count + 7) / 8 * 8; }
+
 /// Edge of a cube. Volumes in units of eight times each other have edges of the same bits, which is not so of
 /// std::cbrt.
 inline double edge_of_cube(double volume) {

@@ -230,32 +230,6 @@ struct Repulsion {
 
 }  // namespace
 
-namespace {
-
-/// Places behind the neighbours of a particle, so that packs of eight are whole.
-std::size_t padded(std::size_t count) { return (count + width - 1) / width * width; }
-
-/// Lists of neighbours of packs that are whole.
-void pad(ParticleCloud& cloud) {
-  std::size_t total = 0;
-  for (const int count : cloud.count) total += padded(index(count));
-  AlignedBuffer<int> neighbour(total);
-  AlignedBuffer<ParticlePair> pair(total);
-  std::fill(neighbour.begin(), neighbour.end(), cloud.without_volume());
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    std::copy_n(cloud.neighbour.data() + cloud.first[i], cloud.count[i], neighbour.data() + next);
-    std::copy_n(cloud.pair.data() + cloud.first[i], cloud.count[i], pair.data() + next);
-    cloud.first[i] = next;
-    next += padded(index(cloud.count[i]));
-  }
-  cloud.neighbour = std::move(neighbour);
-  cloud.pair = std::move(pair);
-  cloud.weight = AlignedBuffer<double>(total);
-}
-
-}  // namespace
-
 void start_eulerian(ParticleCloud& cloud, double smoothing, const Nodes& nodes) {
   const std::size_t n = cloud.size();
   cloud.smoothing = smoothing;
@@ -270,7 +244,7 @@ void start_eulerian(ParticleCloud& cloud, double smoothing, const Nodes& nodes) 
   place_particles(cloud, nodes, 0, n);
   // What the highest frequency is measured against.
   cloud.largest_gradient_size = 0;
-  pad(cloud);
+  cloud.weight = AlignedBuffer<double>(cloud.neighbour.size());
   for (std::size_t i = 0; i < n; ++i) {
     ParticleSums sums;
     weigh(cloud, i, 0, 0, sums);
@@ -288,20 +262,19 @@ void set_neighbours(ParticleCloud& cloud, const NeighbourSearch& found, const No
   std::size_t total = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     cloud.first[i] = total;
-    total += padded(found.of(i).size());
+    total += places_in_packs(found.of(i).size());
   }
   if (total > cloud.neighbour.size()) {
     const std::size_t room = total + total / 4;
     cloud.neighbour = AlignedBuffer<int>(room);
     cloud.weight = AlignedBuffer<double>(room);
   }
-  constexpr std::size_t particles_a_task = 1024;
   team.for_ranges(cloud.size(), particles_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::span<const int> neighbours = found.of(i);
       int* list = cloud.neighbour.data() + cloud.first[i];
       std::copy(neighbours.begin(), neighbours.end(), list);
-      std::fill(list + neighbours.size(), list + padded(neighbours.size()), cloud.without_volume());
+      std::fill(list + neighbours.size(), list + places_in_packs(neighbours.size()), cloud.without_volume());
       cloud.count[i] = static_cast<int>(neighbours.size());
       if (cloud.is_cut(i)) continue;
       const double* x = nodes.record[index(cloud.first_node) + i].position;

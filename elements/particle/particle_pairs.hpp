@@ -5,6 +5,7 @@
 
 #include "elements/particle/neighbour_search.hpp"
 #include "elements/particle/particle_cloud.hpp"
+#include "src/base/gather.hpp"
 #include "src/base/lanes.hpp"
 
 namespace brio {
@@ -30,18 +31,24 @@ struct alignas(64) NeighbourSums {
 /// Pairs closer than twice the mean of their smoothing lengths.
 /// \param volume of each particle
 /// \param smoothing smoothing length over the cube root of the volume
+/// \param in_packs whether lists are whole packs of eight, as the updated-Lagrangian kernel reads them
 /// \throws std::invalid_argument naming a particle without neighbours in three directions
 ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume, double smoothing,
-                                  const Nodes& nodes, ThreadTeam& team);
+                                  bool in_packs, const Nodes& nodes, ThreadTeam& team);
 
 /// Sums for `count` particles of a pack; the lanes behind repeat the last.
 void sum_over_neighbours(const ParticleCloud& cloud, const Nodes& nodes, const int* node, int count,
                          NeighbourSums& sums);
 
+/// Sum of the pair forces on particle i, and a fourth number. \param position of particle 0; rows are
+/// `stride` doubles apart
+Row4 pair_forces_on(const ParticleCloud& cloud, const double* position, std::size_t stride, std::size_t i);
+
 /// Adds the pair forces on `count` particles to nodes.force.
 void add_pair_forces(const ParticleCloud& cloud, Nodes& nodes, const int* node, int count);
 
-/// Changes the kernel of the cloud to updated Lagrangian. \param smoothing smoothing length over the spacing
+/// Changes the kernel of a cloud in packs to updated Lagrangian. \param smoothing smoothing length over the
+/// spacing
 void start_eulerian(ParticleCloud& cloud, double smoothing, const Nodes& nodes);
 
 /// New lists of neighbours, closer than their smoothing lengths and the skin together.

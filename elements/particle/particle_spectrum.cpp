@@ -16,7 +16,13 @@ constexpr int lanczos_steps = 40;
 /// For what so many steps have not found.
 constexpr double margin = 1.02;
 
-using Displacements = std::vector<Vector3<double>>;
+using Displacements = AlignedBuffer<NodeVector>;
+constexpr std::size_t stride = sizeof(NodeVector) / sizeof(double);
+
+Row4 row(const Displacements& u, std::size_t i) { return load_row(u[i].component); }
+double dot(const NodeVector& a, const NodeVector& b) {
+  return a.component[0] * b.component[0] + a.component[1] * b.component[1] + a.component[2] * b.component[2];
+}
 
 /// Numbers in [-1, 1) that are the same everywhere.
 class Noise {
@@ -40,18 +46,19 @@ struct Stiffness {
 
   // Columns of A for displacements u.
   ParticleForce force_of(std::size_t i, const Displacements& u) const {
-    Tensor<double> sum{};
+    const Row4 own = row(u, i);
+    Row4 of_component[3] = {};
     for (std::size_t k = cloud.first[i]; k < cloud.first[i] + index(cloud.count[i]); ++k) {
-      const Vector3<double> d = u[index(cloud.neighbour[k])] - u[i];
+      const Row4 d = row(u, index(cloud.neighbour[k])) - own;
       const double* w = cloud.pair[k].weighted;
-      for (int c = 0; c < 3; ++c) {
-        sum.m[0][c] += w[c] * d.x;
-        sum.m[1][c] += w[c] * d.y;
-        sum.m[2][c] += w[c] * d.z;
-      }
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c) of_component[c] += w[c] * d;
     }
+    Tensor<double> sum;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) sum.m[r][c] = of_component[c][r];
     const SymmetricTensor<double>& k = cloud.correction[i];
-    const Tensor<double> correction{{{k.xx, k.xy, k.xz}, {k.xy, k.yy, k.yz}, {k.xz, k.yz, k.zz}}};
+    const Tensor<double> correction = full(k);
     const Tensor<double> gradient = sum * correction;
     const double volume = cloud.volume[i];
     const double stiffness = hourglass_modulus * volume * cloud.hourglass_weight[i];
@@ -72,22 +79,9 @@ struct Stiffness {
   void apply(const Displacements& u, Displacements& result) const {
     for (std::size_t i = 0; i < u.size(); ++i) cloud.force[i] = force_of(i, u);
     for (std::size_t i = 0; i < u.size(); ++i) {
-      const ParticleForce& own = cloud.force[i];
-      double force[3] = {};
-      for (std::size_t k = cloud.first[i]; k < cloud.first[i] + index(cloud.count[i]); ++k) {
-        const auto j = index(cloud.neighbour[k]);
-        const ParticleForce& other = cloud.force[j];
-        const double* w = cloud.pair[k].weighted;
-        const double stiffness = w[3] * (own.column[0][3] + other.column[0][3]);
-        const Vector3<double> d = u[j] - u[i];
-        const double difference[3] = {d.x, d.y, d.z};
-        for (int r = 0; r < 3; ++r) {
-          force[r] += stiffness * difference[r];
-          for (int c = 0; c < 3; ++c) force[r] += w[c] * (own.column[c][r] + other.column[c][r]);
-        }
-      }
-      const double inverse = -1 / mass(i);
-      result[i] = {inverse * force[0], inverse * force[1], inverse * force[2]};
+      Row4 acceleration = (-1 / mass(i)) * pair_forces_on(cloud, u[0].component, stride, i);
+      acceleration[3] = 0;
+      store_row(result[i].component, acceleration);
     }
   }
 
@@ -105,24 +99,27 @@ double highest_frequency_squared(ParticleCloud& cloud, const Nodes& nodes,
                                  const ElasticModuli<double>& moduli, double hourglass_modulus) {
   const Stiffness stiffness{cloud, nodes, moduli, hourglass_modulus};
   const std::size_t n = cloud.size();
-  Displacements before(n, {0, 0, 0}), now(n), next(n);
+  Displacements before(n), now(n), next(n);
   Noise noise;
-  for (Vector3<double>& v : now) v = {noise.next(), noise.next(), noise.next()};
+  for (NodeVector& v : now) v = {{noise.next(), noise.next(), noise.next(), 0}};
+  const auto scale = [](double factor, NodeVector& v) {
+    store_row(v.component, factor * load_row(v.component));
+  };
   const double length = std::sqrt(stiffness.product(now, now));
-  for (Vector3<double>& v : now) v = (1 / length) * v;
+  for (NodeVector& v : now) scale(1 / length, v);
   std::vector<double> diagonal, beside;
   for (int step = 0; step < lanczos_steps; ++step) {
     stiffness.apply(now, next);
     diagonal.push_back(stiffness.product(now, next));
     const double coupling = beside.empty() ? 0 : beside.back();
-    for (std::size_t i = 0; i < n; ++i) next[i] = next[i] - diagonal.back() * now[i] - coupling * before[i];
+    for (std::size_t i = 0; i < n; ++i)
+      store_row(next[i].component, row(next, i) - diagonal.back() * row(now, i) - coupling * row(before, i));
     const double size = std::sqrt(stiffness.product(next, next));
     if (!(size > 1e-12 * diagonal.front())) break;
     beside.push_back(size);
-    for (std::size_t i = 0; i < n; ++i) {
-      before[i] = now[i];
-      now[i] = (1 / size) * next[i];
-    }
+    for (std::size_t i = 0; i < n; ++i) scale(1 / size, next[i]);
+    std::swap(before, now);
+    std::swap(now, next);
   }
   return margin * largest_eigenvalue(diagonal, beside);
 }

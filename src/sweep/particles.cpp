@@ -77,7 +77,8 @@ double ParticleDrift::approach() const {
 
 void find_neighbours(Block& block, std::span<const double> volume, const Nodes& nodes, ThreadTeam& team) {
   const auto& particle = std::get<Particle>(block.element);
-  block.cloud = make_particle_cloud(block.node(0, 0), volume, particle.smoothing(), nodes, team);
+  block.cloud = make_particle_cloud(block.node(0, 0), volume, particle.smoothing(), particle.is_eulerian(),
+                                    nodes, team);
   if (particle.is_eulerian()) start_eulerian(*block.cloud, particle.smoothing(), nodes);
 }
 

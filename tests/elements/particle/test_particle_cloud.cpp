@@ -34,7 +34,7 @@ struct IrregularCloud {
           nodes.mass[index(node)] = volume.back();
         }
     ThreadTeam team(1);
-    cloud = make_particle_cloud(0, volume, 1.3, nodes, team);
+    cloud = make_particle_cloud(0, volume, 1.3, true, nodes, team);
   }
 };
 
@@ -216,7 +216,7 @@ TEST(ParticleCloud, RefusesParticlesThatLieInAPlane) {
   }
   const std::vector<double> volume(16, 1.0);
   ThreadTeam team(1);
-  EXPECT_THROW(make_particle_cloud(0, volume, 1.2, nodes, team), std::invalid_argument);
+  EXPECT_THROW(make_particle_cloud(0, volume, 1.2, false, nodes, team), std::invalid_argument);
 }
 
 }  // namespace

@@ -104,10 +104,10 @@ BRIO_INLINE FeetOfEnds<T> feet_of_ends(const SegmentDifferences<T>& d, MaskOf<T>
           of_b(1, d.a0_b1, d.a1_b1)};
 }
 
-/// The middle of those feet that are as near as the nearest, if it is inside both segments.
+/// The middle of those feet that are as near as the nearest. \param is_inside of both segments
 template <class T>
 BRIO_INLINE ClosestOnSegments<T> middle_of_shared(const SegmentDifferences<T>& d, const FeetOfEnds<T>& feet,
-                                                  const ClosestOnSegments<T>& best) {
+                                                  const ClosestOnSegments<T>& best, MaskOf<T>& is_inside) {
   const T nearest = sqrt(best.squared_distance);
   const T lengths = sqrt(d.square_a) + sqrt(d.square_b);
   const T limit = nearest + T(parallel_resolution * unit_roundoff) * (nearest + lengths);
@@ -129,8 +129,8 @@ BRIO_INLINE ClosestOnSegments<T> middle_of_shared(const SegmentDifferences<T>& d
   include(feet.b1);
   const T on_a = T(0.5) * (least_a + greatest_a);
   const T on_b = T(0.5) * (least_b + greatest_b);
-  const MaskOf<T> is_inside = is_within_unit(on_a) & is_within_unit(on_b);
-  return where<T>(is_inside, points_at<T>(d, on_a, on_b, best.parallel), best);
+  is_inside = is_within_unit(on_a) & is_within_unit(on_b);
+  return points_at<T>(d, on_a, on_b, best.parallel);
 }
 
 /// The closest points, within a few roundings of the distances and lengths involved; also of parallel
@@ -157,7 +157,9 @@ BRIO_INLINE ClosestOnSegments<T> closest_on_segments(const SegmentDifferences<T>
   const MaskOf<T> is_inside_best =
       (!is_parallel) & is_inside & (inside.squared_distance <= best.squared_distance);
   const ClosestOnSegments<T> crossing = where<T>(is_inside_best, inside, best);
-  return where<T>(is_parallel, middle_of_shared(d, feet, best), crossing);
+  MaskOf<T> is_shared;
+  const ClosestOnSegments<T> middle = middle_of_shared(d, feet, best, is_shared);
+  return where<T>(is_parallel & is_shared, middle, crossing);
 }
 template <class T>
 BRIO_INLINE ClosestOnSegments<T> closest_on_segments(const Vector3<T>& a0, const Vector3<T>& a1,

@@ -13,12 +13,6 @@ using Number = Lanes<double>;
 constexpr std::array<double, 2> default_smoothing_bounds{0.5, 2};
 constexpr int width = lane_count<double>;
 
-Number lanes_of(const double (&row)[width]) {
-  Number number;
-  std::memcpy(&number.v, row, sizeof row);
-  return number;
-}
-
 SymmetricTensor<Number> symmetric_of(const double (&row)[6][width]) {
   return {lanes_of(row[0]), lanes_of(row[1]), lanes_of(row[2]),
           lanes_of(row[3]), lanes_of(row[4]), lanes_of(row[5])};

@@ -112,11 +112,6 @@ struct ParticleSums {
   }
 };
 
-Number lanes_of(const double (&row)[width]) {
-  Number lanes;
-  std::memcpy(&lanes.v, row, sizeof row);
-  return lanes;
-}
 Tensor<Number> velocity_sum(const double (&row)[PairSums::count][width]) {
   Tensor<Number> sum;
   for (int r = 0; r < 3; ++r)

@@ -1,6 +1,7 @@
 #pragma once
 /// Pairs of particles: lists of neighbours, sums over neighbours, and pair forces.
 
+#include <cstring>
 #include <span>
 
 #include "elements/particle/neighbour_search.hpp"
@@ -27,6 +28,12 @@ struct alignas(64) NeighbourSums {
   double residual_gradient[3][3][lane_count<double>];  ///< L of residual velocities
   double share[6][lane_count<double>];                 ///< S of particle_support.hpp: xx yy zz xy yz xz
 };
+
+inline Lanes<double> lanes_of(const double (&row)[lane_count<double>]) {
+  Lanes<double> lanes;
+  std::memcpy(&lanes.v, row, sizeof row);
+  return lanes;
+}
 
 /// Pairs closer than twice the mean of their smoothing lengths.
 /// \param volume of each particle

@@ -8,13 +8,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <random>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "apps/bench/wanted.hpp"
+#include "apps/bench/options.hpp"
 #include "elements/block.hpp"
 #include "src/base/index.hpp"
 #include "src/motion/motion.hpp"
@@ -24,13 +22,6 @@ namespace {
 
 using namespace brio;
 using Point = std::array<double, 3>;
-
-struct Settings {
-  int size = 64;
-  int repeats = 9;
-  bool csv = false;
-  std::string only;  ///< lines that hold this word
-};
 
 struct Scene {
   Nodes nodes;
@@ -149,11 +140,11 @@ double bytes_per_element(const Scene& scene) {
          static_cast<double>(scene.elements);
 }
 
-void measure(const Settings& settings, const Grid& grid, std::string_view label, const Element& element,
+void measure(const BenchOptions& settings, const Grid& grid, std::string_view label, const Element& element,
              const Material& material, Precision precision, int threads) {
   const std::string_view number = precision == Precision::double_precision ? "double" : "float";
-  if (!wanted(settings.only,
-              fmt::format("{} {} {} {} {}", name_of(element), label, name_of(material), number, threads)))
+  if (!settings.wants(
+          fmt::format("{} {} {} {} {}", name_of(element), label, name_of(material), number, threads)))
     return;
   Scene scene = make_scene(grid, element, material, precision);
   ThreadTeam team(threads);
@@ -169,30 +160,10 @@ void measure(const Settings& settings, const Grid& grid, std::string_view label,
              bytes_per_element(scene));
 }
 
-Settings settings_of(int count, char** words) {
-  Settings settings;
-  for (int i = 1; i < count; ++i) {
-    const std::string_view word = words[i];
-    if (word == "--csv") {
-      settings.csv = true;
-    } else if (word == "--size" && i + 1 < count) {
-      settings.size = std::max(1, std::atoi(words[++i]));
-    } else if (word == "--repeats" && i + 1 < count) {
-      settings.repeats = std::max(1, std::atoi(words[++i]));
-    } else if (word == "--only" && i + 1 < count) {
-      settings.only = words[++i];
-    } else {
-      fmt::print(stderr, "usage: bench_hex [--size N] [--repeats R] [--only WORD,WORD] [--csv]\n");
-      std::exit(2);
-    }
-  }
-  return settings;
-}
-
 }  // namespace
 
 int main(int count, char** words) {
-  const Settings settings = settings_of(count, words);
+  const BenchOptions settings = bench_options("bench_hex", {.size = 64, .repeats = 9}, count, words);
   const Grid grid = ordered(cube_of_bricks(settings.size));
   const Elastic elastic{.density = 7850, .youngs_modulus = 200e9, .poissons_ratio = 0.3};
   const ElasticPlastic plastic{.density = 7850,

@@ -8,13 +8,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "apps/bench/wanted.hpp"
+#include "apps/bench/options.hpp"
 #include "src/base/index.hpp"
 #include "src/build/build.hpp"
 #include "src/step/advance.hpp"
@@ -22,13 +20,6 @@
 namespace {
 
 using namespace brio;
-
-struct Settings {
-  int size = 30;
-  int repeats = 5;
-  bool csv = false;
-  std::string only;  ///< lines that hold these words
-};
 
 constexpr double spacing = 0.01;
 constexpr std::int64_t steps_a_repeat = 10;
@@ -77,10 +68,10 @@ void stir(Nodes& nodes) {
   }
 }
 
-void measure(const Settings& settings, ParticleFrame frame, bool is_stirred, int threads) {
+void measure(const BenchOptions& settings, ParticleFrame frame, bool is_stirred, int threads) {
   const std::string_view kernel = frame == ParticleFrame::eulerian ? "eulerian" : "total_lagrangian";
   const std::string_view motion = is_stirred ? "stirred" : "free";
-  if (!wanted(settings.only, fmt::format("{} {} {}", kernel, motion, threads))) return;
+  if (!settings.wants(fmt::format("{} {} {}", kernel, motion, threads))) return;
   const double begin = seconds();
   Model model = model_of(settings.size, frame, threads);
   const auto count = static_cast<double>(model.nodes.size());
@@ -101,30 +92,10 @@ void measure(const Settings& settings, ParticleFrame frame, bool is_stirred, int
              kernel, motion, threads, million / times.front(), million / times[times.size() / 2], start);
 }
 
-Settings settings_of(int count, char** words) {
-  Settings settings;
-  for (int i = 1; i < count; ++i) {
-    const std::string_view word = words[i];
-    if (word == "--csv") {
-      settings.csv = true;
-    } else if (word == "--size" && i + 1 < count) {
-      settings.size = std::max(4, std::atoi(words[++i]));
-    } else if (word == "--repeats" && i + 1 < count) {
-      settings.repeats = std::max(1, std::atoi(words[++i]));
-    } else if (word == "--only" && i + 1 < count) {
-      settings.only = words[++i];
-    } else {
-      fmt::print(stderr, "usage: bench_particle [--size N] [--repeats R] [--only WORD,WORD] [--csv]\n");
-      std::exit(2);
-    }
-  }
-  return settings;
-}
-
 }  // namespace
 
 int main(int count, char** words) {
-  const Settings settings = settings_of(count, words);
+  const BenchOptions settings = bench_options("bench_particle", {.size = 30, .repeats = 5}, count, words);
   fmt::print(fmt::runtime(settings.csv ? "{},{},{},{},{},{}\n" : "{:<17} {:<8} {:>7} {:>12} {:>12} {:>12}\n"),
              "kernel", "motion", "threads", "best_M/s", "median_M/s", "start_us");
   for (const int threads : {1, 2})

@@ -11,13 +11,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <random>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "apps/bench/wanted.hpp"
+#include "apps/bench/options.hpp"
 #include "elements/block.hpp"
 #include "src/base/index.hpp"
 #include "src/motion/motion.hpp"
@@ -26,13 +24,6 @@
 namespace {
 
 using namespace brio;
-
-struct Settings {
-  int size = 512;
-  int repeats = 9;
-  bool csv = false;
-  std::string only;  ///< lines that hold these words
-};
 
 struct Scene {
   Nodes nodes;
@@ -143,12 +134,11 @@ double plastic_share(const Scene& scene) {
   return static_cast<double>(count) / static_cast<double>(block.element_count);
 }
 
-void measure(const Settings& settings, double speed, const Shell4& shell, const Material& material,
+void measure(const BenchOptions& settings, double speed, const Shell4& shell, const Material& material,
              Precision precision, int threads) {
   const std::string_view number = precision == Precision::double_precision ? "double" : "float";
   const std::string_view sheet_name = speed < 100 ? "slow" : "fast";
-  if (!wanted(settings.only, fmt::format("{} {} {} {}", name_of(material), sheet_name, number, threads)))
-    return;
+  if (!settings.wants(fmt::format("{} {} {} {}", name_of(material), sheet_name, number, threads))) return;
   Scene scene = sheet(settings.size, speed, shell, material, precision);
   ThreadTeam team(threads);
   seconds_per_step(scene, team);
@@ -166,30 +156,10 @@ void measure(const Settings& settings, double speed, const Shell4& shell, const 
              energy);
 }
 
-Settings settings_of(int count, char** words) {
-  Settings settings;
-  for (int i = 1; i < count; ++i) {
-    const std::string_view word = words[i];
-    if (word == "--csv") {
-      settings.csv = true;
-    } else if (word == "--size" && i + 1 < count) {
-      settings.size = std::max(1, std::atoi(words[++i]));
-    } else if (word == "--repeats" && i + 1 < count) {
-      settings.repeats = std::max(1, std::atoi(words[++i]));
-    } else if (word == "--only" && i + 1 < count) {
-      settings.only = words[++i];
-    } else {
-      fmt::print(stderr, "usage: bench_shell [--size N] [--repeats R] [--only WORD,WORD] [--csv]\n");
-      std::exit(2);
-    }
-  }
-  return settings;
-}
-
 }  // namespace
 
 int main(int count, char** words) {
-  const Settings settings = settings_of(count, words);
+  const BenchOptions settings = bench_options("bench_shell", {.size = 512, .repeats = 9}, count, words);
   const Elastic elastic{.density = 7850, .youngs_modulus = 200e9, .poissons_ratio = 0.3};
   const ElasticPlastic plastic{.density = 7850,
                                .youngs_modulus = 200e9,

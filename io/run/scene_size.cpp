@@ -85,7 +85,7 @@ double bytes_of_element(const Hex8&) { return 500; }
 double bytes_of_element(const Hex8Full&) { return 1400; }
 double bytes_of_element(const Shell4&) { return 620; }
 double bytes_of_element(const Beam2&) { return 2000; }
-double bytes_of_element(const Particle&) { return 4100; }
+double bytes_of_element(const Particle& particle) { return particle.is_eulerian() ? 5200 : 1900; }
 double bytes_of_element(const Rigid&) { return 270; }
 
 double bytes_of(const Part& part, const Deck& deck) {

@@ -11,7 +11,8 @@ namespace brio {
 
 namespace {
 
-/// Search margin (Verlet skin) over the largest smoothing length: what a step moves at least, and at most.
+/// Largest search margin (Verlet skin) over the largest smoothing length; what a step moves is covered in any
+/// case.
 constexpr double largest_skin = 0.3;
 /// Of the first search, where it is not known yet how fast particles move.
 constexpr double first_skin = 0.05;

@@ -40,6 +40,8 @@ class MemoryOfScenes : public test::Program {
 TEST_F(MemoryOfScenes, ArePredictedWithinAThird) {
   const std::string brick = "{mesh: {box: {size: [1, 1, 1], elements: [50, 50, 50]}}, material: m, element: ";
   const std::string plate = "{mesh: {plate: {size: [1, 1], elements: [250, 250]}}, material: m, element: ";
+  const std::string particles =
+      "{mesh: {particles: {box: {size: [1, 1, 1], spacing: 0.03}}}, material: m, element: ";
   const std::string contact = "contact: {surfaces: all}\n";
   const std::vector<std::pair<std::string, std::string>> scenes{
       {brick + "hex8}", ""},
@@ -53,7 +55,8 @@ TEST_F(MemoryOfScenes, ArePredictedWithinAThird) {
        "beam2, "
        "section: {circle: {radius: 1e-4}}}}",
        ""},
-      {"{mesh: {particles: {box: {size: [1, 1, 1], spacing: 0.03}}}, material: m, element: particle}", ""}};
+      {particles + "particle}", ""},
+      {particles + "{type: particle, kernel: eulerian}}", ""}};
   const double empty = peak_mb_of_run(
       deck_of("{mesh: {box: {size: [1, 1, 1], elements: [1, 1, 1]}}, material: m, element: hex8}", ""));
   for (const auto& [part, more] : scenes) {

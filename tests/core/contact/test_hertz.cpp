@@ -203,37 +203,39 @@ TEST(HertzSlow, TwoBallsLooselySolved) {
 
 double error(double figure, double exact) { return std::abs(figure / exact - 1); }
 
-// Mean over meshes: that of one is a matter of where its nodes lie below the edge of the contact. By chance
-// (speeds changed by 1e-12 to 1e-7) the mean of the force is off by 1.9 to 2.1 % of the default, 2.0 to 2.6 %
-// of the accurate preset.
+// Mean over meshes: that of one is a matter of where its nodes lie below the edge of the contact. Of two
+// balls chance (speeds changed by 1e-12 to 1e-7) moves the mean over all by 0.6 % of the force.
 TEST(HertzSlow, AccurateMeetsForceAndDurationNoWorseThanTheDefault) {
+  struct Errors {
+    double force_at_wall = 0, force = 0, duration = 0;
+  };
   const auto errors_of = [](const std::string& preset) {
-    double force = 0, duration = 0;
+    Errors mean;
     for (const int across : {12, 16, 20}) {
       const Blow blow = on_wall(across, settings_of(preset));
       report(("wall, " + preset).c_str(), across, blow, hertz_at_wall);
-      force += error(blow.force, hertz_at_wall.force) / 6;
-      duration += error(blow.duration, hertz_at_wall.duration) / 6;
+      mean.force_at_wall += error(blow.force, hertz_at_wall.force) / 3;
+      mean.duration += error(blow.duration, hertz_at_wall.duration) / 6;
     }
+    mean.force = mean.force_at_wall / 2;
     for (const int across : {12, 16, 20}) {
       const Blow blow = on_each_other(across, across, settings_of(preset));
       report(("balls, " + preset).c_str(), across, blow, balls);
-      force += error(blow.force, balls.force) / 6;
-      duration += error(blow.duration, balls.duration) / 6;
+      mean.force += error(blow.force, balls.force) / 6;
+      mean.duration += error(blow.duration, balls.duration) / 6;
     }
-    std::printf("%s: mean error of the force %.2f %%, of the duration %.2f %%\n", preset.c_str(), 100 * force,
-                100 * duration);
-    return std::pair{force, duration};
+    std::printf("%s: mean error of the force %.2f %%, at the wall %.2f %%, of the duration %.2f %%\n",
+                preset.c_str(), 100 * mean.force, 100 * mean.force_at_wall, 100 * mean.duration);
+    return mean;
   };
-  const auto [fast_force, fast_duration] = errors_of("fast");
-  const auto [force, duration] = errors_of("balanced");
-  const auto [accurate_force, accurate_duration] = errors_of("accurate");
-  EXPECT_LT(accurate_force, force + 8e-3);
-  EXPECT_LT(accurate_duration, duration + 2e-3);
-  EXPECT_LT(force, 0.05);
-  EXPECT_LT(duration, 0.05);
-  EXPECT_LT(fast_force, 0.05);
-  EXPECT_LT(fast_duration, 0.05);
+  const Errors fast = errors_of("fast"), balanced = errors_of("balanced"), accurate = errors_of("accurate");
+  EXPECT_LT(accurate.force_at_wall, balanced.force_at_wall + 1e-3);
+  EXPECT_LT(accurate.force, balanced.force + 8e-3);
+  EXPECT_LT(accurate.duration, balanced.duration + 2e-3);
+  for (const Errors& errors : {fast, balanced, accurate}) {
+    EXPECT_LT(errors.force, 0.05);
+    EXPECT_LT(errors.duration, 0.05);
+  }
 }
 
 }  // namespace

@@ -57,17 +57,12 @@ struct BoxLanes {
   }
 };
 
-BRIO_INLINE Lanes<double> eight_of(const double* source) {
-  Lanes<double> values;
-  __builtin_memcpy(&values.v, source, sizeof values.v);
-  return values;
-}
-
 BRIO_INLINE unsigned overlap_bits(const double* const lower[3], const double* const upper[3],
                                   const BoxLanes& box) {
-  LaneMask<double> inside = eight_of(lower[0]) <= box.upper[0];
+  LaneMask<double> inside = Lanes<double>::load(lower[0]) <= box.upper[0];
   for (int axis = 0; axis < 3; ++axis)
-    inside = inside & (eight_of(lower[axis]) <= box.upper[axis]) & (eight_of(upper[axis]) >= box.lower[axis]);
+    inside = inside & (Lanes<double>::load(lower[axis]) <= box.upper[axis]) &
+             (Lanes<double>::load(upper[axis]) >= box.lower[axis]);
   return bits_of_lanes(inside.v);
 }
 

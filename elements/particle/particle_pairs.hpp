@@ -1,7 +1,6 @@
 #pragma once
 /// Pairs of particles: lists of neighbours, sums over neighbours, and pair forces.
 
-#include <cstring>
 #include <span>
 
 #include "elements/particle/neighbour_search.hpp"
@@ -29,11 +28,7 @@ struct alignas(64) NeighbourSums {
   double share[6][lane_count<double>];                 ///< S of particle_support.hpp: xx yy zz xy yz xz
 };
 
-inline Lanes<double> lanes_of(const double (&row)[lane_count<double>]) {
-  Lanes<double> lanes;
-  std::memcpy(&lanes.v, row, sizeof row);
-  return lanes;
-}
+inline Lanes<double> lanes_of(const double (&row)[lane_count<double>]) { return Lanes<double>::load(row); }
 
 /// Pairs closer than twice the mean of their smoothing lengths.
 /// \param volume of each particle

@@ -35,6 +35,12 @@ struct Lanes {
   BRIO_INLINE Lanes(double value)
       : v(broadcast(static_cast<Real>(value))) {}  // implicit: a number in every lane
   explicit BRIO_INLINE Lanes(Vector vector) : v(vector) {}
+  /// Numbers that follow each other.
+  static BRIO_INLINE Lanes load(const Real* first) {
+    Lanes lanes;
+    __builtin_memcpy(&lanes.v, first, sizeof lanes.v);
+    return lanes;
+  }
 
   BRIO_INLINE Real operator[](int lane) const { return v[lane]; }
   BRIO_INLINE void set(int lane, Real value) { set_lane(v, lane, value); }

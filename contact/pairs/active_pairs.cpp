@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "contact/features/gather.hpp"
 #include "src/base/floating_point.hpp"
 #include "src/base/index.hpp"
 
@@ -21,13 +22,20 @@ struct Ahead {
   const double *first, *second, *frames;
   double surplus;
 
-  /// Remaining path of a pair before it has to be examined.
-  double left_of(const PairList& pairs, std::size_t i) const {
-    const PairRecord& pair = pairs[i];
-    return pairs.wake[i] - (first[pair.first] + second[pair.second] + frames[pair.relation]);
-  }
   bool is_awake(double left) const { return !(left > surplus); }
 };
+
+/// Remaining path of a pair before it has to be examined.
+double left_of(const PairBlock& block, const double* wake, const Ahead& ahead, std::size_t place) {
+  return wake[place] - (ahead.first[block.first[place]] + ahead.second[block.second[place]] +
+                        ahead.frames[block.relation_of[place]]);
+}
+// The same of eight.
+Pack left_of_eight(const PairBlock& block, const double* wake, const Ahead& ahead, std::size_t place) {
+  return Pack::load(wake + place) - (gather_numbers(ahead.first, &block.first[place]) +
+                                     gather_numbers(ahead.second, &block.second[place]) +
+                                     gather_numbers(ahead.frames, &block.relation_of[place]));
+}
 
 void lay_down(PairBlock& block, const PathAndAhead& total, double left) {
   for (std::size_t k = 0; k < index(block.relations); ++k) {
@@ -37,27 +45,36 @@ void lay_down(PairBlock& block, const PathAndAhead& total, double left) {
   }
 }
 
-// All pairs of the block.
-void look_into(PairBlock& block, const PairList& pairs, const Ahead& ahead, const PathAndAhead& total,
-               std::size_t begin, std::size_t end) {
-  double least = infinity;
+// All pairs of the block: `count` places.
+void look_into(PairBlock& block, const double* wake, const Ahead& ahead, const PathAndAhead& total,
+               std::size_t count) {
+  Pack least(infinity);
   block.active = 0;
-  for (std::size_t i = begin; i < end; ++i) {
-    const double left = ahead.left_of(pairs, i);
-    const bool active = ahead.is_awake(left);
-    block.active |= std::uint32_t{active} << (i - begin);
-    if (!active) least = std::min(least, left);
+  std::size_t i = 0;
+  for (; i + pack_size <= count; i += pack_size) {
+    const Pack left = left_of_eight(block, wake, ahead, i);
+    const MaskOf<Pack> sleeps = left > Pack(ahead.surplus);
+    block.active |= std::uint32_t{~lane_bits(sleeps) & first_lanes(pack_size)} << i;
+    least = min(least, where(sleeps, left, Pack(infinity)));
+  }
+  double least_left = infinity;
+  for (int lane = 0; lane < pack_size; ++lane) least_left = std::min(least_left, least[lane]);
+  for (; i < count; ++i) {
+    const double left = left_of(block, wake, ahead, i);
+    if (ahead.is_awake(left))
+      block.active |= std::uint32_t{1} << i;
+    else
+      least_left = std::min(least_left, left);
   }
   block.inactive = block.relations >= 0;
   block.wake.fill(infinity);
-  if (block.inactive && least < infinity) lay_down(block, total, least);
+  if (block.inactive && least_left < infinity) lay_down(block, total, least_left);
 }
 
 // Those that were active.
-void look_at_awake(PairBlock& block, const PairList& pairs, const Ahead& ahead, const PathAndAhead& total,
-                   std::size_t begin) {
+void look_at_awake(PairBlock& block, const double* wake, const Ahead& ahead, const PathAndAhead& total) {
   for (std::uint32_t bits = block.active; bits != 0; bits &= bits - 1) {
-    const double left = ahead.left_of(pairs, begin + index(std::countr_zero(bits)));
+    const double left = left_of(block, wake, ahead, index(std::countr_zero(bits)));
     if (ahead.is_awake(left)) continue;
     block.active &= ~(bits & -bits);
     if (left < infinity) lay_down(block, total, left);
@@ -71,22 +88,24 @@ bool still_sleeps(const PairBlock& block, const PathAndAhead& total, double surp
   return true;
 }
 
-void find_relations(PairBlock& block, const PairList& pairs, std::size_t begin, std::size_t end) {
+// What of the pairs does not change while they are in the list.
+void take_over(PairBlock& block, const PairList& pairs, std::size_t begin, std::size_t end) {
   std::size_t count = 0;
   int last = -1;
   for (std::size_t i = begin; i < end; ++i) {
-    const int relation = pairs[i].relation;
-    if (relation == last || pairs.spacing(i) == Spacing::none) continue;
+    const PairRecord& pair = pairs[i];
+    block.first[i - begin] = pair.first;
+    block.second[i - begin] = pair.second;
+    block.relation_of[i - begin] = pair.relation;
+    const int relation = pair.relation;
+    if (relation == last || pair.spacing == Spacing::none || count > block.relation.size()) continue;
     last = relation;
     const auto known = block.relation.begin() + static_cast<std::ptrdiff_t>(count);
     if (std::find(block.relation.begin(), known, relation) != known) continue;
-    if (count == block.relation.size()) {
-      block.relations = -1;
-      return;
-    }
-    block.relation[count++] = relation;
+    if (count < block.relation.size()) block.relation[count] = relation;
+    ++count;
   }
-  block.relations = static_cast<std::int8_t>(count);
+  block.relations = count > block.relation.size() ? std::int8_t{-1} : static_cast<std::int8_t>(count);
 }
 
 void join(const PairBlocks& blocks, std::vector<int>& active) {
@@ -118,12 +137,13 @@ void select_active_pairs(PairBlocks& blocks, const PairList& pairs, const PathAn
       PairBlock& block = blocks.block[b];
       const std::size_t from = b * pairs_a_block, last = std::min(from + pairs_a_block, pairs.size());
       const bool is_known = block.version == pairs.version(b);
+      const double* wake = pairs.wake.data() + from;
       if (is_known && still_sleeps(block, groups.total, surplus)) {
-        look_at_awake(block, pairs, ahead, groups.total, from);
+        look_at_awake(block, wake, ahead, groups.total);
       } else {
         block.version = pairs.version(b);
-        if (!is_known) find_relations(block, pairs, from, last);
-        look_into(block, pairs, ahead, groups.total, from, last);
+        if (!is_known) take_over(block, pairs, from, last);
+        look_into(block, wake, ahead, groups.total, last - from);
       }
       for (std::uint32_t left = block.active; left != 0; left &= left - 1)
         *to++ = static_cast<int>(from) + std::countr_zero(left);

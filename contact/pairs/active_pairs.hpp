@@ -18,14 +18,15 @@
 
 namespace brio {
 
-/// State of a block of pairs.
+/// State of a block of pairs, with what a pass reads of each of them side by side: half of what records hold.
 struct alignas(64) PairBlock {
-  std::uint64_t version = 0;  ///< of the list, for which the relations were found
-  std::uint32_t active = 0;   ///< bit i: pair i of the block was active in the last step
-  std::int8_t relations = 0;  ///< -1: too many
-  bool inactive = false;      ///< whether all others are inactive
+  std::uint64_t version = ~std::uint64_t{0};  ///< of the list, from which pairs were taken over
+  std::uint32_t active = 0;                   ///< bit i: pair i of the block was active in the last step
+  std::int8_t relations = 0;                  ///< -1: too many
+  bool inactive = false;                      ///< whether all others are inactive
   std::array<int, 12> relation{};
   std::array<double, 12> wake{};  ///< longest predicted path of the relation at which the block is examined
+  std::array<int, PairList::block_size> first{}, second{}, relation_of{};  ///< of each pair
 };
 
 /// Of all blocks of one list of pairs, and working space.

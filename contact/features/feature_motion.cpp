@@ -28,34 +28,43 @@ typedef double Both __attribute__((vector_size(16)));
 
 Both longer(Both a, Both b) { return a > b ? a : b; }
 
-// The longest of the corners of each feature, in the frame of the first one's group.
-template <class Way, std::size_t Corners>
-void spread_to(PathAndAhead& ways, const std::vector<std::array<int, Corners>>& corners,
-               const std::vector<Way>& of_node, const MotionGroups& groups, bool with_paths,
-               ThreadTeam& team) {
-  const auto at = [&](int slave) {
+/// The ways of features by those of their corners.
+template <class Way>
+struct Spread {
+  const std::vector<Way>& of_node;
+  const MotionGroups& groups;
+
+  // The longest of the corners, in the frame of the first one's group.
+  template <std::size_t Corners>
+  Both longest(const std::array<int, Corners>& corners) const {
+    Both longest = at_node(corners[0]);
+    const int own = groups.of_node(corners[0]);
+    for (std::size_t k = 1; k < Corners; ++k) {
+      const int other = groups.of_node(corners[k]);
+      const Both way = at_node(corners[k]);
+      longest = longer(longest, other == own ? way : way + between(own, other));
+    }
+    return longest;
+  }
+  template <std::size_t Corners>
+  void to(PathAndAhead& ways, std::size_t feature, const std::array<int, Corners>& corners,
+          bool with_path) const {
+    const Both way = longest(corners);
+    const double path = ways.path[feature] + (with_path ? way[0] : 0);
+    ways.path[feature] = path;
+    ways.ahead[feature] = path + approach_factor * way[1];
+  }
+
+ private:
+  Both at_node(int slave) const {
     const Way& way = of_node[index(slave)];
     return Both{way.moved, way.step};
-  };
-  const auto between = [&](int g, int h) {
+  }
+  Both between(int g, int h) const {
     const std::array<double, 2>& apart = groups.frames_apart(g, h);
     return Both{apart[0], apart[1]};
-  };
-  team.for_ranges(corners.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      Both longest = at(corners[f][0]);
-      const int own = groups.of_node(corners[f][0]);
-      for (std::size_t k = 1; k < Corners; ++k) {
-        const int other = groups.of_node(corners[f][k]);
-        const Both way = at(corners[f][k]);
-        longest = longer(longest, other == own ? way : way + between(own, other));
-      }
-      const double path = ways.path[f] + (with_paths ? longest[0] : 0);
-      ways.path[f] = path;
-      ways.ahead[f] = path + approach_factor * longest[1];
-    }
-  });
-}
+  }
+};
 
 void restart_ways(PathAndAhead& ways, std::size_t count) {
   ways.path.resize(count, 0);
@@ -96,12 +105,18 @@ void FeatureMotion::join(const SurfaceFeatures& features, const Surface& surface
   node.resize(surface.slaves());
   way_.resize(surface.slaves());
   solution_step_.resize(surface.slaves());
+  make_room_for_watched(features);
   for (auto [ways, count] : {std::pair(&of_node, surface.slaves()), std::pair(&of_face, surface.face.size()),
                              std::pair(&of_edge, features.edge.size())}) {
     ways->path.resize(count, 0);
     ways->ahead.resize(count, 0);
   }
   groups.join(surface, features, change, edges);
+}
+
+void FeatureMotion::make_room_for_watched(const SurfaceFeatures& features) {
+  watched_.resize(features.edge.size(), 0);
+  watched_edge_.reserve(features.edge.size());
 }
 
 void FeatureMotion::start_sums(std::size_t count) {
@@ -115,6 +130,7 @@ void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surfac
   node.resize(surface.slaves());
   way_.resize(surface.slaves());
   solution_step_.resize(surface.slaves());
+  make_room_for_watched(features);
   if (!follows) {
     for (auto [ways, count] : {std::pair(&of_node, node.size()), std::pair(&of_face, surface.face.size()),
                                std::pair(&of_edge, features.edge.size())})
@@ -246,8 +262,29 @@ void FeatureMotion::spread(const SurfaceFeatures& features, bool with_paths, Thr
     }
   });
   groups.advance(with_paths);
-  spread_to(of_face, features.face_node, way_, groups, with_paths, team);
-  spread_to(of_edge, features.edge_node, way_, groups, with_paths, team);
+  const Spread<Way> spread{way_, groups};
+  team.for_ranges(features.face_node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) spread.to(of_face, f, features.face_node[f], with_paths);
+  });
+  team.for_ranges(watched_edge_.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto e = index(watched_edge_[i]);
+      spread.to(of_edge, e, features.edge_node[e], with_paths);
+    }
+  });
+}
+
+void FeatureMotion::watch_edge(const SurfaceFeatures& features, int edge) {
+  const auto e = index(edge);
+  if (watched_[e] != 0) return;
+  watched_[e] = 1;
+  watched_edge_.push_back(edge);
+  Spread<Way>{way_, groups}.to(of_edge, e, features.edge_node[e], false);
+}
+
+void FeatureMotion::watch_only(std::span<const std::uint8_t> flagged) {
+  std::erase_if(watched_edge_, [&](int e) { return flagged[index(e)] == 0; });
+  std::copy(flagged.begin(), flagged.end(), watched_.begin());
 }
 
 void FeatureMotion::end_of_body_node(std::size_t slave, const RigidMotion& body, double dt) {

@@ -82,6 +82,11 @@ class FeatureMotion {
     return step_of_solution(slave) > approach_factor * way_[index(slave)].step;
   }
 
+  /// Of edges, only those that are watched have paths: from now on this one, until `watch_only`.
+  void watch_edge(const SurfaceFeatures& features, int edge);
+  /// Of the watched edges, those that are flagged.
+  void watch_only(std::span<const std::uint8_t> flagged);
+
   /// Forget the last step.
   void forget() { known_ = false; }
   /// The surface has changed: features may have been added. \param edges new and changed ones
@@ -104,8 +109,9 @@ class FeatureMotion {
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(node, of_node, of_face, of_edge, groups, way_, driven_, joined_, limit_factor_, limit_surplus_,
-            frame_, frame_sum_, magnitude_, restarts_, known_, predicted_, exceeds_);
+    archive(node, of_node, of_face, of_edge, groups, way_, watched_, watched_edge_, driven_, joined_,
+            limit_factor_, limit_surplus_, frame_, frame_sum_, magnitude_, restarts_, known_, predicted_,
+            exceeds_);
   }
 
  private:
@@ -131,8 +137,11 @@ class FeatureMotion {
   void finish_raising(const SurfaceFeatures& features, ThreadTeam& team);
   void spread(const SurfaceFeatures& features, bool with_paths, ThreadTeam& team);
   void start_sums(std::size_t count);
+  void make_room_for_watched(const SurfaceFeatures& features);
 
   std::vector<Way> way_;               ///< of each slave node
+  std::vector<std::uint8_t> watched_;  ///< of each edge: whether it is
+  std::vector<int> watched_edge_;
   std::vector<double> solution_step_;  ///< likewise, of those that contact has moved in this step
   std::vector<Sum> sum_;               ///< one a range
   std::vector<Vector3<double>> position_;

@@ -19,7 +19,8 @@ constexpr std::uint8_t all_one_piece = 0xff, never = 0x0f;
 }  // namespace
 
 // Of what leaves, with all whose boxes it meets. Pairs whose boxes have met before are listed.
-void FeaturePairs::add_pairs(const Scene& scene, MotionGroups& groups, ThreadTeam& team) {
+void FeaturePairs::add_pairs(const Scene& scene, FeatureMotion& motion, ThreadTeam& team) {
+  MotionGroups& groups = motion.groups;
   const auto is_listed = [](const SearchedBoxes& a, int i, const SearchedBoxes& b, int j) {
     return ((a.flag_of(i) | b.flag_of(j)) & Flags::is_new) == 0 && a.last_box(i).overlaps(b.last_box(j));
   };
@@ -90,10 +91,11 @@ void FeaturePairs::add_pairs(const Scene& scene, MotionGroups& groups, ThreadTea
       },
       [&](int e, int other, Spacing spacing) {
         const int first = std::min(e, other), second = std::max(e, other);
-        edge_edge.add({.first = first,
-                       .second = second,
-                       .relation = groups.relate(node_of_edge(first), node_of_edge(second)),
-                       .spacing = spacing});
+        pair_edges(scene, motion,
+                   {.first = first,
+                    .second = second,
+                    .relation = groups.relate(node_of_edge(first), node_of_edge(second)),
+                    .spacing = spacing});
       });
 }
 

@@ -202,18 +202,31 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   if (!is_first && collect_leaving(scene, motion, team)) {
     lay_boxes_of_leaving(scene, motion);
     drop_pairs(scene, motion, team);
-    add_hidden(scene, motion.groups);
-    add_pairs(scene, motion.groups, team);
+    add_hidden(scene, motion);
+    add_pairs(scene, motion, team);
   } else {
     start_over(scene, motion, team);
-    add_pairs(scene, motion.groups, team);
+    add_pairs(scene, motion, team);
     const std::uint64_t met = counts.candidate_pairs - before;
     const auto grown_rest = static_cast<std::uint64_t>(growth_of_rest * static_cast<double>(met_at_rest_));
     met_at_rest_ = depth.empty() && met_at_rest_ > 0 ? std::min(met, grown_rest) : met;
   }
   close_up();
+  watch_paired_edges(scene, motion);
   changes_.clear();
   if (!depth.empty()) open_all(scene, motion);
+}
+
+void FeaturePairs::watch_paired_edges(const Scene& scene, FeatureMotion& motion) {
+  paired_.assign(scene.features.edge.size(), 0);
+  for (const PairRecord& pair : edge_edge.records())
+    if (pair.spacing != Spacing::none) at(paired_, pair.first) = at(paired_, pair.second) = 1;
+  for (int e : scene.features.edge_of_round)
+    if (e >= 0) {
+      at(paired_, e) = 1;
+      motion.watch_edge(scene.features, e);
+    }
+  motion.watch_only(paired_);
 }
 
 void FeaturePairs::close_up() {

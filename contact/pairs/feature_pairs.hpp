@@ -133,9 +133,10 @@ class FeaturePairs {
   bool collect_leaving(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team);
   void mark_changes(const Scene& scene);
   void close_up();
+  void watch_paired_edges(const Scene& scene, FeatureMotion& motion);
   void start_over(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
   void lay_boxes_of_leaving(const Scene& scene, const FeatureMotion& motion);
-  void add_pairs(const Scene& scene, MotionGroups& groups, ThreadTeam& team);
+  void add_pairs(const Scene& scene, FeatureMotion& motion, ThreadTeam& team);
   /// PairRecord::one_piece
   std::uint8_t one_piece_of_faces(const Scene& scene, int first, int second) const;
   std::uint8_t one_piece_of_round(const Scene& scene, int edge, int face) const;
@@ -150,9 +151,10 @@ class FeaturePairs {
   template <class Kind>
   void drop_of_kind(const Scene& scene, const Kind& kind, const SearchedBoxes& firsts, ThreadTeam& team);
   void drop_pairs(const Scene& scene, const FeatureMotion& motion, ThreadTeam& team);
-  void add_edges(const Scene& scene, MotionGroups& groups, const PairRecord& record, int parent, int e,
+  void add_edges(const Scene& scene, FeatureMotion& motion, const PairRecord& record, int parent, int e,
                  int other);
-  void add_hidden(const Scene& scene, MotionGroups& groups);
+  void pair_edges(const Scene& scene, FeatureMotion& motion, const PairRecord& pair);
+  void add_hidden(const Scene& scene, FeatureMotion& motion);
   static bool owns_opposite_sides(const Scene& scene, int face);
   void remember(const PairRecord& record, std::vector<std::uint64_t>& kept) const;
   Spacing spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b, bool only_skins) const;
@@ -203,6 +205,7 @@ class FeaturePairs {
   std::vector<int> awake_;  ///< working space, as what follows
   std::vector<std::size_t> near_;
   std::vector<CaptureBox> query_;
+  std::vector<std::uint8_t> paired_;  ///< of each edge: whether it is, or is a beam or particle
   enum class PairFate : std::uint8_t { stays, bends, closes, leaves };
   std::array<std::vector<PairFate>, 2> fate_;  ///< in a search, of each pair, by Parents
   PairFate fate_of(int parent) const { return fate_[index(parents_of(parent))][place_of_parent(parent)]; }

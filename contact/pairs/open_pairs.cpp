@@ -152,32 +152,39 @@ void FeaturePairs::open(const Scene& scene, Parents parents, std::size_t pair, F
       if (std::count(second.edges().begin(), second.edges().end(), sides[k]) +
               std::count(second.edges().begin(), second.edges().end(), sides[k + 2]) ==
           2)
-        add_edges(scene, groups, record, parent, sides[k], sides[k + 2]);
+        add_edges(scene, motion, record, parent, sides[k], sides[k + 2]);
     return;
   }
   const OwnFeatures first = own_features(scene.features, scene.surface, round_of_node_, parents, a);
   add_nodes(first.nodes(), b);
   if (parents == Parents::faces) add_nodes(second.nodes(), a);
   for (int e : first.edges())
-    for (int other : second.edges()) add_edges(scene, groups, record, parent, e, other);
+    for (int other : second.edges()) add_edges(scene, motion, record, parent, e, other);
 }
 
-void FeaturePairs::add_edges(const Scene& scene, MotionGroups& groups, const PairRecord& record, int parent,
+void FeaturePairs::add_edges(const Scene& scene, FeatureMotion& motion, const PairRecord& record, int parent,
                              int e, int other) {
   const int first = std::min(e, other), second = std::max(e, other);
   const Spacing spacing = edge_edge_spacing(scene, first, second);
   if (spacing == Spacing::none) return;
-  edge_edge.add({.first = first,
-                 .second = second,
-                 .relation = groups.relate(at(scene.features.edge_node, first)[0],
-                                           at(scene.features.edge_node, second)[0]),
-                 .spacing = spacing_under(record, spacing),
-                 .parent = parent});
+  pair_edges(scene, motion,
+             {.first = first,
+              .second = second,
+              .relation = motion.groups.relate(at(scene.features.edge_node, first)[0],
+                                               at(scene.features.edge_node, second)[0]),
+              .spacing = spacing_under(record, spacing),
+              .parent = parent});
+}
+
+void FeaturePairs::pair_edges(const Scene& scene, FeatureMotion& motion, const PairRecord& pair) {
+  motion.watch_edge(scene.features, pair.first);
+  motion.watch_edge(scene.features, pair.second);
+  edge_edge.add(pair);
 }
 
 // Of open pairs with faces that bend: edges that flat shapes have hidden, those of them that are not paired
 // yet.
-void FeaturePairs::add_hidden(const Scene& scene, MotionGroups& groups) {
+void FeaturePairs::add_hidden(const Scene& scene, FeatureMotion& motion) {
   if (std::none_of(fate_.begin(), fate_.end(), [](const std::vector<PairFate>& fate) {
         return std::find(fate.begin(), fate.end(), PairFate::bends) != fate.end();
       }))
@@ -206,7 +213,7 @@ void FeaturePairs::add_hidden(const Scene& scene, MotionGroups& groups) {
           if ((joins(e) || joins(other)) &&
               !std::binary_search(bending_.begin(), bending_.end(),
                                   key_of(std::min(e, other), std::max(e, other))))
-            add_edges(scene, groups, record, parent_number(parents, i), e, other);
+            add_edges(scene, motion, record, parent_number(parents, i), e, other);
     }
   }
 }

@@ -199,6 +199,36 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
   EXPECT_EQ(detector.guard.hits.size(), hits);
 }
 
+// Paths of edges are followed for those in pairs alone, from the step on in which they are paired.
+TEST(Passes, EveryPairedEdgeIsSeenToGoAsFarAsItsNodes) {
+  Random random(11);
+  ThreadTeam team(2);
+  RandomScene scene({.sheets = 4, .cells = 9, .cubes = 60, .beams = 20, .particles = 20, .room = 3}, random);
+  Detector detector{scene, team};
+  std::size_t seen = 0;
+  for (int step = 0; step < 100; ++step) {
+    scene.push(random.integer(0, 19) == 0 ? 2 : 0.1, random);
+    detector.begin();
+    const FeatureMotion& motion = detector.motion;
+    for (const PairRecord& pair : detector.pairs.edge_edge.records()) {
+      if (pair.spacing == Spacing::none) continue;
+      for (int e : {pair.first, pair.second}) {
+        const std::array<int, 2>& nodes = scene.features.edge_node[index(e)];
+        const auto& frame = motion.groups.group[index(motion.groups.of_node(nodes[0]))].step;
+        double longest = 0;
+        for (int node : nodes)
+          longest = std::max(longest, (motion.displacement(node) - Eigen::Vector3d(frame.data())).norm());
+        ASSERT_GE((motion.of_edge.ahead[index(e)] - motion.of_edge.path[index(e)]) * (1 + 1e-12),
+                  approach_factor * longest)
+            << step << ' ' << e;
+        ++seen;
+      }
+    }
+    scene.move(random);
+  }
+  EXPECT_GT(seen, 10000U);
+}
+
 // Pairs that are active but are not checked for crossings are farther apart than the limits of motion allow
 // them to come nearer.
 TEST(Passes, WhatIsNotCheckedCannotCrossWithinTheLimits) {

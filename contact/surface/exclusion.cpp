@@ -110,7 +110,15 @@ Lists excluded_faces(const Surface& surface, const Nodes& reference) {
 
 bool is_excluded(const Lists& excluded, int slave, int face) {
   const auto faces = excluded.of(slave);
-  return std::binary_search(faces.begin(), faces.end(), face);
+  if (faces.empty()) return false;
+  // By moves, not by branches, half of which the processor would predict wrongly.
+  const int* last = faces.data();
+  for (std::size_t left = faces.size(); left > 1;) {
+    const std::size_t half = left / 2;
+    last = last[half] <= face ? last + half : last;
+    left -= half;
+  }
+  return *last == face;
 }
 
 ErodingExclusion::ErodingExclusion(const Surface& surface, const Nodes& reference) {

@@ -44,19 +44,19 @@ fi
 if [ "${1:-}" = --long ]; then
   stage "all tests"
   run_tests release
-elif fits "slow tests" 80; then
+elif fits "slow tests" 130; then
   stage "fast and slow tests"
   run_tests release -LE long
 else
   stage "fast tests"
   run_tests release -L fast
 fi
-if fits "clang" 20; then
+if fits "clang" 25; then
   stage "build with clang"
   build clang
   build/clang/brio run inputs/bar_impact.yaml --quiet --overwrite --output build/clang/bar_impact.results
 fi
-if fits "sanitizers" 145; then
+if fits "sanitizers" 265; then
   stage "build with sanitizers"
   build debug-sanitized -DBRIO_TESTS=ON
   stage "fast tests with sanitizers"

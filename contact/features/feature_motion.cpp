@@ -34,6 +34,16 @@ struct Spread {
   const std::vector<Way>& of_node;
   const MotionGroups& groups;
 
+  template <std::size_t Corners>
+  void to(PathAndAhead& ways, std::size_t feature, const std::array<int, Corners>& corners,
+          bool with_path) const {
+    const Both way = longest(corners);
+    const double path = ways.path[feature] + (with_path ? way[0] : 0);
+    ways.path[feature] = path;
+    ways.ahead[feature] = path + approach_factor * way[1];
+  }
+
+ private:
   // The longest of the corners, in the frame of the first one's group.
   template <std::size_t Corners>
   Both longest(const std::array<int, Corners>& corners) const {
@@ -46,16 +56,6 @@ struct Spread {
     }
     return longest;
   }
-  template <std::size_t Corners>
-  void to(PathAndAhead& ways, std::size_t feature, const std::array<int, Corners>& corners,
-          bool with_path) const {
-    const Both way = longest(corners);
-    const double path = ways.path[feature] + (with_path ? way[0] : 0);
-    ways.path[feature] = path;
-    ways.ahead[feature] = path + approach_factor * way[1];
-  }
-
- private:
   Both at_node(int slave) const {
     const Way& way = of_node[index(slave)];
     return Both{way.moved, way.step};

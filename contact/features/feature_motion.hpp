@@ -30,8 +30,8 @@ struct alignas(64) NodeMotion64 {
 
 class FeatureMotion {
  public:
-  std::vector<NodeMotion64> node;  ///< of each slave node; dead ones stay at the origin
-  PathAndAhead of_node, of_face, of_edge;
+  std::vector<NodeMotion64> node;          ///< of each slave node; dead ones stay at the origin
+  PathAndAhead of_node, of_face, of_edge;  ///< of edges, those that are watched
   MotionGroups groups;
 
   /// Positions at the start of a step; the displacements to them are added to the paths with those at its
@@ -82,7 +82,7 @@ class FeatureMotion {
     return step_of_solution(slave) > approach_factor * way_[index(slave)].step;
   }
 
-  /// Of edges, only those that are watched have paths: from now on this one, until `watch_only`.
+  /// Follow the path of an edge from this step on, until `watch_only`.
   void watch_edge(const SurfaceFeatures& features, int edge);
   /// Of the watched edges, those that are flagged.
   void watch_only(std::span<const std::uint8_t> flagged);
@@ -141,7 +141,7 @@ class FeatureMotion {
 
   std::vector<Way> way_;               ///< of each slave node
   std::vector<std::uint8_t> watched_;  ///< of each edge: whether it is
-  std::vector<int> watched_edge_;
+  std::vector<int> watched_edge_;      ///< those that are
   std::vector<double> solution_step_;  ///< likewise, of those that contact has moved in this step
   std::vector<Sum> sum_;               ///< one a range
   std::vector<Vector3<double>> position_;

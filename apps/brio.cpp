@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "apps/commands.hpp"
+#include "apps/ranks.hpp"
 #include "apps/streams.hpp"
 #include "io/files/file_error.hpp"
 #include "io/yaml/closest_word.hpp"
@@ -306,8 +307,12 @@ int main(int argument_count, char** arguments) {
   try {
     exit_code = run_command(argument_count, arguments);
   } catch (...) {
+    const bool together = brio::ranks_fail_together();
+    if (!together) brio::mute(false);
     exit_code = end_of_exception();
+    if (!together) brio::end_all_ranks(exit_code);
   }
+  brio::leave_ranks();
   const std::string fault = brio::finish_output();
   if (fault.empty()) return exit_code;
   complain("brio: " + fault, exit_code);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "apps/commands.hpp"
+#include "apps/ranks.hpp"
 #include "apps/run_log.hpp"
 #include "apps/streams.hpp"
 
@@ -112,13 +113,25 @@ RunOutcome run_with_log(RunOptions& options, RunLog& log, bool quiet) {
   }
 }
 
+// The first of several processes writes and speaks for all.
+void share_work(RunOptions& options) {
+  options.ranks = join_ranks();
+  if (options.ranks == nullptr) return;
+  mute(options.ranks->number() > 0);
+  if (options.threads_by_size) options.threads = std::min(options.threads, processors_of_rank());
+}
+
 }  // namespace
 
 int run(RunArguments& arguments) {
+  share_work(arguments.options);
   arguments.options.stop = &noted_signal();
   arguments.options.built = note_signals;  // until then there is nothing to close
   const char* bound = arguments.options.threads_by_size ? "at most " : "";
-  RunLog log(arguments.command, fmt::format("{}{}", bound, arguments.options.threads));
+  std::string threads = fmt::format("{}{}", bound, arguments.options.threads);
+  if (arguments.options.ranks != nullptr)
+    threads += fmt::format(", ranks {}", arguments.options.ranks->count());
+  RunLog log(arguments.command, threads);
   const RunOutcome outcome = run_with_log(arguments.options, log, arguments.quiet);
   if (!outcome.message.empty()) tell(log, "\nbrio: " + outcome.message + "\n");
   for (const std::string& warning : outcome.summary.warnings) tell(log, "brio: warning: " + warning + "\n");

@@ -15,6 +15,7 @@ std::atomic<int> last_signal{0};
 
 void note_signal(int signal) { last_signal = signal; }
 
+bool is_muted = false;
 int output_fault = 0;  // errno of the first text that could not be written
 
 void remember_fault() {
@@ -31,12 +32,16 @@ void prepare_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+void mute(bool is_mute) { is_muted = is_mute; }
+
 void write_out_text(std::string_view text) {
+  if (is_muted) return;
   errno = 0;
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) remember_fault();
 }
 
 void write_error_text(std::string_view text) {
+  if (is_muted) return;
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }

@@ -14,6 +14,9 @@ namespace brio {
 /// a reader that went away or a file that may not grow into an error of the call that writes.
 void prepare_streams();
 
+/// Whether anything is written from now on: of several processes one speaks for all.
+void mute(bool is_mute);
+
 /// To standard output. What cannot be written is reported by `finish_output`.
 void write_out_text(std::string_view text);
 /// To standard error. A text that cannot be written is lost: nothing depends on it.

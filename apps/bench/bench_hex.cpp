@@ -16,7 +16,7 @@
 #include "elements/block.hpp"
 #include "src/base/index.hpp"
 #include "src/motion/motion.hpp"
-#include "src/sweep/schedule.hpp"
+#include "src/domains/schedule.hpp"
 
 namespace {
 

@@ -29,6 +29,7 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const std::string& name
       settings_(std::move(settings)),
       dumps_(settings_.compression),
       xdmf_(name + ".vtkhdf") {
+  if (!writes()) return;
   make_folder(folder_);
   lock_ = std::make_shared<const FolderLock>(folder_);
   Hdf5File file = Hdf5File::create(current(".vtkhdf"));
@@ -43,12 +44,13 @@ ResultWriter::ResultWriter(std::filesystem::path folder, const std::string& name
     : folder_(std::move(folder)),
       name_(name),
       settings_(std::move(settings)),
-      lock_(std::make_shared<const FolderLock>(folder_)),
+      lock_(settings_.writes ? std::make_shared<const FolderLock>(folder_) : nullptr),
       published_(true),
       dumps_(settings_.compression),
       xdmf_(name + ".vtkhdf") {}
 
 void ResultWriter::note_position() {
+  if (!writes()) return;
   lock_->check();
   close();
   if (xdmf_.is_behind()) xdmf_.write(xdmf(), sync_each_time());
@@ -59,6 +61,7 @@ void ResultWriter::note_position() {
 }
 
 void ResultWriter::return_to_position() {
+  if (!writes()) return;
   lock_->check();
   if (std::filesystem::file_size(history_csv()) < history_bytes_)
     throw FileError(history_csv(), "is shorter than it was when the run was saved");
@@ -154,15 +157,18 @@ void ResultWriter::append(Hdf5File& file, History& history) {
 }
 
 void ResultWriter::write(const Snapshot& snapshot) {
+  if (!writes()) return;
   transact([&](Hdf5File& file) { append(file, snapshot); });
 }
 
 void ResultWriter::write(History& history) {
+  if (!writes()) return history.clear_pending();
   if (history.pending_rows() == 0) return;
   transact([&](Hdf5File& file) { append(file, history); });
 }
 
 void ResultWriter::write(const Snapshot& snapshot, History& history) {
+  if (!writes()) return history.clear_pending();
   transact([&](Hdf5File& file) {
     append(file, snapshot);
     if (history.pending_rows() > 0) append(file, history);
@@ -170,6 +176,7 @@ void ResultWriter::write(const Snapshot& snapshot, History& history) {
 }
 
 void ResultWriter::write(const Summary& end_state) {
+  if (!writes()) return;
   lock_->check();
   close();
   if (!published_) publish();  // a run that failed before its first dump has ended as well

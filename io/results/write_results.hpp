@@ -37,6 +37,7 @@ namespace brio {
 class Hdf5File;
 
 struct ResultSettings {
+  bool writes = true;   ///< whether there are files at all: of several processes one writes
   int compression = 0;  ///< gzip level of points and fields; 0 is about ten times faster
   Sync sync = Sync::never;
   bool overwrite = false;  ///< whether results of an earlier run are removed, not moved aside
@@ -52,6 +53,8 @@ class ResultWriter {
   /// known before anything is computed. Copies of a writer hold the folder together. \throws FileError
   ResultWriter(std::filesystem::path folder, const std::string& name, const RunRecord& record,
                const std::vector<std::string>& history_columns, ResultSettings settings = {});
+
+  bool writes() const { return settings_.writes; }
 
   /// Goes on with the results that a saved run has written to a folder: restored by `serialize`, then brought
   /// back by `return_to_position` to where they stood when it was saved.

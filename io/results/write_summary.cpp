@@ -99,6 +99,7 @@ std::string summary_json(const Summary& summary) {
             {"element_updates_per_s", summary.element_updates_per_s},
             {"peak_memory_mb", summary.peak_memory_mb},
             {"threads", summary.threads},
+            {"ranks", summary.ranks},
             {"active_features", summary.active_features},
             {"warnings", summary.warnings}};
   if (!summary.restarted_from.empty()) json["restarted_from"] = summary.restarted_from;

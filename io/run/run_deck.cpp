@@ -17,6 +17,7 @@
 #include "io/yaml/deck_error.hpp"
 #include "src/base/index.hpp"
 #include "src/build/build.hpp"
+#include "src/domains/domain_exchange.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/run_warnings.hpp"
 #include "src/step/advance.hpp"
@@ -147,10 +148,14 @@ class Run {
   bool is_at_end() const { return model_.times.time >= deck_.time.end; }
 
   std::optional<Stop> stop_wanted() const {
-    const int signal = options_.stop != nullptr ? options_.stop->load() : 0;
-    if (signal != 0) return Stop{signal == SIGINT ? "interrupted" : "terminated", 128 + signal};
-    if (options_.stop_after_s && seconds_since(start_) >= *options_.stop_after_s) return Stop{"stopped", 0};
-    return {};
+    constexpr int at_limit = -1, goes_on = -2;
+    int signal = options_.stop != nullptr ? options_.stop->load() : 0;
+    if (signal == 0)
+      signal = options_.stop_after_s && seconds_since(start_) >= *options_.stop_after_s ? at_limit : goes_on;
+    if (options_.ranks != nullptr) signal = options_.ranks->largest(signal);
+    if (signal == goes_on) return {};
+    if (signal == at_limit) return Stop{"stopped", 0};
+    return Stop{signal == SIGINT ? "interrupted" : "terminated", 128 + signal};
   }
 
   // A run that is saved here goes on as if it had not ended: what is written of the last state comes after.
@@ -275,6 +280,8 @@ RunOutcome run_deck(const RunOptions& options) {
   if (options.built) options.built();
   const int threads = threads_of(model, options.threads, options.threads_by_size);
   ThreadTeam team(threads);
+  if (options.ranks != nullptr)
+    model.schedule.exchange = std::make_shared<DomainExchange>(*options.ranks, model.schedule, model.blocks);
   // A first step finds what is wrong with a scene, and what a restored state does not hold.
   const std::string fault = restart ? "" : fault_of([&] { make_first_step(deck, model, team); });
   const std::string name = options.deck.stem().string();
@@ -300,17 +307,19 @@ RunOutcome run_deck(const RunOptions& options) {
   const auto moved_aside = [&](const std::filesystem::path& to, bool lost) {
     if (options.moved_aside) news.emplace_back([&options, to, lost] { options.moved_aside(to, lost); });
   };
-  const ResultSettings settings{
-      .sync = deck.output.sync, .overwrite = options.overwrite, .moved_aside = moved_aside, .published = [&] {
-        news.emplace_back([published] { published(false); });
-      }};
+  const ResultSettings settings{.writes = options.ranks == nullptr || options.ranks->number() == 0,
+                                .sync = deck.output.sync,
+                                .overwrite = options.overwrite,
+                                .moved_aside = moved_aside,
+                                .published = [&] { news.emplace_back([published] { published(false); }); }};
   const std::filesystem::path results = outcome.folder / (name + ".vtkhdf");
   const bool continues_results = restart && is_same_folder(restart->path.parent_path(), outcome.folder) &&
                                  std::filesystem::exists(results);
   if (continues_results) {
     expect_same_columns(results, *restart, history_columns(model), deck);
-    published(true);
+    if (settings.writes) published(true);
   }
+  if (options.ranks != nullptr) options.ranks->largest(0);  // all have looked before the first one writes
   ResultWriter writer = continues_results
                             ? ResultWriter(outcome.folder, name, settings)
                             : ResultWriter(outcome.folder, name, record, history_columns(model), settings);
@@ -327,6 +336,8 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.message = run.go_on(fault, continues_results, state);
   const Impulse momentum_of_good = model.momentum.now;
 
+  if (DomainExchange* exchange = model.schedule.exchange.get())
+    exchange->exchange_elements(model.schedule, model.blocks);
   outcome.summary = observe_end(model);
   outcome.summary.warnings = run_warnings(model);
   if (state.exit_code == 3)  // that of the last good state, not of the nodes as they are
@@ -337,6 +348,7 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.summary.exit_code = state.exit_code;
   if (restart) outcome.summary.restarted_from = restart->path.string();
   outcome.summary.threads = threads;
+  if (options.ranks != nullptr) outcome.summary.ranks = options.ranks->count();
   outcome.summary.peak_memory_mb = peak_memory_mb();
   outcome.summary.wall_s.total = run.seconds();
   outcome.summary.element_updates_per_s =

@@ -11,6 +11,7 @@
 
 #include "src/base/parallel.hpp"
 #include "src/deck/deck.hpp"
+#include "src/domains/ranks.hpp"
 #include "src/model/model.hpp"
 #include "src/output/summary.hpp"
 
@@ -50,7 +51,8 @@ struct RunOptions {
   /// Called when the results stand under their names: where a log goes, and whether it goes on.
   std::function<void(const std::filesystem::path& log, bool goes_on)> published{};
   const std::atomic<int>* stop = nullptr;  ///< set to a signal's number to end the run after the present step
-  std::function<void()> built;             ///< called before the first file is made
+  Ranks* ranks = nullptr;       ///< processes that compute the scene together, of which the first writes
+  std::function<void()> built;  ///< called before the first file is made
   std::function<void(const Progress&)> progress;  ///< called about ten times a second
 };
 

@@ -32,7 +32,7 @@
 #include "src/sweep/erosion.hpp"
 #include "src/sweep/mass_scaling.hpp"
 #include "src/sweep/particles.hpp"
-#include "src/sweep/schedule.hpp"
+#include "src/domains/schedule.hpp"
 #include "src/sweep/step_size.hpp"
 #include "src/sweep/surface_numbers.hpp"
 

@@ -113,7 +113,8 @@ constexpr SummaryKey summary[] = {
     {"wall_s.total, wall_s.by_stage.STAGE", "second", "wall time of the run, and by stage of the time step"},
     {"element_updates_per_s", "1/second", "elements times steps over wall time"},
     {"peak_memory_mb", "MB", "of the process"},
-    {"threads", "-", "used"},
+    {"threads", "-", "used, of each rank"},
+    {"ranks", "-", "processes that computed the scene together (mpirun)"},
     {"active_features", "", "what the scene switched on"},
     {"warnings", "", "what makes results doubtful, as sentences"},
     {"restarted_from", "", "restart file that the run went on from"}};

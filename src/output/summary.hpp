@@ -108,6 +108,7 @@ struct Summary {
   std::string deck;
   std::string status;  ///< "finished", "stopped", "interrupted", "terminated" or "failed"
   int exit_code = 0;
+  int ranks = 1;               ///< processes
   std::string restarted_from;  ///< restart file that the run went on from; empty: it began
   std::int64_t steps = 0;
   double time = 0;

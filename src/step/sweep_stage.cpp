@@ -5,6 +5,7 @@
 
 #include "src/base/breakdown.hpp"
 #include "src/base/index.hpp"
+#include "src/domains/sweep_domains.hpp"
 #include "src/step/diagnosis.hpp"
 #include "src/step/laid_open.hpp"
 #include "src/sweep/release_ties.hpp"
@@ -13,18 +14,13 @@ namespace brio {
 
 namespace {
 
-// Internal forces by colours of chunks.
 void sweep_chunks(Model& model, ThreadTeam& team) {
-  const SweepSchedule& schedule = model.schedule;
-  for (std::size_t colour = 0; colour + 1 < schedule.colour_first.size(); ++colour) {
-    const std::size_t first = schedule.colour_first[colour];
-    team.for_each(schedule.colour_first[colour + 1] - first, [&](std::size_t i) {
-      const SweepTask& task = schedule.tasks[first + i];
-      Block& block = model.blocks[task.block];
-      model.sweep_results[first + i] =
-          block.kernel.sweep(block, task.chunk, model.nodes, model.times.previous);
-    });
-  }
+  const NodalRows forces{model.nodes.force.data(), model.nodes.moment.data()};
+  sweep_domains(model.schedule, forces, team, [&](std::size_t t) {
+    const SweepTask& task = model.schedule.tasks[t];
+    Block& block = model.blocks[task.block];
+    model.sweep_results[t] = block.kernel.sweep(block, task.chunk, model.nodes, model.times.previous);
+  });
 }
 
 // Forces between particles, after all have computed their stress.
@@ -86,6 +82,8 @@ Contribution sweep_elements(Model& model, ThreadTeam& team) {
     follow_neighbours(search, model.blocks[search.block], model.nodes, team);
   sweep_chunks(model, team);
   exchange_between_elements(model, team);
+  if (DomainExchange* exchange = model.schedule.exchange.get())
+    exchange->exchange_results(model.schedule, model.sweep_results, model.blocks);
   const Contribution energies = gather_results(model, team);
   if (!(model.control.stable > 0))
     throw Breakdown(element_name(model, model.control.critical_block, model.control.critical_element) +
@@ -132,7 +130,7 @@ Contribution erode_elements(Model& model, ThreadTeam& team) {
     }
   } while (give_up_crossed(model, team));
   if (!is_sparse(model.schedule, model.blocks)) return sum;
-  model.schedule = repack(model.schedule, model.blocks, model.parts, model.nodes.size());
+  repack(model.schedule, model.blocks, model.parts, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());
   return sum;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elements/base/tridiagonal.hpp"
+#include "src/domains/sweep_domains.hpp"
 
 namespace brio {
 
@@ -77,17 +78,14 @@ class Lanczos {
   }
 
   /// next -= K now. \returns now . K now, where next was orthogonal to now
-  double multiply(const SweepSchedule& schedule, std::span<Block> blocks) {
+  double multiply(SweepSchedule& schedule, std::span<Block> blocks) {
     const NodalRows displacement{now(0).data(), now(1).data()}, product{next(0).data(), next(1).data()};
-    for (std::size_t colour = 0; colour + 1 < schedule.colour_first.size(); ++colour) {
-      const std::size_t first = schedule.colour_first[colour];
-      team_.for_each(schedule.colour_first[colour + 1] - first, [&](std::size_t i) {
-        Block& block = blocks[schedule.tasks[first + i].block];
-        if (block.kernel.multiply_stiffness != nullptr)
-          block.kernel.multiply_stiffness(block, schedule.tasks[first + i].chunk, nodes_, displacement,
-                                          product);
-      });
-    }
+    sweep_domains(schedule, product, team_, [&](std::size_t t) {
+      const SweepTask& task = schedule.tasks[t];
+      Block& block = blocks[task.block];
+      if (block.kernel.multiply_stiffness != nullptr)
+        block.kernel.multiply_stiffness(block, task.chunk, nodes_, displacement, product);
+    });
     const double product_of_both = sum_over_nodes(vectors_, nodes_, team_, [&](std::size_t i) {
       double sum = dot3(now(0)[i], next(0)[i]);
       if (turns_) sum += dot3(now(1)[i], next(1)[i]);
@@ -190,7 +188,7 @@ LanczosVectors make_lanczos_vectors(const Nodes& nodes, double length) {
 }
 
 double assembled_frequency_squared(LanczosVectors& vectors, std::span<const double> stiffness_by_mass,
-                                   const SweepSchedule& schedule, std::span<Block> blocks, const Nodes& nodes,
+                                   SweepSchedule& schedule, std::span<Block> blocks, const Nodes& nodes,
                                    ThreadTeam& team) {
   Lanczos lanczos(vectors, nodes, team);
   std::array<double, iterations> diagonal{}, beside{};

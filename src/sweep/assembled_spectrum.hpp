@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "src/domains/schedule.hpp"
 #include "src/motion/motion.hpp"
-#include "src/sweep/schedule.hpp"
 
 namespace brio {
 
@@ -26,7 +26,7 @@ LanczosVectors make_lanczos_vectors(const Nodes& nodes, double length);
 /// it flies. \pre every block has kernel.multiply_stiffness \param stiffness_by_mass of nodes: where the
 /// search begins
 double assembled_frequency_squared(LanczosVectors& vectors, std::span<const double> stiffness_by_mass,
-                                   const SweepSchedule& schedule, std::span<Block> blocks, const Nodes& nodes,
+                                   SweepSchedule& schedule, std::span<Block> blocks, const Nodes& nodes,
                                    ThreadTeam& team);
 
 }  // namespace brio

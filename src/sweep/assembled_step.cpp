@@ -65,7 +65,7 @@ bool is_due(const AssembledStep& assembled, const NodalBound& bound, std::int64_
 }
 
 void estimate(AssembledStep& assembled, double damping, const NodalBound& nodal, std::int64_t step,
-              const SweepSchedule& schedule, std::span<Block> blocks, const Nodes& nodes, ThreadTeam& team) {
+              SweepSchedule& schedule, std::span<Block> blocks, const Nodes& nodes, ThreadTeam& team) {
   team.for_ranges(nodes.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) assembled.reference[i] = stiffness_by_mass(nodes, i);
   });
@@ -112,7 +112,7 @@ double stable_step_of(double frequency_squared, double last) {
 }
 
 double assembled_stable_step(AssembledStep& assembled, const ElementBounds& elements, double last,
-                             std::int64_t step, const SweepSchedule& schedule, std::span<Block> blocks,
+                             std::int64_t step, SweepSchedule& schedule, std::span<Block> blocks,
                              const Nodes& nodes, ThreadTeam& team) {
   if (assembled.largest_of_ranges.empty()) return elements.stable_step;
   const bool is_looked_at = assembled.gain >= worthwhile_gain || assembled.frequency_squared > 0 ||

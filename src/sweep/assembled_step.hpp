@@ -65,7 +65,7 @@ struct ElementBounds {
 
 /// After the sweep. \param last time step; 0: none yet \param step number of steps
 double assembled_stable_step(AssembledStep& assembled, const ElementBounds& elements, double last,
-                             std::int64_t step, const SweepSchedule& schedule, std::span<Block> blocks,
+                             std::int64_t step, SweepSchedule& schedule, std::span<Block> blocks,
                              const Nodes& nodes, ThreadTeam& team);
 
 /// Stable time step with a bound that counts damping at the time step `last`; 0: at a shorter one than

@@ -91,6 +91,7 @@ Contribution erode(Erosion& erosion, SweepSchedule& schedule, std::span<const Sw
     for (std::size_t cause = 0; cause < results[t].lost_by.size(); ++cause)
       erosion.deleted_by_cause[cause] += results[t].lost_by[cause];
     SweepTask& task = schedule.tasks[t];
+    schedule.pieces[task.piece].element_count -= results[t].lost;
     Block& block = blocks[task.block];
     PartInModel& part = parts[task.block];
     const int* lost = block.lost.data() + task.chunk.first_pack * index(block.lanes);
@@ -118,23 +119,25 @@ bool is_sparse(const SweepSchedule& schedule, std::span<const Block> blocks) {
   std::size_t used = 0, needed = 0;
   for (const SweepTask& task : schedule.tasks)
     used += packs_for(task.chunk.element_count, blocks[task.block]);
-  for (const Block& block : blocks) needed += packs_for(block.element_count, block);
+  for (const DomainPiece& piece : schedule.pieces)
+    needed += packs_for(piece.element_count, blocks[piece.block]);
   return static_cast<double>(used - needed) > most_padding * static_cast<double>(used);
 }
 
-SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std::span<PartInModel> parts,
-                     std::size_t node_count) {
+void repack(SweepSchedule& schedule, std::span<Block> blocks, std::span<PartInModel> parts,
+            std::size_t node_count) {
   std::vector<SweepTask> tasks = schedule.tasks;
-  std::sort(tasks.begin(), tasks.end(), [](const SweepTask& a, const SweepTask& b) {
-    return a.block != b.block ? a.block < b.block : a.chunk.first_pack < b.chunk.first_pack;
-  });
-  std::vector<std::size_t> next(blocks.size(), 0);
+  std::ranges::sort(tasks, {},
+                    [](const SweepTask& task) { return std::pair(task.piece, task.chunk.first_pack); });
+  std::vector<std::size_t> next;  // place of each piece
+  for (const DomainPiece& piece : schedule.pieces)
+    next.push_back(piece.first_pack * index(blocks[piece.block].lanes));
   for (const SweepTask& task : tasks) {
     Block& block = blocks[task.block];
     PartInModel& part = parts[task.block];
     const std::size_t first = task.chunk.first_pack * index(block.lanes);
     for (std::size_t from = first; from < first + task.chunk.element_count; ++from) {
-      const std::size_t to = next[task.block]++;
+      const std::size_t to = next[task.piece]++;
       if (from == to) continue;
       copy_element(block, from, to);
       const int element = part.element_order[from];
@@ -143,11 +146,13 @@ SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std
       part.element_slot[index(element)] = static_cast<int>(to);
     }
   }
-  for (Block& block : blocks) {
-    block.pack_count = packs_for(block.element_count, block);
-    if (block.loses_elements) fill_padding(block, 0, block.element_count);
+  for (std::size_t p = 0; p < schedule.pieces.size(); ++p) {
+    const DomainPiece& piece = schedule.pieces[p];
+    Block& block = blocks[piece.block];
+    block.pack_count = piece.first_pack + packs_for(piece.element_count, block);
+    if (block.loses_elements) fill_padding(block, piece.first_pack * index(block.lanes), next[p]);
   }
-  return make_schedule(blocks, node_count);
+  cut_chunks(schedule, blocks, node_count);
 }
 
 void remove_sides(ActiveLoad& load, std::span<const DeletedElement> deleted) {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "elements/block.hpp"
+#include "src/domains/schedule.hpp"
 #include "src/motion/energy_balance.hpp"
 #include "src/motion/loads.hpp"
-#include "src/sweep/schedule.hpp"
 
 namespace brio {
 
@@ -90,9 +90,9 @@ Contribution erode(Erosion& erosion, SweepSchedule& schedule, std::span<const Sw
 /// True when chunks are so short that repacking pays.
 bool is_sparse(const SweepSchedule& schedule, std::span<const Block> blocks);
 
-/// Repacks the elements of every block in their present order, with new chunks and colours.
-SweepSchedule repack(const SweepSchedule& schedule, std::span<Block> blocks, std::span<PartInModel> parts,
-                     std::size_t node_count);
+/// Repacks the elements of every piece of a domain in their present order, with new chunks and colours.
+void repack(SweepSchedule& schedule, std::span<Block> blocks, std::span<PartInModel> parts,
+            std::size_t node_count);
 
 /// Removes the sides of deleted elements from a load. \param deleted ascending
 void remove_sides(ActiveLoad& load, std::span<const DeletedElement> deleted);

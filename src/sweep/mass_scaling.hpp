@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "src/deck/deck.hpp"
+#include "src/domains/schedule.hpp"
 #include "src/motion/energy_balance.hpp"
 #include "src/sweep/erosion.hpp"
-#include "src/sweep/schedule.hpp"
 
 namespace brio {
 

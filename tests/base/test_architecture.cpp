@@ -94,7 +94,7 @@ const std::vector<Rooms> rooms_of_folders{
      "elements/[^/]+/.*\\.cpp",
      "",
      "particle"},
-    {"src", {"deck", "motion", "sweep", "model", "fields", "initial", "build", "step", "output", "forecast"}},
+    {"src", {"deck", "motion", "domains", "sweep", "model", "fields", "initial", "build", "step", "output", "forecast"}},
     {"io",
      {"files", "yaml", "mesh_file", "mesh_format", "mesh", "deck", "schema", "results", "restart", "run",
       "study", "plot", "report"}},
@@ -169,6 +169,10 @@ TEST(Architecture, ThreadsStayInParallel) {
   expect_only_in(
       R"(std::(thread|jthread|async)\b[^:]|#include <(mutex|condition_variable|omp\.h)>|#pragma omp)",
       {"src/base/parallel"});
+}
+
+TEST(Architecture, MessagesBetweenProcessesStayInRanks) {
+  expect_only_in(R"(\bMPI_[A-Z]|#include <mpi\.h>)", {"apps/ranks"});
 }
 
 }  // namespace

@@ -2,31 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <sstream>
 
-#include "io/deck/read_deck.hpp"
 #include "io/run/run_deck.hpp"
-#include "src/forecast/coarser.hpp"
-#include "src/model/state.hpp"
-#include "tests/core/scene.hpp"
+#include "tests/core/state/shipped_decks.hpp"
 
 namespace brio::test {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-Deck coarse_deck(const std::string& name, double factor) {
-  return coarser(read_deck(fs::path(BRIO_SOURCE_DIR) / "inputs" / (name + ".yaml"), {}), factor);
-}
-
-std::string state_of(const Model& model) {
-  std::ostringstream out;
-  save_state(model, out);
-  return out.str();
-}
 
 void restore(Model& model, const std::string& state) {
   std::istringstream in(state);
@@ -64,14 +47,6 @@ void expect_same_bits(const Deck& deck, int before, int after, bool deletes = fa
     EXPECT_GT(deleted, 0);
     EXPECT_GT(uninterrupted.erosion->total_deleted(), deleted);
   }
-}
-
-std::vector<std::string> shipped_decks() {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(BRIO_SOURCE_DIR) / "inputs"))
-    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ TEST(Schedule, NoTwoChunksOfAColourShareANodeAndEveryPackIsSweptOnce) {
     }
   }
   for (std::size_t b = 0; b < model.blocks.size(); ++b) EXPECT_EQ(packs[b], model.blocks[b].pack_count);
-  EXPECT_LE(schedule.colour_first.size() - 1, 4u);  // slabs
+  for (std::size_t stage = 0; stage + 1 < schedule.stage_first.size(); ++stage)
+    EXPECT_LE(schedule.stage_first[stage + 1] - schedule.stage_first[stage], 4u);  // slabs
 }
 
 TEST(Schedule, LocalityOrderIsAPermutationWhateverTheInputNumbering) {

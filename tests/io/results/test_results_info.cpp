@@ -81,6 +81,7 @@ TEST(SummaryFile, HasTheKeysOfTheContract) {
                                "element_updates_per_s",
                                "peak_memory_mb",
                                "threads",
+                               "ranks",
                                "active_features",
                                "warnings"}));
   EXPECT_EQ(keys(json["deleted_by_cause"]), (Names{"damage", "plastic_strain", "distortion"}));

@@ -79,6 +79,7 @@ struct ContactTotals {
   std::uint64_t contacts = 0;  ///< sum over the steps, as are passes
   std::uint64_t passes = 0;
   int most_contacts = 0;
+  int unused = 0;  // no byte of a saved state is left undefined
 };
 
 struct ContactScene {

@@ -15,8 +15,8 @@
 #include "apps/bench/options.hpp"
 #include "elements/block.hpp"
 #include "src/base/index.hpp"
-#include "src/motion/motion.hpp"
 #include "src/domains/schedule.hpp"
+#include "src/motion/motion.hpp"
 
 namespace {
 
@@ -100,7 +100,7 @@ Scene make_scene(const Grid& grid, const Element& element, const Material& mater
   scene.blocks.push_back(make_block("cube", element, material, precision, grid.connectivity));
   scene.schedule = make_schedule(scene.blocks, grid.position.size());
   scene.results.resize(scene.schedule.tasks.size());
-  scene.sums.resize(range_count(scene.nodes));
+  scene.sums.resize(scene.nodes.ranges.size());
   std::mt19937 generator(2);
   std::uniform_real_distribution<double> noise(-1, 1);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {

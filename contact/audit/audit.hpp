@@ -22,6 +22,7 @@ struct AuditPlace {
   double depth = 0;                 ///< a length
   int node = -1;                    ///< global
   std::array<int, 2> part{-1, -1};  ///< of the surface: that of the node, and the other
+  int unused = 0;                   // no byte of a saved state is left undefined
 
   void keep_deeper(const AuditPlace& other) {
     if (other.depth > depth) *this = other;

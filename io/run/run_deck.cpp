@@ -11,13 +11,13 @@
 #include "io/restart/restart_file.hpp"
 #include "io/results/read_result.hpp"
 #include "io/results/write_results.hpp"
+#include "io/run/deal_domains.hpp"
 #include "io/run/initial_state.hpp"
 #include "io/run/run_output.hpp"
 #include "io/run/scene_size.hpp"
 #include "io/yaml/deck_error.hpp"
 #include "src/base/index.hpp"
 #include "src/build/build.hpp"
-#include "src/domains/domain_exchange.hpp"
 #include "src/output/observe.hpp"
 #include "src/output/run_warnings.hpp"
 #include "src/step/advance.hpp"
@@ -280,8 +280,7 @@ RunOutcome run_deck(const RunOptions& options) {
   if (options.built) options.built();
   const int threads = threads_of(model, options.threads, options.threads_by_size);
   ThreadTeam team(threads);
-  if (options.ranks != nullptr)
-    model.schedule.exchange = std::make_shared<DomainExchange>(*options.ranks, model.schedule, model.blocks);
+  if (options.ranks != nullptr) deal_domains(model, *options.ranks);
   // A first step finds what is wrong with a scene, and what a restored state does not hold.
   const std::string fault = restart ? "" : fault_of([&] { make_first_step(deck, model, team); });
   const std::string name = options.deck.stem().string();
@@ -336,8 +335,7 @@ RunOutcome run_deck(const RunOptions& options) {
   outcome.message = run.go_on(fault, continues_results, state);
   const Impulse momentum_of_good = model.momentum.now;
 
-  if (DomainExchange* exchange = model.schedule.exchange.get())
-    exchange->exchange_elements(model.schedule, model.blocks);
+  exchange_state(model);
   outcome.summary = observe_end(model);
   outcome.summary.warnings = run_warnings(model);
   if (state.exit_code == 3)  // that of the last good state, not of the nodes as they are

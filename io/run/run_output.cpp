@@ -3,8 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include "io/run/deal_domains.hpp"
 #include "src/base/breakdown.hpp"
-#include "src/domains/domain_exchange.hpp"
+#include "src/domains/node_ranges.hpp"
 #include "src/model/state.hpp"
 #include "src/output/run_warnings.hpp"
 #include "src/step/advance.hpp"
@@ -81,21 +82,18 @@ void RunOutput::write_last_state(ThreadTeam& team) {
   write_now(nullptr);
 }
 
-// What is written is of all domains.
-void RunOutput::share_elements() {
-  if (DomainExchange* exchange = model_.schedule.exchange.get())
-    exchange->exchange_elements(model_.schedule, model_.blocks);
-}
-
 void RunOutput::write(bool row, std::optional<double> fields, ThreadTeam& team) {
   const bool keeps = model_.step >= next_kept_;
   if (!row && !fields && !keeps) return;
   if (fields) audit_contacts(model_, team);
   const StageTimer timer(model_.stages, Stage::output);
+  if (fields || keeps)
+    exchange_state(model_);
+  else
+    exchange_nodes(model_.nodes);
   if (fields) watch(model_);
   observe_history(model_, history_sums_, row_, team);
   if (fields || keeps) {
-    share_elements();
     finish_writing(1);
     if (!writing_.have_ended() && last_written_ != nullptr && last_written_ == state_) observer_.turn();
     state_ = nullptr;  // one before is filled anew
@@ -133,7 +131,7 @@ void RunOutput::save(const std::filesystem::path& folder, const std::string& nam
                      double seconds) {
   const StageTimer timer(model_.stages, Stage::output);
   write_now(nullptr);
-  share_elements();
+  exchange_state(model_);
   if (!writer_.writes()) return;
   writer_.note_position();
   write_restart(folder, name, {.record = record, .time = model_.times.time, .step = model_.step},

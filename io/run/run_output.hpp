@@ -58,7 +58,6 @@ class RunOutput {
   void write(bool row, std::optional<double> fields, ThreadTeam& team);
   void keep(const Snapshot& state, bool has_dump);
   void write_start();
-  void share_elements();
 
   // A state is kept after so many steps and this share of those made: of ten thousand steps about 120.
   static constexpr std::int64_t least_steps_between = 50, share_of_steps = 50;

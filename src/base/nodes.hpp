@@ -36,6 +36,18 @@ struct SupportAxes {
   Tensor<double> linear, angular;
 };
 
+/// Nodes to a range at most; sums over nodes are formed range by range in order.
+inline constexpr std::size_t nodes_per_range = 4096;
+
+/// Nodes [begin, end).
+struct NodeRange {
+  std::size_t begin, end;
+  int domain;  ///< the first that has them; -1: none
+  int rank;    ///< that sweeps the domain (src/domains/ranks.hpp)
+};
+
+class Ranks;
+
 struct Nodes {
   AlignedBuffer<NodeRecord> record;
   AlignedBuffer<NodeVector> force;  ///< external minus internal, of the current step
@@ -53,6 +65,10 @@ struct Nodes {
   AlignedBuffer<NodeVector> velocity_before;
   AlignedBuffer<NodeVector> angular_velocity_before;  ///< likewise, where there are rotations
 
+  std::vector<NodeRange> ranges;    ///< of all nodes, in order
+  std::vector<NodeRange> followed;  ///< beyond the ranges of the own domains: nodes that this rank needs
+  Ranks* ranks = nullptr;           ///< if each knows nodes of its own domains and followed ones alone
+
   Nodes() = default;
   Nodes(std::size_t count, bool with_rotations)
       : record(count),
@@ -60,7 +76,10 @@ struct Nodes {
         mass(count),
         angular_velocity(with_rotations ? count : 0),
         moment(with_rotations ? count : 0),
-        rotational_inertia(with_rotations ? count : 0) {}
+        rotational_inertia(with_rotations ? count : 0) {
+    for (std::size_t begin = 0; begin < count; begin += nodes_per_range)
+      ranges.push_back({begin, begin + nodes_per_range < count ? begin + nodes_per_range : count, -1, -1});
+  }
 
   std::size_t size() const { return record.size(); }
   /// From now on velocities of the half step before are kept.

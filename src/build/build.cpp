@@ -14,6 +14,7 @@
 #include "src/build/refused_motions.hpp"
 #include "src/build/wall_overlap.hpp"
 #include "src/deck/part_index.hpp"
+#include "src/domains/node_ranges.hpp"
 #include "src/initial/initial_state.hpp"
 #include "src/model/part_damping.hpp"
 #include "src/model/start_balances.hpp"
@@ -297,6 +298,13 @@ void make_contact(const Deck& deck, std::span<const Mesh> meshes,
 
 }  // namespace
 
+void cut_domains(Model& model, std::size_t least_elements) {
+  model.schedule = make_schedule(model.blocks, model.nodes.size(), least_elements);
+  model.nodes.ranges = cut_ranges(model.nodes.size(), nodes_of_domains(model.schedule.pieces, model.blocks));
+  model.sweep_results.resize(model.schedule.tasks.size());
+  model.kinetic_sums.resize(model.nodes.ranges.size());
+}
+
 Model build(const Deck& deck, std::span<const Mesh> meshes, int threads, std::span<const PartState> states) {
   Model model;
   std::vector<std::vector<int>> connectivity;
@@ -325,10 +333,8 @@ Model build(const Deck& deck, std::span<const Mesh> meshes, int threads, std::sp
   for (std::size_t b = 0; b < model.blocks.size(); ++b)
     if (model.blocks[b].cloud && model.blocks[b].cloud->is_eulerian())
       model.particle_searches.push_back({.block = b});
-  model.schedule = make_schedule(model.blocks, model.nodes.size());
-  model.sweep_results.resize(model.schedule.tasks.size());
+  cut_domains(model);
   if (can_erode(model.blocks)) model.erosion = make_erosion(model.blocks, model.nodes.size());
-  model.kinetic_sums.resize(range_count(model.nodes));
   model.part_energy.resize(model.blocks.size());
   model.hourglass_warning = deck.numerics.hourglass_warning;
   model.control.settings = deck.time;

@@ -19,6 +19,9 @@ namespace brio {
 Model build(const Deck& deck, std::span<const Mesh> meshes, int threads = 1,
             std::span<const PartState> states = {});
 
+/// Domains of a model, their chunks and ranges of nodes; part of `build`.
+void cut_domains(Model& model, std::size_t least_elements = least_domain_elements);
+
 /// Whether the deck lets a part touch others, or itself.
 bool is_in_contact(const Deck& deck, const std::string& part);
 

@@ -5,6 +5,7 @@
 #include "src/base/gather.hpp"
 #include "src/base/lanes.hpp"
 #include "src/base/tensor.hpp"
+#include "src/domains/node_ranges.hpp"
 
 namespace brio {
 
@@ -73,28 +74,27 @@ KineticEnergy energy_of_range(const Nodes& nodes, std::size_t begin, std::size_t
 
 }  // namespace
 
-KineticEnergy accelerate(Nodes& nodes, double mean_step, std::span<KineticEnergy> sums, ThreadTeam& team) {
-  team.for_ranges(nodes.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
-    KineticEnergy& sum = sums[begin / nodes_per_range];
-    sum = accelerate_range(nodes, mean_step, begin, end);
+KineticEnergy accelerate(Nodes& nodes, double mean_step, std::vector<KineticEnergy>& sums, ThreadTeam& team) {
+  sum_node_ranges(nodes, sums, team, [&](std::size_t begin, std::size_t end) {
+    KineticEnergy sum = accelerate_range(nodes, mean_step, begin, end);
     if (nodes.has_rotations()) {
       const KineticEnergy turning = turn_range(nodes, mean_step, begin, end);
       sum.half += turning.half;
       sum.now += turning.now;
     }
+    return sum;
   });
   return total(sums);
 }
 
-KineticEnergy kinetic_energy(const Nodes& nodes, std::span<KineticEnergy> sums, ThreadTeam& team) {
-  team.for_ranges(nodes.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
-    sums[begin / nodes_per_range] = energy_of_range(nodes, begin, end);
-  });
+KineticEnergy kinetic_energy(const Nodes& nodes, std::vector<KineticEnergy>& sums, ThreadTeam& team) {
+  sum_node_ranges(nodes, sums, team,
+                  [&](std::size_t begin, std::size_t end) { return energy_of_range(nodes, begin, end); });
   return total(sums);
 }
 
 void move(Nodes& nodes, double step, ThreadTeam& team) {
-  team.for_ranges(nodes.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
+  for_node_ranges(nodes, team, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       NodeRecord& record = nodes.record[i];
       store_row(record.position,

@@ -2,7 +2,7 @@
 /// Velocities and positions of all nodes, and their kinetic energy and momentum.
 
 #include <array>
-#include <span>
+#include <vector>
 
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
@@ -10,24 +10,17 @@
 
 namespace brio {
 
-/// Nodes to a task; sums are formed range by range in order, whatever the number of threads.
-inline constexpr std::size_t nodes_per_range = 4096;
-
-inline std::size_t range_count(const Nodes& nodes) {
-  return (nodes.size() + nodes_per_range - 1) / nodes_per_range;
-}
-
 struct KineticEnergy {
   double half = 0;  ///< m v+.v+/2, at the half step
   double now = 0;   ///< m v-.v+/2, at the step
 };
 
 /// v += f/m times the mean of the steps before and after; stores v- where there is an array for it.
-/// \param sums scratch, one a range
-KineticEnergy accelerate(Nodes& nodes, double mean_step, std::span<KineticEnergy> sums, ThreadTeam& team);
+/// \param sums scratch, one a range of nodes
+KineticEnergy accelerate(Nodes& nodes, double mean_step, std::vector<KineticEnergy>& sums, ThreadTeam& team);
 
 /// Kinetic energy after supports, walls and contact have changed velocities; needs the stored v-.
-KineticEnergy kinetic_energy(const Nodes& nodes, std::span<KineticEnergy> sums, ThreadTeam& team);
+KineticEnergy kinetic_energy(const Nodes& nodes, std::vector<KineticEnergy>& sums, ThreadTeam& team);
 
 /// x += v times the step; forces are cleared for the next one.
 void move(Nodes& nodes, double step, ThreadTeam& team);

@@ -11,7 +11,7 @@ struct Model;
 /// step move across the whole scene contact is not detected rightly, and all features are candidates. Nodes
 /// that already move that fast, as in a moving frame, are accepted. \param kinetic of `accelerate` \throws
 /// Breakdown naming element, node, time and the likely cause
-void expect_no_leap(const Model& model, const KineticEnergy& kinetic);
+void expect_no_leap(Model& model, const KineticEnergy& kinetic);
 
 /// Too many contact candidates in a time step: names the node that moves farthest in it, relative to the
 /// mean. \throws Breakdown

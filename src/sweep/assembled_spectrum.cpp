@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elements/base/tridiagonal.hpp"
+#include "src/domains/node_ranges.hpp"
 #include "src/domains/sweep_domains.hpp"
 
 namespace brio {
@@ -30,10 +31,10 @@ struct Chirp {
 /// Sums over nodes, range by range.
 template <class Term>
 double sum_over_nodes(LanczosVectors& vectors, const Nodes& nodes, ThreadTeam& team, Term&& of_node) {
-  team.for_ranges(nodes.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
+  sum_node_ranges(nodes, vectors.of_ranges, team, [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) sum += of_node(i);
-    vectors.of_ranges[begin / nodes_per_range] = sum;
+    return sum;
   });
   double total = 0;
   for (const double sum : vectors.of_ranges) total += sum;
@@ -142,7 +143,7 @@ class Lanczos {
 
   template <class Task>
   void for_nodes(Task&& of_node) {
-    team_.for_ranges(nodes_.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
+    for_node_ranges(nodes_, team_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) of_node(i);
     });
   }
@@ -183,7 +184,7 @@ LanczosVectors make_lanczos_vectors(const Nodes& nodes, double length) {
   if (nodes.has_rotations())
     for (AlignedBuffer<NodeVector>& v : vectors.angular) v = AlignedBuffer<NodeVector>(nodes.size());
   vectors.length = length;
-  vectors.of_ranges.resize(range_count(nodes));
+  vectors.of_ranges.resize(nodes.ranges.size());
   return vectors;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/domains/node_ranges.hpp"
+
 namespace brio {
 
 namespace {
@@ -37,14 +39,9 @@ double stiffness_by_mass(const Nodes& nodes, std::size_t i) {
   return -least;
 }
 
-struct NodalBound {
-  double largest = 0;
-  double growth = 0;  ///< largest since the estimate, of what is above it
-};
-
 NodalBound nodal_bound(AssembledStep& assembled, const Nodes& nodes, ThreadTeam& team) {
   const double estimate = assembled.frequency_squared;
-  team.for_ranges(nodes.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
+  sum_node_ranges(nodes, assembled.bounds, team, [&](std::size_t begin, std::size_t end) {
     NodalBound bound;
     for (std::size_t i = begin; i < end; ++i) {
       const double now = stiffness_by_mass(nodes, i);
@@ -52,10 +49,14 @@ NodalBound nodal_bound(AssembledStep& assembled, const Nodes& nodes, ThreadTeam&
       if (estimate > 0)
         bound.growth = std::max(bound.growth, now - std::max(assembled.reference[i], estimate));
     }
-    assembled.largest_of_ranges[begin / nodes_per_range] = bound.largest;
-    assembled.growth_of_ranges[begin / nodes_per_range] = bound.growth;
+    return bound;
   });
-  return {std::ranges::max(assembled.largest_of_ranges), std::ranges::max(assembled.growth_of_ranges)};
+  NodalBound all;
+  for (const NodalBound& bound : assembled.bounds) {
+    all.largest = std::max(all.largest, bound.largest);
+    all.growth = std::max(all.growth, bound.growth);
+  }
+  return all;
 }
 
 bool is_due(const AssembledStep& assembled, const NodalBound& bound, std::int64_t step) {
@@ -66,7 +67,7 @@ bool is_due(const AssembledStep& assembled, const NodalBound& bound, std::int64_
 
 void estimate(AssembledStep& assembled, double damping, const NodalBound& nodal, std::int64_t step,
               SweepSchedule& schedule, std::span<Block> blocks, const Nodes& nodes, ThreadTeam& team) {
-  team.for_ranges(nodes.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
+  for_node_ranges(nodes, team, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) assembled.reference[i] = stiffness_by_mass(nodes, i);
   });
   const double known = assembled.frequency_squared + assembled.damping + nodal.growth;
@@ -89,8 +90,7 @@ AssembledStep make_assembled_step(const TimeSection& time, bool is_used, std::sp
                                   const Nodes& nodes, double length) {
   AssembledStep assembled;
   if (!is_used) return assembled;
-  assembled.largest_of_ranges.resize(range_count(nodes));
-  assembled.growth_of_ranges.resize(range_count(nodes));
+  assembled.bounds.resize(nodes.ranges.size());
   if (!is_estimated(time, blocks) || !(length > 0)) return assembled;
   assembled.reference.resize(nodes.size());
   assembled.vectors = make_lanczos_vectors(nodes, length);
@@ -114,7 +114,7 @@ double stable_step_of(double frequency_squared, double last) {
 double assembled_stable_step(AssembledStep& assembled, const ElementBounds& elements, double last,
                              std::int64_t step, SweepSchedule& schedule, std::span<Block> blocks,
                              const Nodes& nodes, ThreadTeam& team) {
-  if (assembled.largest_of_ranges.empty()) return elements.stable_step;
+  if (assembled.bounds.empty()) return elements.stable_step;
   const bool is_looked_at = assembled.gain >= worthwhile_gain || assembled.frequency_squared > 0 ||
                             step % looks_every == 0 || is_due(assembled, {}, step);
   if (!is_looked_at) return elements.stable_step;

@@ -30,6 +30,12 @@
 
 namespace brio {
 
+/// Of the nodes of a range.
+struct NodalBound {
+  double largest = 0;
+  double growth = 0;  ///< largest since the estimate, of what is above it
+};
+
 /// Squares of frequencies are 1/time^2; with damping they are of stiffnesses that count it at the last time
 /// step.
 struct AssembledStep {
@@ -37,9 +43,9 @@ struct AssembledStep {
   double frequency_squared = 0;  ///< estimate without damping; 0: none
   double damping = 0;            ///< what damping added at most when it was made
   std::int64_t estimated_at = 0, next_estimate = 100, interval = 0;  ///< steps
-  std::vector<double> reference;  ///< stiffness over mass of each node when it was made
-  std::vector<double> largest_of_ranges, growth_of_ranges;  ///< scratch
-  LanczosVectors vectors;                                   ///< empty: no estimates
+  std::vector<double> reference;   ///< stiffness over mass of each node when it was made
+  std::vector<NodalBound> bounds;  ///< scratch, one a range of nodes
+  LanczosVectors vectors;          ///< empty: no estimates
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "io/run/deal_domains.hpp"
 #include "io/run/run_deck.hpp"
-#include "src/domains/domain_exchange.hpp"
 #include "tests/core/domains/thread_ranks.hpp"
 #include "tests/core/state/shipped_decks.hpp"
 
@@ -15,13 +15,11 @@ constexpr std::size_t small_domain = 48;  // elements: coarse scenes have severa
 
 std::string state_after(const Deck& deck, int steps, Ranks* ranks, int threads) {
   Model model = build_scene(deck);
-  model.schedule = make_schedule(model.blocks, model.nodes.size(), small_domain);
-  model.sweep_results.resize(model.schedule.tasks.size());
-  if (ranks != nullptr)
-    model.schedule.exchange = std::make_shared<DomainExchange>(*ranks, model.schedule, model.blocks);
+  cut_domains(model, small_domain);
+  if (ranks != nullptr) deal_domains(model, *ranks);
   ThreadTeam team(threads);
   make_steps(model, steps, deck.numerics.energy_error_limit, team);
-  if (ranks != nullptr) model.schedule.exchange->exchange_elements(model.schedule, model.blocks);
+  exchange_state(model);
   return state_of(model);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/yaml/deck_error.hpp"
+#include "src/base/index.hpp"
 
 #ifdef BRIO_MPI
 #include <mpi.h>
@@ -29,8 +30,13 @@ class MpiRanks : public Ranks {
  public:
   explicit MpiRanks(MPI_Comm all) : Ranks(number_in(all), count_in(all)), all_(all) {}
 
+ protected:
   void gather(std::span<std::byte> all, std::span<const std::size_t> first) override {
-    if (all.size() > INT_MAX) return gather_in_pieces(all, first);
+    if (all.size() > INT_MAX) {
+      for (int rank = 0; rank < count(); ++rank)
+        pass_on(rank, all.subspan(first[index(rank)], first[index(rank) + 1] - first[index(rank)]), true);
+      return;
+    }
     counts_.clear();
     starts_.clear();
     for (std::size_t rank = 0; rank + 1 < first.size(); ++rank) {
@@ -41,7 +47,32 @@ class MpiRanks : public Ranks {
                    all_);
   }
 
-  int largest(int value) override {
+  void send_and_receive(std::span<const Message> messages) override {
+    open_.clear();
+    for (const Message& one : messages)
+      in_pieces(one.in.size(), [&](std::size_t at, int size) {
+        MPI_Irecv(one.in.data() + at, size, MPI_BYTE, one.rank, 0, all_, &open_.emplace_back());
+      });
+    for (const Message& one : messages)
+      in_pieces(one.out.size(), [&](std::size_t at, int size) {
+        MPI_Isend(one.out.data() + at, size, MPI_BYTE, one.rank, 0, all_, &open_.emplace_back());
+      });
+    MPI_Waitall(static_cast<int>(open_.size()), open_.data(), MPI_STATUSES_IGNORE);
+  }
+
+  void pass_on(int from, std::span<std::byte> data, bool to_all) override {
+    if (!to_all && (from == 0 || (number() != 0 && number() != from))) return;
+    in_pieces(data.size(), [&](std::size_t at, int size) {
+      if (to_all)
+        MPI_Bcast(data.data() + at, size, MPI_BYTE, from, all_);
+      else if (number() == 0)
+        MPI_Recv(data.data() + at, size, MPI_BYTE, from, 0, all_, MPI_STATUS_IGNORE);
+      else
+        MPI_Send(data.data() + at, size, MPI_BYTE, 0, 0, all_);
+    });
+  }
+
+  int largest_of_all(int value) override {
     int result = value;
     MPI_Allreduce(&value, &result, 1, MPI_INT, MPI_MAX, all_);
     return result;
@@ -60,16 +91,15 @@ class MpiRanks : public Ranks {
   }
 
   // Counts of MPI are of type int.
-  void gather_in_pieces(std::span<std::byte> all, std::span<const std::size_t> first) {
-    constexpr std::size_t piece = std::size_t{1} << 30;
-    for (std::size_t rank = 0; rank + 1 < first.size(); ++rank)
-      for (std::size_t at = first[rank]; at < first[rank + 1]; at += piece)
-        MPI_Bcast(all.data() + at, static_cast<int>(std::min(piece, first[rank + 1] - at)), MPI_BYTE,
-                  static_cast<int>(rank), all_);
+  template <class Piece>
+  static void in_pieces(std::size_t size, const Piece& piece) {
+    constexpr std::size_t most = std::size_t{1} << 30;
+    for (std::size_t at = 0; at < size; at += most) piece(at, static_cast<int>(std::min(most, size - at)));
   }
 
   MPI_Comm all_;
   std::vector<int> counts_, starts_;
+  std::vector<MPI_Request> open_;
 };
 
 std::unique_ptr<MpiRanks> joined;

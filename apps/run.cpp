@@ -89,6 +89,16 @@ std::string outcome_text(const RunOutcome& outcome) {
                             outcome.vtkhdf.string(), outcome.xdmf.string());
 }
 
+// Of this rank, a step.
+std::string traffic_text(const Ranks& ranks, std::int64_t steps) {
+  std::string text = fmt::format("sent by the first of {} ranks:", ranks.count());
+  for (std::size_t kind = 0; kind < Ranks::kinds.size(); ++kind) {
+    const Ranks::Traffic& sent = ranks.traffic(static_cast<Ranks::Kind>(kind));
+    text += fmt::format(" {} {} bytes in {} exchanges", Ranks::kinds[kind], sent.bytes, sent.exchanges);
+  }
+  return text + fmt::format(", in {} steps\n", steps);
+}
+
 /// To standard error and to the log.
 void tell(RunLog& log, const std::string& text) {
   write_error_text(text);
@@ -135,7 +145,9 @@ int run(RunArguments& arguments) {
   const RunOutcome outcome = run_with_log(arguments.options, log, arguments.quiet);
   if (!outcome.message.empty()) tell(log, "\nbrio: " + outcome.message + "\n");
   for (const std::string& warning : outcome.summary.warnings) tell(log, "brio: warning: " + warning + "\n");
-  const std::string text = outcome_text(outcome);
+  std::string text = outcome_text(outcome);
+  if (arguments.options.ranks != nullptr)
+    text += traffic_text(*arguments.options.ranks, outcome.summary.steps);
   log.add(text);
   if (!arguments.quiet && !arguments.json) write_out_text(text);
   if (arguments.json) {

@@ -79,16 +79,21 @@ void deal_domains(Model& model, Ranks& ranks) {
   model.schedule.exchange = std::move(exchange);
 }
 
-void exchange_state(Model& model) {
+bool is_on_any_rank(bool here, const Model& model) {
+  DomainExchange* exchange = model.schedule.exchange.get();
+  return exchange == nullptr ? here : exchange->ranks().largest(here ? 1 : 0) != 0;
+}
+
+void exchange_state(Model& model, bool to_all) {
   DomainExchange* exchange = model.schedule.exchange.get();
   if (exchange == nullptr) return;
-  exchange->exchange_elements(model.schedule, model.blocks);
+  exchange->exchange_elements(model.schedule, model.blocks, to_all);
   exchange_nodes(model.nodes);
   if (model.nodes.ranks == nullptr || model.assembled_step.reference.empty()) return;
   for (const NodeRange& range : model.nodes.ranges)
     model.nodes.ranks->note(range.rank, &model.assembled_step.reference[range.begin],
                             range.end - range.begin);
-  model.nodes.ranks->share();
+  model.nodes.ranks->share(Ranks::Kind::state);
 }
 
 }  // namespace brio

@@ -11,7 +11,10 @@ namespace brio {
 /// outlive the model
 void deal_domains(Model& model, Ranks& ranks);
 
-/// State of nodes and elements on all ranks, for what is written. Nothing to do alone.
-void exchange_state(Model& model);
+/// State of nodes, and of elements to all ranks or to the first, which writes. Nothing to do alone.
+void exchange_state(Model& model, bool to_all = false);
+
+/// Whether something is so on any rank.
+bool is_on_any_rank(bool here, const Model& model);
 
 }  // namespace brio

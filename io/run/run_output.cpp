@@ -97,8 +97,13 @@ void RunOutput::write(bool row, std::optional<double> fields, ThreadTeam& team) 
     finish_writing(1);
     if (!writing_.have_ended() && last_written_ != nullptr && last_written_ == state_) observer_.turn();
     state_ = nullptr;  // one before is filled anew
-    const Snapshot& state = observer_.observe(model_, fields.value_or(model_.times.time), team);
-    if (const std::string fault = what_results_cannot_hold(state); !fault.empty())
+    // Of several processes the one that writes looks at the fields, and all end where it finds a fault.
+    static const Snapshot not_looked_at;
+    const Snapshot& state = writer_.writes()
+                                ? observer_.observe(model_, fields.value_or(model_.times.time), team)
+                                : not_looked_at;
+    const std::string fault = writer_.writes() ? what_results_cannot_hold(state) : "";
+    if (is_on_any_rank(!fault.empty(), model_))
       throw Breakdown(fault + " at time " + written(model_.times.time) +
                       " is too large for the results or not a number; check units and velocities of the "
                       "deck, else try a smaller time.step_scale");

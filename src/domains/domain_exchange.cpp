@@ -31,48 +31,54 @@ std::vector<int> deal(const SweepSchedule& schedule, std::span<const Block> bloc
   return rank;
 }
 
-// Whether nodes are of domains of several ranks.
-std::vector<char> are_between_ranks(const std::vector<std::vector<int>>& nodes_of_domain,
-                                    std::span<const int> rank_of_domain, int ranks) {
-  std::size_t count = 0;
-  for (const std::vector<int>& nodes : nodes_of_domain)
-    if (!nodes.empty()) count = std::max(count, index(nodes.back()) + 1);
-  std::vector<int> seen(count, ranks);  // rank that was seen first
-  std::vector<char> between(count, 0);
-  for (std::size_t d = 0; d < nodes_of_domain.size(); ++d)
-    for (const int node : nodes_of_domain[d]) {
-      int& first = seen[index(node)];
-      if (first == ranks) first = rank_of_domain[d];
-      if (first != rank_of_domain[d]) between[index(node)] = 1;
-    }
-  return between;
-}
-
 }  // namespace
 
 DomainExchange::DomainExchange(Ranks& ranks, const SweepSchedule& schedule, std::span<const Block> blocks,
                                const std::vector<int>* wanted)
-    : ranks_(ranks), rank_of_domain_(deal(schedule, blocks, ranks.count())) {
+    : ranks_(ranks),
+      rank_of_domain_(deal(schedule, blocks, ranks.count())),
+      out_(index(ranks.count())),
+      in_(index(ranks.count())) {
   const std::vector<std::vector<int>> nodes = nodes_of_domains(schedule.pieces, blocks);
-  const std::vector<char> between = are_between_ranks(nodes, rank_of_domain_, ranks.count());
-  const auto is_sent = [&](int node) {
-    return wanted == nullptr || between[index(node)] != 0 || std::ranges::binary_search(*wanted, node);
-  };
   const DomainSums& sums = schedule.sums;
-  for (int rank = 0; rank < ranks.count(); ++rank) {
-    entry_first_.push_back(entries_.size());
-    for (std::size_t d = 0; d < nodes.size(); ++d) {
-      if (rank_of_domain_[d] != rank) continue;
-      for (const int node : nodes[d])
-        if (is_sent(node) && !std::ranges::binary_search(sums.node, node)) entries_.push_back(node);
-      for (std::size_t s = sums.domain_first[d]; s < sums.domain_first[d + 1]; ++s)
-        if (is_sent(sums.slots[s].node)) entries_.push_back(-1 - sums.slots[s].number);
-    }
-  }
-  entry_first_.push_back(entries_.size());
   const bool turning =
       std::ranges::any_of(blocks, [](const Block& block) { return has_rotations(block.element); });
-  rows_ = AlignedBuffer<NodeVector>(entries_.size() * (turning ? 2 : 1));
+  // Of the domains of a rank what another follows.
+  const auto list = [&](int from, int to, std::vector<int>& entries) {
+    std::vector<int> followed = wanted != nullptr ? *wanted : std::vector<int>();
+    for (std::size_t d = 0; d < nodes.size(); ++d)
+      if (wanted != nullptr && rank_of_domain_[d] == to)
+        followed.insert(followed.end(), nodes[d].begin(), nodes[d].end());
+    std::ranges::sort(followed);
+    const auto follows = [&](int node) {
+      return wanted == nullptr || std::ranges::binary_search(followed, node);
+    };
+    for (std::size_t d = 0; d < nodes.size(); ++d) {
+      if (rank_of_domain_[d] != from) continue;
+      for (const int node : nodes[d])
+        if (follows(node) && !std::ranges::binary_search(sums.node, node)) entries.push_back(node);
+      for (std::size_t s = sums.domain_first[d]; s < sums.domain_first[d + 1]; ++s)
+        if (follows(sums.slots[s].node)) entries.push_back(-1 - sums.slots[s].number);
+    }
+  };
+  for (std::size_t d = 0; d < nodes.size(); ++d)
+    for (std::size_t s = sums.domain_first[d]; s < sums.domain_first[d + 1]; ++s)
+      if (sums.slots[s].number == sums.slots[s].first && !is_own(d))
+        begun_elsewhere_.push_back(sums.slots[s].node);
+  for (int other = 0; other < ranks.count(); ++other) {
+    if (other == ranks.number()) continue;
+    list(ranks.number(), other, out_[index(other)].entry);
+    list(other, ranks.number(), in_[index(other)].entry);
+    for (Entries* entries : {&out_[index(other)], &in_[index(other)]})
+      entries->rows = AlignedBuffer<NodeVector>(entries->entry.size() * (turning ? 2 : 1));
+  }
+}
+
+void DomainExchange::begin_rows(const NodalRows& rows) const {
+  for (const int node : begun_elsewhere_) {
+    rows.linear[node] = {};
+    if (rows.angular != nullptr) rows.angular[node] = {};
+  }
 }
 
 void DomainExchange::exchange_rows(DomainSums& sums, const NodalRows& rows) {
@@ -83,23 +89,24 @@ void DomainExchange::exchange_rows(DomainSums& sums, const NodalRows& rows) {
   const auto angular = [&](int entry) -> NodeVector& {
     return entry < 0 ? sums.angular[index(-1 - entry)] : rows.angular[entry];
   };
-  first_.clear();
-  for (const std::size_t entry : entry_first_) first_.push_back(entry * width * sizeof(NodeVector));
-  const std::size_t own = entry_first_[index(ranks_.number())];
-  const std::size_t end = entry_first_[index(ranks_.number()) + 1];
-  for (std::size_t k = own; k < end; ++k) {
-    rows_[k * width] = linear(entries_[k]);
-    if (width == 2) rows_[k * width + 1] = angular(entries_[k]);
-  }
-  ranks_.gather(std::as_writable_bytes(std::span(rows_.data(), entries_.size() * width)), first_);
-  const auto take = [&](std::size_t from, std::size_t to) {
-    for (std::size_t k = from; k < to; ++k) {
-      linear(entries_[k]) = rows_[k * width];
-      if (width == 2) angular(entries_[k]) = rows_[k * width + 1];
+  messages_.clear();
+  for (std::size_t rank = 0; rank < out_.size(); ++rank) {
+    Entries &out = out_[rank], &in = in_[rank];
+    for (std::size_t k = 0; k < out.entry.size(); ++k) {
+      out.rows[k * width] = linear(out.entry[k]);
+      if (width == 2) out.rows[k * width + 1] = angular(out.entry[k]);
     }
-  };
-  take(0, own);
-  take(end, entries_.size());
+    if (!out.entry.empty() || !in.entry.empty())
+      messages_.push_back({static_cast<int>(rank),
+                           std::as_bytes(std::span(out.rows.data(), out.entry.size() * width)),
+                           std::as_writable_bytes(std::span(in.rows.data(), in.entry.size() * width))});
+  }
+  ranks_.swap(Ranks::Kind::rows, messages_);
+  for (const Entries& in : in_)
+    for (std::size_t k = 0; k < in.entry.size(); ++k) {
+      linear(in.entry[k]) = in.rows[k * width];
+      if (width == 2) angular(in.entry[k]) = in.rows[k * width + 1];
+    }
 }
 
 void DomainExchange::note_packs(int rank, Block& block, std::size_t first, std::size_t last) {
@@ -124,7 +131,7 @@ void DomainExchange::share_listed(const SweepSchedule& schedule, std::span<const
     ranks_.note(rank, places.data(), places.size());
   });
   if (!ranks_.has_noted()) return;
-  ranks_.share();
+  ranks_.share(Ranks::Kind::results);
   for_each([&](int rank, Block& block, std::span<int> places) {
     for (const int place : places) {
       const std::size_t pack = index(place) / index(block.lanes);
@@ -132,22 +139,33 @@ void DomainExchange::share_listed(const SweepSchedule& schedule, std::span<const
       if (!block.mass_gain.empty()) ranks_.note(rank, &block.mass_gain[index(place)], 1);
     }
   });
-  ranks_.share();
+  ranks_.share(Ranks::Kind::results);
 }
 
 void DomainExchange::exchange_results(const SweepSchedule& schedule, std::span<SweepResult> results,
                                       std::span<Block> blocks) {
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t)
     ranks_.note(rank_of(schedule, schedule.tasks[t]), &results[t], 1);
-  ranks_.share();
+  ranks_.share(Ranks::Kind::results);
   share_listed(schedule, results, blocks, &SweepResult::lost, &Block::lost);
   share_listed(schedule, results, blocks, &SweepResult::scaled, &Block::scaled);
 }
 
-void DomainExchange::exchange_elements(const SweepSchedule& schedule, std::span<Block> blocks) {
-  for (const DomainPiece& piece : schedule.pieces)
-    note_packs(rank_of_domain_[piece.domain], blocks[piece.block], piece.first_pack, piece.last_pack);
-  ranks_.share();
+void DomainExchange::exchange_elements(const SweepSchedule& schedule, std::span<Block> blocks, bool to_all) {
+  for (const DomainPiece& piece : schedule.pieces) {
+    const int rank = rank_of_domain_[piece.domain];
+    if (rank == Ranks::everyone) continue;
+    Block& block = blocks[piece.block];
+    const std::size_t packs = piece.last_pack - piece.first_pack, held = 2 * index(block.lanes);
+    ranks_.hand_over(Ranks::Kind::state, rank,
+                     {block.state.data() + piece.first_pack * block.pack_bytes, packs * block.pack_bytes},
+                     to_all);
+    if (block.loses_elements)
+      ranks_.hand_over(
+          Ranks::Kind::state, rank,
+          std::as_writable_bytes(std::span(block.held.data() + piece.first_pack * held, packs * held)),
+          to_all);
+  }
 }
 
 }  // namespace brio

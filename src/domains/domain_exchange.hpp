@@ -20,16 +20,17 @@ class DomainExchange {
 
   bool is_own(std::size_t domain) const { return ranks_.is_own(rank_of_domain_[domain]); }
   int rank_of(std::size_t domain) const { return rank_of_domain_[domain]; }
+  Ranks& ranks() { return ranks_; }
 
+  /// Before the sweep: what stands on a node is of the rank that sweeps its first domain.
+  void begin_rows(const NodalRows& rows) const;
   /// After all own domains: rows of followed nodes inside of others' domains, and partial sums on borders.
   void exchange_rows(DomainSums& sums, const NodalRows& rows);
   /// After the sweep: what it found, with the elements that are deleted or get mass.
   void exchange_results(const SweepSchedule& schedule, std::span<SweepResult> results,
                         std::span<Block> blocks);
-  /// The state of all elements, where others than the sweep read it.
-  void exchange_elements(const SweepSchedule& schedule, std::span<Block> blocks);
-  /// Bytes that the rows of a sweep take.
-  std::size_t bytes_of_rows() const { return rows_.size() * sizeof(NodeVector); }
+  /// The state of all elements, where others than the sweep read it. \param to_all ranks, or to the first
+  void exchange_elements(const SweepSchedule& schedule, std::span<Block> blocks, bool to_all);
 
  private:
   void note_packs(int rank, Block& block, std::size_t first, std::size_t last);
@@ -40,12 +41,17 @@ class DomainExchange {
     return rank_of_domain_[schedule.pieces[task.piece].domain];
   }
 
+  /// Rows that this rank sends to another, or gets from it.
+  struct Entries {
+    std::vector<int> entry;  ///< nodes, and slots as -1 - slot
+    AlignedBuffer<NodeVector> rows;
+  };
+
   Ranks& ranks_;
   std::vector<int> rank_of_domain_;
-  std::vector<int> entries_;              ///< by rank: nodes, and slots as -1 - slot
-  std::vector<std::size_t> entry_first_;  ///< of each rank
-  AlignedBuffer<NodeVector> rows_;
-  std::vector<std::size_t> first_;  ///< byte of each rank in `rows_`
+  std::vector<int> begun_elsewhere_;  ///< nodes on borders whose first domain is of another rank
+  std::vector<Entries> out_, in_;     ///< by rank
+  std::vector<Ranks::Message> messages_;
 };
 
 }  // namespace brio

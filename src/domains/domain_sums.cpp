@@ -16,13 +16,13 @@ void move_row(NodeVector& from, NodeVector& to) {
   store_row(from.component, Row4{});
 }
 
-void add_slots(const NodeVector* first, const NodeVector* end, NodeVector& row) {
+/// \param last partial sum
+void add_slots(const NodeVector* first, const NodeVector* end, NodeVector& last) {
   Row4 sum = load_row(first->component);
   for (const NodeVector* slot = first + 1; slot != end; ++slot) sum = sum + load_row(slot->component);
-  store_row(row.component, sum);
+  store_row(last.component, sum + load_row(last.component));
 }
 
-// The domain that was seen last at each node, and how many were.
 std::vector<int> domains_of_nodes(std::span<const std::vector<int>> nodes_of_domain) {
   std::size_t count = 0;
   for (const std::vector<int>& nodes : nodes_of_domain)
@@ -35,23 +35,31 @@ std::vector<int> domains_of_nodes(std::span<const std::vector<int>> nodes_of_dom
 
 }  // namespace
 
-DomainSums make_domain_sums(std::span<const std::vector<int>> nodes_of_domain, bool with_rotations) {
+DomainSums make_domain_sums(std::span<const std::vector<int>> nodes_of_domain,
+                            std::span<const std::size_t> order, bool with_rotations) {
   DomainSums sums;
   const std::vector<int> domains = domains_of_nodes(nodes_of_domain);
-  std::vector<int> next(domains.size(), -1);  // slot of each node on a border
+  std::vector<int> first(domains.size(), -1), next(domains.size());  // slots of each node on a border
   int slots = 0;
   for (std::size_t n = 0; n < domains.size(); ++n) {
     if (domains[n] < 2) continue;
     sums.node.push_back(static_cast<int>(n));
     sums.first_slot.push_back(slots);
-    next[n] = slots + 1;
-    slots += 1 + domains[n];
+    first[n] = next[n] = slots;
+    slots += domains[n];
   }
   sums.first_slot.push_back(slots);
-  for (const std::vector<int>& nodes : nodes_of_domain) {
+  std::vector<std::vector<DomainSums::Slot>> of_domain(nodes_of_domain.size());
+  for (const std::size_t d : order)
+    for (const int entry : nodes_of_domain[d]) {
+      const std::size_t n = index(entry);
+      if (first[n] < 0) continue;
+      const int slot = next[n]++;
+      of_domain[d].push_back({entry, slot, first[n], next[n] == first[n] + domains[n]});
+    }
+  for (const std::vector<DomainSums::Slot>& own : of_domain) {
     sums.domain_first.push_back(sums.slots.size());
-    for (const int n : nodes)
-      if (next[index(n)] >= 0) sums.slots.push_back({n, next[index(n)]++});
+    sums.slots.insert(sums.slots.end(), own.begin(), own.end());
   }
   sums.domain_first.push_back(sums.slots.size());
   sums.linear = AlignedBuffer<NodeVector>(index(slots));
@@ -59,34 +67,39 @@ DomainSums make_domain_sums(std::span<const std::vector<int>> nodes_of_domain, b
   return sums;
 }
 
-void begin_sums(DomainSums& sums, const NodalRows& rows, ThreadTeam& team) {
-  team.for_ranges(sums.node.size(), border_nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t node = index(sums.node[k]), slot = index(sums.first_slot[k]);
-      move_row(rows.linear[node], sums.linear[slot]);
-      if (rows.angular != nullptr) move_row(rows.angular[node], sums.angular[slot]);
-    }
-  });
+void add_sums(DomainSums& sums, std::size_t domain, const NodalRows& rows) {
+  const auto add = [](const DomainSums::Slot& slot, AlignedBuffer<NodeVector>& kept, NodeVector& row) {
+    if (slot.is_last)
+      add_slots(&kept[index(slot.first)], &kept[index(slot.number)], row);
+    else
+      move_row(row, kept[index(slot.number)]);
+  };
+  for (std::size_t k = sums.domain_first[domain]; k < sums.domain_first[domain + 1]; ++k) {
+    const DomainSums::Slot& slot = sums.slots[k];
+    add(slot, sums.linear, rows.linear[slot.node]);
+    if (rows.angular != nullptr) add(slot, sums.angular, rows.angular[slot.node]);
+  }
 }
 
 void keep_sums(DomainSums& sums, std::size_t domain, const NodalRows& rows) {
-  if (sums.empty()) return;
-  const std::size_t end = sums.domain_first[domain + 1];
-  for (std::size_t k = sums.domain_first[domain]; k < end; ++k) {
-    const std::size_t node = index(sums.slots[k].node), slot = index(sums.slots[k].number);
-    move_row(rows.linear[node], sums.linear[slot]);
-    if (rows.angular != nullptr) move_row(rows.angular[node], sums.angular[slot]);
+  for (std::size_t k = sums.domain_first[domain]; k < sums.domain_first[domain + 1]; ++k) {
+    const DomainSums::Slot& slot = sums.slots[k];
+    move_row(rows.linear[slot.node], sums.linear[index(slot.number)]);
+    if (rows.angular != nullptr) move_row(rows.angular[slot.node], sums.angular[index(slot.number)]);
   }
 }
 
 void finish_sums(const DomainSums& sums, const NodalRows& rows, ThreadTeam& team) {
+  const auto finish = [](const AlignedBuffer<NodeVector>& kept, std::size_t first, std::size_t last,
+                         NodeVector& row) {
+    row = kept[last];
+    add_slots(&kept[first], &kept[last], row);
+  };
   team.for_ranges(sums.node.size(), border_nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t node = index(sums.node[k]);
-      const std::size_t first = index(sums.first_slot[k]), last = index(sums.first_slot[k + 1]);
-      add_slots(&sums.linear[first], sums.linear.data() + last, rows.linear[node]);
-      if (rows.angular != nullptr)
-        add_slots(&sums.angular[first], sums.angular.data() + last, rows.angular[node]);
+      const std::size_t first = index(sums.first_slot[k]), last = index(sums.first_slot[k + 1]) - 1;
+      finish(sums.linear, first, last, rows.linear[sums.node[k]]);
+      if (rows.angular != nullptr) finish(sums.angular, first, last, rows.angular[sums.node[k]]);
     }
   });
 }

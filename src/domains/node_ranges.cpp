@@ -15,7 +15,7 @@ void exchange_nodes(Nodes& nodes) {
                                             &nodes.velocity_before, &nodes.angular_velocity_before})
       if (!rows->empty()) nodes.ranks->note(range.rank, &(*rows)[range.begin], count);
   }
-  nodes.ranks->share();
+  nodes.ranks->share(Ranks::Kind::state);
 }
 
 std::vector<NodeRange> cut_ranges(std::size_t node_count, std::span<const std::vector<int>> nodes_of_domain) {

@@ -38,7 +38,7 @@ void sum_node_ranges(const Nodes& nodes, std::vector<Sum>& sums, ThreadTeam& tea
   });
   if (nodes.ranks == nullptr) return;
   for (std::size_t k = 0; k < ranges; ++k) nodes.ranks->note(nodes.ranges[k].rank, &sums[k], 1);
-  nodes.ranks->share();
+  nodes.ranks->share(Ranks::Kind::sums);
 }
 
 /// Motion and forces of all nodes, where they are read beyond those that a rank knows.

@@ -1,10 +1,15 @@
 #pragma once
 /// Processes that compute one scene together. Each holds the whole model and sweeps its share of the domains.
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <vector>
+
+#include "src/base/index.hpp"
 
 namespace brio {
 
@@ -22,11 +27,27 @@ class Ranks {
   int count() const { return count_; }
   bool is_own(int rank) const { return rank == number_ || rank == everyone; }
 
-  /// Every rank has filled its own part of an array and gets those of all others. \param first byte of each
-  /// rank's part, and the size of the array at the end
-  virtual void gather(std::span<std::byte> all, std::span<const std::size_t> first) = 0;
+  /// What ranks tell each other: rows of nodes, results of chunks, sums over nodes, state that is written,
+  /// whether the run goes on.
+  enum class Kind { rows, results, sums, state, agreement };
+  static constexpr std::array<std::string_view, 5> kinds{"rows", "results", "sums", "state", "agreement"};
+  /// What this rank has sent.
+  struct Traffic {
+    std::int64_t exchanges = 0, bytes = 0;
+  };
+  const Traffic& traffic(Kind kind) const { return traffic_[index(kind)]; }
+
+  /// Messages between pairs of ranks, all at once.
+  struct Message {
+    int rank;  ///< the other one
+    std::span<const std::byte> out;
+    std::span<std::byte> in;
+  };
+  void swap(Kind kind, std::span<const Message> messages);
+  /// Numbers that rank `from` has, to the first rank or to all.
+  void hand_over(Kind kind, int from, std::span<std::byte> data, bool to_all);
   /// The largest value of all ranks.
-  virtual int largest(int value) = 0;
+  int largest(int value);
 
   /// Note numbers that `rank` has and all others get by the next `share`; all ranks note the same.
   template <class T>
@@ -36,7 +57,15 @@ class Ranks {
       noted_.push_back({rank, reinterpret_cast<std::byte*>(data), count * sizeof(T)});
   }
   bool has_noted() const { return !noted_.empty(); }
-  void share();
+  void share(Kind kind);
+
+ protected:
+  /// Every rank has filled its own part of an array and gets those of all others. \param first byte of each
+  /// rank's part, and the size of the array at the end
+  virtual void gather(std::span<std::byte> all, std::span<const std::size_t> first) = 0;
+  virtual void send_and_receive(std::span<const Message> messages) = 0;
+  virtual void pass_on(int from, std::span<std::byte> data, bool to_all) = 0;
+  virtual int largest_of_all(int value) = 0;
 
  private:
   struct Noted {
@@ -45,7 +74,13 @@ class Ranks {
     std::size_t bytes;
   };
 
+  void count_sent(Kind kind, std::size_t bytes) {
+    ++traffic_[index(kind)].exchanges;
+    traffic_[index(kind)].bytes += static_cast<std::int64_t>(bytes);
+  }
+
   int number_, count_;
+  std::array<Traffic, kinds.size()> traffic_{};
   std::vector<Noted> noted_;
   std::vector<std::byte> bytes_;
   std::vector<std::size_t> first_, next_;  ///< of each rank

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 
 #include "src/base/index.hpp"
@@ -102,6 +103,10 @@ std::span<const int> nodes_of_packs(const Block& block, std::size_t first, std::
   return {block.connectivity.data() + first * entries, (last - first) * entries};
 }
 
+std::span<const int> nodes_of_piece(const DomainPiece& piece, std::span<const Block> blocks) {
+  return nodes_of_packs(blocks[piece.block], piece.first_pack, piece.last_pack);
+}
+
 // Greedy: the first colour that no node has seen. A 64-bit set of colours a node is ample for slabs; what
 // finds none free gets a colour of its own.
 std::size_t free_colour(std::uint64_t taken, std::size_t colours) {
@@ -131,7 +136,7 @@ void sort_by_stage(const std::vector<std::vector<int>>& nodes_of_domain, std::sp
   schedule.stage_domain_first.push_back(schedule.domain_of_stage.size());
   const bool turning =
       std::ranges::any_of(blocks, [](const Block& block) { return has_rotations(block.element); });
-  schedule.sums = make_domain_sums(nodes_of_domain, turning);
+  schedule.sums = make_domain_sums(nodes_of_domain, schedule.domain_of_stage, turning);
 }
 
 std::vector<SweepTask> tasks_of(std::span<const DomainPiece> pieces, std::span<const Block> blocks) {
@@ -215,14 +220,21 @@ std::vector<int> locality_order(std::span<const std::array<double, 3>> position,
 std::vector<std::vector<int>> nodes_of_domains(std::span<const DomainPiece> pieces,
                                                std::span<const Block> blocks) {
   std::vector<std::vector<int>> nodes(pieces.empty() ? 0 : pieces.back().domain + 1);
-  for (const DomainPiece& piece : pieces) {
-    const auto own = nodes_of_packs(blocks[piece.block], piece.first_pack, piece.last_pack);
-    std::vector<int>& list = nodes[piece.domain];
-    list.insert(list.end(), own.begin(), own.end());
-  }
-  for (std::vector<int>& list : nodes) {
-    std::ranges::sort(list);
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+  std::vector<char> is_seen;  // from the least node of the domain on
+  for (std::size_t p = 0; p < pieces.size();) {
+    const std::size_t domain = pieces[p].domain;
+    std::size_t end = p;
+    int least = std::numeric_limits<int>::max(), largest = 0;
+    for (; end < pieces.size() && pieces[end].domain == domain; ++end)
+      for (const int node : nodes_of_piece(pieces[end], blocks)) {
+        least = std::min(least, node);
+        largest = std::max(largest, node);
+      }
+    is_seen.assign(index(largest - least) + 1, 0);
+    for (; p < end; ++p)
+      for (const int node : nodes_of_piece(pieces[p], blocks)) is_seen[index(node - least)] = 1;
+    for (std::size_t i = 0; i < is_seen.size(); ++i)
+      if (is_seen[i] != 0) nodes[domain].push_back(least + static_cast<int>(i));
   }
   return nodes;
 }

@@ -3,8 +3,8 @@
 /// side by side.
 ///
 /// A domain is a neighbourhood of elements that stays together for the whole run, chosen from the mesh alone.
-/// Of a node on a border of domains each domain forms a partial sum, and these are added in the order of
-/// domains (domain_sums.hpp): results depend neither on who sweeps a domain nor on when.
+/// Of a node on a border of domains each domain forms a partial sum, and these are added in the order in
+/// which they are swept (domain_sums.hpp): results depend neither on who sweeps a domain nor on when.
 
 #include <array>
 #include <cstddef>
@@ -36,7 +36,7 @@ struct SweepTask {
 };
 
 /// Tasks sorted by stage and colour: no two domains of a stage and no two tasks of a colour share a node, so
-/// tasks of a colour may scatter at the same time, and a node's sum is formed in the order of domains, within
+/// tasks of a colour may scatter at the same time, and a node's sum is formed in the order of stages, within
 /// a domain in the order of colours, whatever the number of threads.
 struct SweepSchedule {
   std::vector<SweepTask> tasks;

@@ -15,7 +15,7 @@ namespace brio {
 template <class OfTask>
 void sweep_domains(SweepSchedule& schedule, const NodalRows& rows, ThreadTeam& team, OfTask&& of_task) {
   DomainExchange* exchange = schedule.exchange.get();
-  if (!schedule.sums.empty()) begin_sums(schedule.sums, rows, team);
+  if (exchange != nullptr) exchange->begin_rows(rows);
   for (std::size_t stage = 0; stage + 1 < schedule.stage_first.size(); ++stage) {
     for (std::size_t c = schedule.stage_first[stage]; c < schedule.stage_first[stage + 1]; ++c) {
       const std::size_t first = schedule.colour_first[c];
@@ -27,10 +27,15 @@ void sweep_domains(SweepSchedule& schedule, const NodalRows& rows, ThreadTeam& t
     if (schedule.sums.empty()) continue;
     const std::size_t first = schedule.stage_domain_first[stage];
     team.for_each(schedule.stage_domain_first[stage + 1] - first, [&](std::size_t i) {
-      keep_sums(schedule.sums, schedule.domain_of_stage[first + i], rows);
+      const std::size_t domain = schedule.domain_of_stage[first + i];
+      if (exchange == nullptr)
+        add_sums(schedule.sums, domain, rows);
+      else if (exchange->is_own(domain))
+        keep_sums(schedule.sums, domain, rows);
     });
   }
-  if (exchange != nullptr) exchange->exchange_rows(schedule.sums, rows);
+  if (exchange == nullptr) return;
+  exchange->exchange_rows(schedule.sums, rows);
   if (!schedule.sums.empty()) finish_sums(schedule.sums, rows, team);
 }
 

@@ -19,7 +19,7 @@ std::string state_after(const Deck& deck, int steps, Ranks* ranks, int threads) 
   if (ranks != nullptr) deal_domains(model, *ranks);
   ThreadTeam team(threads);
   make_steps(model, steps, deck.numerics.energy_error_limit, team);
-  exchange_state(model);
+  exchange_state(model, true);
   return state_of(model);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 /// Ranks that are threads of the test: each computes a model of its own.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <barrier>
 #include <cstring>
@@ -17,13 +19,17 @@ namespace brio::test {
 /// What the ranks of one run share.
 class RankTable {
  public:
-  explicit RankTable(int count) : meet_(count), bytes_(index(count)), values_(index(count)) {}
+  explicit RankTable(int count)
+      : meet_(count), bytes_(index(count)), message_(index(count)), values_(index(count)) {
+    for (auto& from : message_) from.resize(index(count));
+  }
   int count() const { return static_cast<int>(values_.size()); }
 
  private:
   friend class ThreadRanks;
   std::barrier<> meet_;
   std::vector<std::span<std::byte>> bytes_;
+  std::vector<std::vector<std::span<const std::byte>>> message_;  ///< from each rank to each
   std::vector<int> values_;
 };
 
@@ -31,6 +37,7 @@ class ThreadRanks : public Ranks {
  public:
   ThreadRanks(RankTable& table, int number) : Ranks(number, table.count()), table_(table) {}
 
+ protected:
   void gather(std::span<std::byte> all, std::span<const std::size_t> first) override {
     table_.bytes_[index(number())] = all;
     table_.meet_.arrive_and_wait();
@@ -41,7 +48,26 @@ class ThreadRanks : public Ranks {
     table_.meet_.arrive_and_wait();
   }
 
-  int largest(int value) override {
+  void send_and_receive(std::span<const Message> messages) override {
+    for (const Message& one : messages) table_.message_[index(number())][index(one.rank)] = one.out;
+    table_.meet_.arrive_and_wait();
+    for (const Message& one : messages) {
+      const std::span<const std::byte> sent = table_.message_[index(one.rank)][index(number())];
+      ASSERT_EQ(sent.size(), one.in.size());
+      std::ranges::copy(sent, one.in.begin());
+    }
+    table_.meet_.arrive_and_wait();
+  }
+
+  void pass_on(int from, std::span<std::byte> data, bool to_all) override {
+    if (number() == from) table_.bytes_[index(from)] = data;
+    table_.meet_.arrive_and_wait();
+    if (number() != from && (to_all || number() == 0))
+      std::ranges::copy(table_.bytes_[index(from)], data.begin());
+    table_.meet_.arrive_and_wait();
+  }
+
+  int largest_of_all(int value) override {
     table_.values_[index(number())] = value;
     table_.meet_.arrive_and_wait();
     const int result = *std::ranges::max_element(table_.values_);

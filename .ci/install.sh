@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Installs what Brio needs to be built and tested on Debian 12, if it is missing. Needs root or sudo for that.
-# Usage: .ci/install.sh [build|test|study|gmsh|paraview|browser|tidy]...     (default: build)
+# Usage: .ci/install.sh [build|ranks|test|study|gmsh|paraview|browser|tidy]...     (default: build)
 set -euo pipefail
 
 build="g++ cmake ninja-build libeigen3-dev libhdf5-dev libnetcdf-dev libyaml-cpp-dev nlohmann-json3-dev libfmt-dev libcli11-dev libmuparser-dev"
 test="libgtest-dev libgmp-dev libboost-dev clang clang-format python3 python3-jsonschema python3-yaml python3-h5py locales-all"
+ranks="libopenmpi-dev openmpi-bin"
 study="gnuplot-nox"
 gmsh="gmsh"
 paraview="paraview python3-paraview python3-pil python3-yaml python3-h5py xvfb xauth"
@@ -15,13 +16,14 @@ packages=""
 for group in "${@:-build}"; do
   case "$group" in
     build) packages+=" $build" ;;
-    test) packages+=" $build $test $study" ;;
+    ranks) packages+=" $build $ranks" ;;
+    test) packages+=" $build $ranks $test $study" ;;
     study) packages+=" $study" ;;
     gmsh) packages+=" $gmsh" ;;
     paraview) packages+=" $paraview" ;;
     browser) packages+=" $browser" ;;
     tidy) packages+=" $build $tidy" ;;
-    *) echo "install.sh: unknown group '$group'; build, test, study, gmsh, paraview, browser and tidy are known" >&2; exit 2 ;;
+    *) echo "install.sh: unknown group '$group'; build, ranks, test, study, gmsh, paraview, browser and tidy are known" >&2; exit 2 ;;
   esac
 done
 

@@ -34,7 +34,7 @@ if [ "${1:-}" != --fast ]; then
 fi
 stage "build"
 build_begin=$SECONDS
-build release -DBRIO_TESTS=ON
+build release -DBRIO_TESTS=ON -DBRIO_MPI=ON
 build_seconds=$((SECONDS - build_begin))
 if [ "${1:-}" = --fast ]; then
   stage "fast tests"

@@ -65,6 +65,14 @@ std::uint64_t morton_code(const std::array<double, 3>& point, const CoordinateRa
 // What follows from elements beside them: their domain is swept as one.
 bool is_whole(const Block& block) { return block.cloud.has_value(); }
 
+// Powers of two: then every domain has as many chunks, and threads that share those of a colour as much to
+// do.
+std::size_t domain_count(const Block& block, std::size_t chunks, std::size_t least_elements) {
+  if (is_whole(block)) return 1;
+  const std::size_t most = std::min(chunks, domains_per_block);
+  return std::bit_floor(std::clamp<std::size_t>(block.element_count / least_elements, 1, most));
+}
+
 // A large block is several domains, in slabs like its chunks; small ones share a domain.
 std::vector<DomainPiece> cut_domains(std::span<const Block> blocks, std::size_t least_elements) {
   std::vector<DomainPiece> pieces;
@@ -78,10 +86,7 @@ std::vector<DomainPiece> cut_domains(std::span<const Block> blocks, std::size_t 
     const Block& block = blocks[b];
     if (block.element_count == 0) continue;
     const std::size_t chunks = std::min(chunk_count(block.element_count), block.pack_count);
-    const std::size_t domains = is_whole(block)
-                                    ? 1
-                                    : std::clamp<std::size_t>(block.element_count / least_elements, 1,
-                                                              std::min(chunks, domains_per_block));
+    const std::size_t domains = domain_count(block, chunks, least_elements);
     if (domains > 1 || gathered >= least_elements || is_whole(block)) close();
     for (std::size_t d = 0; d < domains; ++d) {
       const std::size_t first_chunk = chunks * d / domains, last_chunk = chunks * (d + 1) / domains;

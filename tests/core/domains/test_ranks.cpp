@@ -45,6 +45,51 @@ TEST_P(ShippedDeckRanks, HaveTheBitsOfOneProcess) {
 INSTANTIATE_TEST_SUITE_P(Inputs, ShippedDeckRanks, testing::ValuesIn(shipped_decks()),
                          [](const auto& deck) { return deck.param; });
 
+/// A bar that is fixed at one end, pulled at the other and pressed from the side.
+Deck pressed_bar() {
+  Deck deck;
+  deck.materials = {{"material", elastic(0.3)}};
+  deck.parts = {box("bar", {20, 2, 2}, {40, 4, 4}, {0, 0, 0}, hex8())};
+  deck.boundary_conditions = {fix("bar.xmin", {0, 1, 2})};
+  deck.initial_conditions = {moving("bar", {1, 2, 3})};
+  NodalForce pull;
+  pull.where.set = "bar.xmax";
+  pull.force = {100, 0, 0};
+  deck.loads = {pull, Pressure{"bar.ymax", Curve{{{0, 0}, {1, 1e6}}}}};
+  deck.time.end = 1;
+  return deck;
+}
+
+TEST(Ranks, KnowTheNodesOfTheirDomainsAloneWhereNothingElseIsNeeded) {
+  Model model = build_model(pressed_bar());
+  cut_domains(model, small_domain);
+  ASSERT_EQ(model.schedule.domain_count(), 8u);
+  std::vector<std::size_t> known(4, 0);
+  run_ranks(4, [&](Ranks& ranks) {
+    Model own = model;
+    deal_domains(own, ranks);
+    ASSERT_EQ(own.nodes.ranks, &ranks);
+    for (const NodeRange& range : own.nodes.ranges)
+      if (ranks.is_own(range.rank)) known[index(ranks.number())] += range.end - range.begin;
+    for (const NodeRange& run : own.nodes.followed) known[index(ranks.number())] += run.end - run.begin;
+  });
+  // A quarter of 41 layers of 25 nodes, the border, both ends and one side.
+  for (const std::size_t count : known) {
+    EXPECT_GE(count, 11u * 25u);
+    EXPECT_LE(count, 11u * 25u + 2u * 25u + 41u * 5u);
+  }
+  for (const int count : {2, 4, 7}) expect_bits_of_one(pressed_bar(), 300, count, 1);
+}
+
+// Elements that get mass are listed by the rank that sweeps them; all hand it out.
+TEST(Ranks, HaveTheBitsOfOneProcessWithMassScaling) {
+  Deck deck = pressed_bar();
+  deck.time.mass_scaling.emplace();
+  deck.time.mass_scaling->step = 5e-4;
+  deck.time.mass_scaling->largest_share = 10;
+  expect_bits_of_one(deck, 100, 3, 2);
+}
+
 // Deleted elements are listed by the rank that sweeps them and taken out by all.
 TEST(Ranks, HaveTheBitsOfOneProcessAmongDeletions) {
   expect_bits_of_one(coarse_deck("plate_perforation", 3), 350, 4, 1);

@@ -96,7 +96,7 @@ std::string traffic_text(const Ranks& ranks, std::int64_t steps) {
     const Ranks::Traffic& sent = ranks.traffic(static_cast<Ranks::Kind>(kind));
     text += fmt::format(" {} {} bytes in {} exchanges", Ranks::kinds[kind], sent.bytes, sent.exchanges);
   }
-  return text + fmt::format(", in {} steps\n", steps);
+  return text + fmt::format(", in {} steps; domains were dealt anew {} times\n", steps, ranks.moves());
 }
 
 /// To standard error and to the log.

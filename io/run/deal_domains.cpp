@@ -11,6 +11,12 @@ namespace brio {
 
 namespace {
 
+constexpr std::int64_t balanced_every = 200;  // steps
+/// Largest load of a rank over the mean of all, from which on domains are dealt anew.
+constexpr double largest_unbalance = 1.15;
+/// By so much it must become less.
+constexpr double worthwhile = 0.95;
+
 bool is_gravity(const ActiveLoad& load) { return std::holds_alternative<GravityLoad>(load.load); }
 
 // Whether a stage of the step goes through nodes wherever they are.
@@ -64,19 +70,33 @@ std::vector<NodeRange> followed_nodes(const Model& model, const DomainExchange& 
 
 }  // namespace
 
-void deal_domains(Model& model, Ranks& ranks) {
+void deal_domains(Model& model, Ranks& ranks, const std::vector<double>& cost) {
   const bool takes_all = takes_all_nodes(model);
   const std::vector<int> summed = takes_all ? std::vector<int>() : summed_nodes(model);
-  auto exchange =
-      std::make_shared<DomainExchange>(ranks, model.schedule, model.blocks, takes_all ? nullptr : &summed);
+  auto exchange = std::make_shared<DomainExchange>(ranks, model.schedule, model.blocks,
+                                                   takes_all ? nullptr : &summed, cost);
   if (!takes_all) {
     Nodes& nodes = model.nodes;
     for (NodeRange& range : nodes.ranges)
-      range.rank = range.domain < 0 ? Ranks::everyone : exchange->rank_of(index(range.domain));
+      range.rank = range.domain < 0 ? Ranks::everyone : exchange->rank_of_domain()[index(range.domain)];
     nodes.followed = followed_nodes(model, *exchange, ranks, summed);
     nodes.ranks = &ranks;
   }
   model.schedule.exchange = std::move(exchange);
+}
+
+void balance_load(Model& model) {
+  const std::shared_ptr<DomainExchange> old = model.schedule.exchange;
+  if (!old || model.step == 0 || model.step % balanced_every != 0) return;
+  const std::vector<double> cost = old->measured_costs(model.schedule);
+  const int ranks = old->ranks().count();
+  const double now = unbalance(old->rank_of_domain(), cost, ranks);
+  if (now < largest_unbalance) return;
+  const std::vector<int> anew = deal(model.schedule, model.blocks, ranks, cost);
+  if (!(unbalance(anew, cost, ranks) < worthwhile * now)) return;
+  exchange_state(model, true);
+  deal_domains(model, old->ranks(), cost);
+  old->ranks().count_move();
 }
 
 bool is_on_any_rank(bool here, const Model& model) {

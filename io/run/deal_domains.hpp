@@ -9,7 +9,12 @@ namespace brio {
 /// Deals the domains of a model to ranks, before its first step. Where nothing but elements, supports and
 /// loads acts on nodes, a rank goes on with the nodes of its domains alone; else with all. \param ranks
 /// outlive the model
-void deal_domains(Model& model, Ranks& ranks);
+/// \param cost of each domain; empty: by its elements
+void deal_domains(Model& model, Ranks& ranks, const std::vector<double>& cost = {});
+
+/// Between two steps, now and then: deals the domains anew where the measured load of the ranks is off.
+/// Results do not depend on it.
+void balance_load(Model& model);
 
 /// State of nodes, and of elements to all ranks or to the first, which writes. Nothing to do alone.
 void exchange_state(Model& model, bool to_all = false);

@@ -125,6 +125,7 @@ class Run {
       const bool last = is_at_end() || stop.has_value();
       write(is_restored, last, stop.has_value());
       is_restored = false;
+      if (!last) balance_load(model_);
       progress.report(model_, last);
       return !stop;
     };

@@ -1,6 +1,7 @@
 #include "src/domains/domain_exchange.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "src/base/index.hpp"
 
@@ -8,35 +9,53 @@ namespace brio {
 
 namespace {
 
-// Elements times nodes of an element, about what a sweep costs. Domains in order, to ranks in order: what
-// is beside each other stays together.
-std::vector<int> deal(const SweepSchedule& schedule, std::span<const Block> blocks, int ranks) {
+// Elements times nodes of an element.
+std::vector<double> estimated_costs(const SweepSchedule& schedule, std::span<const Block> blocks) {
   std::vector<double> cost(schedule.domain_count(), 0);
-  std::vector<int> rank(schedule.domain_count(), 0);
+  for (const DomainPiece& piece : schedule.pieces)
+    cost[piece.domain] +=
+        static_cast<double>(piece.element_count) * nodes_per_element(blocks[piece.block].element);
+  return cost;
+}
+
+}  // namespace
+
+// Domains in order, to ranks in order: what is beside each other stays together. Domains of particles are of
+// all ranks.
+std::vector<int> deal(const SweepSchedule& schedule, std::span<const Block> blocks, int ranks,
+                      std::vector<double> cost) {
+  if (cost.empty()) cost = estimated_costs(schedule, blocks);
+  std::vector<int> rank(cost.size(), 0);
   for (const DomainPiece& piece : schedule.pieces) {
-    const Block& block = blocks[piece.block];
-    if (block.cloud)
-      rank[piece.domain] = Ranks::everyone;
-    else
-      cost[piece.domain] += static_cast<double>(piece.element_count) * nodes_per_element(block.element);
+    if (!blocks[piece.block].cloud) continue;
+    rank[piece.domain] = Ranks::everyone;
+    cost[piece.domain] = 0;
   }
-  double all = 0;
+  double all = 0, before = 0;
   for (const double one : cost) all += one;
-  double before = 0;
   for (std::size_t d = 0; d < cost.size(); ++d) {
-    if (rank[d] != Ranks::everyone)
+    if (rank[d] != Ranks::everyone && all > 0)
       rank[d] = std::min(static_cast<int>(ranks * ((before + 0.5 * cost[d]) / all)), ranks - 1);
     before += cost[d];
   }
   return rank;
 }
 
-}  // namespace
+double unbalance(std::span<const int> rank_of_domain, std::span<const double> cost, int ranks) {
+  std::vector<double> load(index(ranks), 0);
+  double sum = 0;
+  for (std::size_t d = 0; d < cost.size(); ++d) {
+    if (rank_of_domain[d] == Ranks::everyone) continue;
+    load[index(rank_of_domain[d])] += cost[d];
+    sum += cost[d];
+  }
+  return sum > 0 ? std::ranges::max(load) * ranks / sum : 1;
+}
 
 DomainExchange::DomainExchange(Ranks& ranks, const SweepSchedule& schedule, std::span<const Block> blocks,
-                               const std::vector<int>* wanted)
+                               const std::vector<int>* wanted, std::vector<double> cost)
     : ranks_(ranks),
-      rank_of_domain_(deal(schedule, blocks, ranks.count())),
+      rank_of_domain_(deal(schedule, blocks, ranks.count(), std::move(cost))),
       out_(index(ranks.count())),
       in_(index(ranks.count())) {
   const std::vector<std::vector<int>> nodes = nodes_of_domains(schedule.pieces, blocks);
@@ -74,7 +93,17 @@ DomainExchange::DomainExchange(Ranks& ranks, const SweepSchedule& schedule, std:
   }
 }
 
-void DomainExchange::begin_rows(const NodalRows& rows) const {
+std::vector<double> DomainExchange::measured_costs(const SweepSchedule& schedule) {
+  std::vector<double> cost(schedule.domain_count(), 0);
+  for (std::size_t t = 0; t < seconds_.size(); ++t)
+    cost[schedule.pieces[schedule.tasks[t].piece].domain] += seconds_[t];
+  for (std::size_t d = 0; d < cost.size(); ++d) ranks_.note(rank_of_domain_[d], &cost[d], 1);
+  ranks_.share(Ranks::Kind::results);
+  return cost;
+}
+
+void DomainExchange::begin_rows(const SweepSchedule& schedule, const NodalRows& rows) {
+  if (seconds_.size() != schedule.tasks.size()) seconds_.assign(schedule.tasks.size(), 0);
   for (const int node : begun_elsewhere_) {
     rows.linear[node] = {};
     if (rows.angular != nullptr) rows.angular[node] = {};
@@ -115,31 +144,52 @@ void DomainExchange::note_packs(int rank, Block& block, std::size_t first, std::
   if (block.loses_elements) ranks_.note(rank, block.held.data() + first * held, (last - first) * held);
 }
 
+namespace {
+
+// Places that tasks list: of_task(task, block, places).
+template <class OfTask>
+void for_each_list(const SweepSchedule& schedule, std::span<const SweepResult> results,
+                   std::span<Block> blocks, std::size_t SweepResult::*count, AlignedBuffer<int> Block::*list,
+                   const OfTask& of_task) {
+  for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
+    const SweepTask& task = schedule.tasks[t];
+    Block& block = blocks[task.block];
+    if (const std::size_t listed = results[t].*count; listed > 0)
+      of_task(task, block,
+              std::span((block.*list).data() + task.chunk.first_pack * index(block.lanes), listed));
+  }
+}
+
+}  // namespace
+
+void DomainExchange::share_lists(const SweepSchedule& schedule, std::span<const SweepResult> results,
+                                 std::span<Block> blocks, std::size_t SweepResult::*count,
+                                 AlignedBuffer<int> Block::*list) {
+  for_each_list(schedule, results, blocks, count, list,
+                [&](const SweepTask& task, Block& /*block*/, std::span<int> places) {
+                  ranks_.note(rank_of(schedule, task), places.data(), places.size());
+                });
+  if (ranks_.has_noted()) ranks_.share(Ranks::Kind::results);
+}
+
 void DomainExchange::share_listed(const SweepSchedule& schedule, std::span<const SweepResult> results,
                                   std::span<Block> blocks, std::size_t SweepResult::*count,
                                   AlignedBuffer<int> Block::*list) {
-  const auto for_each = [&](const auto& of_task) {
-    for (std::size_t t = 0; t < schedule.tasks.size(); ++t) {
-      const SweepTask& task = schedule.tasks[t];
-      Block& block = blocks[task.block];
-      if (const std::size_t listed = results[t].*count; listed > 0)
-        of_task(rank_of(schedule, task), block,
-                std::span((block.*list).data() + task.chunk.first_pack * index(block.lanes), listed));
-    }
-  };
-  for_each([&](int rank, Block& /*block*/, std::span<int> places) {
-    ranks_.note(rank, places.data(), places.size());
-  });
-  if (!ranks_.has_noted()) return;
-  ranks_.share(Ranks::Kind::results);
-  for_each([&](int rank, Block& block, std::span<int> places) {
-    for (const int place : places) {
-      const std::size_t pack = index(place) / index(block.lanes);
-      note_packs(rank, block, pack, pack + 1);
-      if (!block.mass_gain.empty()) ranks_.note(rank, &block.mass_gain[index(place)], 1);
-    }
-  });
-  ranks_.share(Ranks::Kind::results);
+  for_each_list(schedule, results, blocks, count, list,
+                [&](const SweepTask& task, Block& block, std::span<int> places) {
+                  const int rank = rank_of(schedule, task);
+                  for (const int place : places) {
+                    const std::size_t pack = index(place) / index(block.lanes);
+                    note_packs(rank, block, pack, pack + 1);
+                    if (!block.mass_gain.empty()) ranks_.note(rank, &block.mass_gain[index(place)], 1);
+                  }
+                });
+  if (ranks_.has_noted()) ranks_.share(Ranks::Kind::results);
+}
+
+void DomainExchange::exchange_deleted(const SweepSchedule& schedule, std::span<const SweepResult> results,
+                                      std::span<Block> blocks) {
+  share_listed(schedule, results, blocks, &SweepResult::lost, &Block::lost);
 }
 
 void DomainExchange::exchange_results(const SweepSchedule& schedule, std::span<SweepResult> results,
@@ -147,7 +197,9 @@ void DomainExchange::exchange_results(const SweepSchedule& schedule, std::span<S
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t)
     ranks_.note(rank_of(schedule, schedule.tasks[t]), &results[t], 1);
   ranks_.share(Ranks::Kind::results);
-  share_listed(schedule, results, blocks, &SweepResult::lost, &Block::lost);
+  share_lists(schedule, results, blocks, &SweepResult::lost, &Block::lost);
+  exchange_deleted(schedule, results, blocks);
+  share_lists(schedule, results, blocks, &SweepResult::scaled, &Block::scaled);
   share_listed(schedule, results, blocks, &SweepResult::scaled, &Block::scaled);
 }
 

@@ -12,28 +12,47 @@
 
 namespace brio {
 
+/// Rank of each domain. \param cost of each; empty: by its elements
+std::vector<int> deal(const SweepSchedule& schedule, std::span<const Block> blocks, int ranks,
+                      std::vector<double> cost);
+
+/// Largest load of a rank over the mean of all.
+double unbalance(std::span<const int> rank_of_domain, std::span<const double> cost, int ranks);
+
 class DomainExchange {
  public:
   /// \param ranks outlive this \param wanted nodes that every rank follows, ascending; null: all
+  /// \param cost of each domain; empty: by its elements
   DomainExchange(Ranks& ranks, const SweepSchedule& schedule, std::span<const Block> blocks,
-                 const std::vector<int>* wanted);
+                 const std::vector<int>* wanted, std::vector<double> cost = {});
 
   bool is_own(std::size_t domain) const { return ranks_.is_own(rank_of_domain_[domain]); }
-  int rank_of(std::size_t domain) const { return rank_of_domain_[domain]; }
   Ranks& ranks() { return ranks_; }
 
+  /// Wall time of a task; those of a sweep may come at the same time.
+  void note_seconds(std::size_t task, double seconds) { seconds_[task] += seconds; }
+  /// Wall time of each domain so far, known to all ranks.
+  std::vector<double> measured_costs(const SweepSchedule& schedule);
+  std::span<const int> rank_of_domain() const { return rank_of_domain_; }
+
   /// Before the sweep: what stands on a node is of the rank that sweeps its first domain.
-  void begin_rows(const NodalRows& rows) const;
+  void begin_rows(const SweepSchedule& schedule, const NodalRows& rows);
   /// After all own domains: rows of followed nodes inside of others' domains, and partial sums on borders.
   void exchange_rows(DomainSums& sums, const NodalRows& rows);
   /// After the sweep: what it found, with the elements that are deleted or get mass.
   void exchange_results(const SweepSchedule& schedule, std::span<SweepResult> results,
+                        std::span<Block> blocks);
+  /// The state of elements to be deleted that every rank has listed: it takes out their energy and mass.
+  void exchange_deleted(const SweepSchedule& schedule, std::span<const SweepResult> results,
                         std::span<Block> blocks);
   /// The state of all elements, where others than the sweep read it. \param to_all ranks, or to the first
   void exchange_elements(const SweepSchedule& schedule, std::span<Block> blocks, bool to_all);
 
  private:
   void note_packs(int rank, Block& block, std::size_t first, std::size_t last);
+  /// Places that tasks list, and what stands there.
+  void share_lists(const SweepSchedule& schedule, std::span<const SweepResult> results,
+                   std::span<Block> blocks, std::size_t SweepResult::*count, AlignedBuffer<int> Block::*list);
   void share_listed(const SweepSchedule& schedule, std::span<const SweepResult> results,
                     std::span<Block> blocks, std::size_t SweepResult::*count,
                     AlignedBuffer<int> Block::*list);
@@ -52,6 +71,7 @@ class DomainExchange {
   std::vector<int> begun_elsewhere_;  ///< nodes on borders whose first domain is of another rank
   std::vector<Entries> out_, in_;     ///< by rank
   std::vector<Ranks::Message> messages_;
+  std::vector<double> seconds_;  ///< of each task
 };
 
 }  // namespace brio

@@ -35,6 +35,9 @@ class Ranks {
   struct Traffic {
     std::int64_t exchanges = 0, bytes = 0;
   };
+  /// How often domains went to other ranks.
+  int moves() const { return moves_; }
+  void count_move() { ++moves_; }
   const Traffic& traffic(Kind kind) const { return traffic_[index(kind)]; }
 
   /// Messages between pairs of ranks, all at once.
@@ -79,7 +82,7 @@ class Ranks {
     traffic_[index(kind)].bytes += static_cast<std::int64_t>(bytes);
   }
 
-  int number_, count_;
+  int number_, count_, moves_ = 0;
   std::array<Traffic, kinds.size()> traffic_{};
   std::vector<Noted> noted_;
   std::vector<std::byte> bytes_;

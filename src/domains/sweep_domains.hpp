@@ -1,6 +1,7 @@
 #pragma once
 /// The loop over all chunks of elements, with the sums of their domains.
 
+#include <chrono>
 #include <cstddef>
 
 #include "src/base/index.hpp"
@@ -15,13 +16,17 @@ namespace brio {
 template <class OfTask>
 void sweep_domains(SweepSchedule& schedule, const NodalRows& rows, ThreadTeam& team, OfTask&& of_task) {
   DomainExchange* exchange = schedule.exchange.get();
-  if (exchange != nullptr) exchange->begin_rows(rows);
+  if (exchange != nullptr) exchange->begin_rows(schedule, rows);
   for (std::size_t stage = 0; stage + 1 < schedule.stage_first.size(); ++stage) {
     for (std::size_t c = schedule.stage_first[stage]; c < schedule.stage_first[stage + 1]; ++c) {
       const std::size_t first = schedule.colour_first[c];
       team.for_each(schedule.colour_first[c + 1] - first, [&](std::size_t i) {
-        if (exchange == nullptr || exchange->is_own(schedule.pieces[schedule.tasks[first + i].piece].domain))
-          of_task(first + i);
+        if (exchange == nullptr) return of_task(first + i);
+        if (!exchange->is_own(schedule.pieces[schedule.tasks[first + i].piece].domain)) return;
+        const auto begin = std::chrono::steady_clock::now();
+        of_task(first + i);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+        exchange->note_seconds(first + i, taken.count());
       });
     }
     if (schedule.sums.empty()) continue;

@@ -114,6 +114,18 @@ Contribution remove_freed_nodes(Model& model) {
   return remove_nodes(*model.erosion, model.nodes);
 }
 
+namespace {
+
+// Elements that are given up by all ranks, once what they hold is known to all.
+bool gives_up_more(Model& model, ThreadTeam& team) {
+  if (!give_up_crossed(model, team)) return false;
+  if (DomainExchange* exchange = model.schedule.exchange.get())
+    exchange->exchange_deleted(model.schedule, model.sweep_results, model.blocks);
+  return true;
+}
+
+}  // namespace
+
 Contribution erode_elements(Model& model, ThreadTeam& team) {
   Contribution sum;
   if (!model.erosion) return sum;
@@ -128,7 +140,7 @@ Contribution erode_elements(Model& model, ThreadTeam& team) {
       sum += *released;
       for (ContactScene& scene : model.contacts) release_tied_pairs(scene, model.ties);
     }
-  } while (give_up_crossed(model, team));
+  } while (gives_up_more(model, team));
   if (!is_sparse(model.schedule, model.blocks)) return sum;
   repack(model.schedule, model.blocks, model.parts, model.nodes.size());
   model.sweep_results.resize(model.schedule.tasks.size());

@@ -36,7 +36,7 @@ SEVERAL_DOMAINS = {
     "can_buckling": ["parts.can.mesh.cylinder.elements=[72,45]", "time.end=4e-4"],
     "pipe_cutting": ["time.end=2e-4"],
     "brick_stack": ["time.end=4e-4", "output.fields.every=1e-4"],
-    "plate_perforation": ["parts.plate.mesh.box.elements=[36,36,2]", "parts.ball.mesh.sphere.elements=6"],
+    "plate_perforation": ["time.end=1.3e-5"],  # elements are given up that crossed when others were deleted
     "crash_box": ["time.end=2e-4"],
     "panel_impulse": ["time.end=2e-4"],
     "taylor_bar": ["time.end=1e-5"],

@@ -81,6 +81,30 @@ TEST(Ranks, KnowTheNodesOfTheirDomainsAloneWhereNothingElseIsNeeded) {
   for (const int count : {2, 4, 7}) expect_bits_of_one(pressed_bar(), 300, count, 1);
 }
 
+// As often as one likes, to the rank that has least to do or not.
+TEST(Ranks, HaveTheBitsOfOneProcessWhenDomainsMove) {
+  for (const Deck& deck : {pressed_bar(), coarse_deck("plate_perforation", 3)}) {
+    const std::string alone = state_after(deck, 350, nullptr, 1);
+    std::vector<std::string> state(3);
+    run_ranks(3, [&](Ranks& ranks) {
+      Model model = build_scene(deck);
+      cut_domains(model, small_domain);
+      deal_domains(model, ranks);
+      ThreadTeam team(1);
+      for (int part = 0; part < 7; ++part) {
+        make_steps(model, 50, deck.numerics.energy_error_limit, team);
+        std::vector<double> cost(model.schedule.domain_count());
+        for (std::size_t d = 0; d < cost.size(); ++d)
+          cost[d] = static_cast<double>(1 + (7 * d + index(part) * 5) % 9);
+        exchange_state(model, true);
+        deal_domains(model, ranks, cost);
+      }
+      state[index(ranks.number())] = state_of(model);
+    });
+    for (const std::string& of_rank : state) EXPECT_TRUE(of_rank == alone);
+  }
+}
+
 // Elements that get mass are listed by the rank that sweeps them; all hand it out.
 TEST(Ranks, HaveTheBitsOfOneProcessWithMassScaling) {
   Deck deck = pressed_bar();

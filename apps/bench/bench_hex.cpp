@@ -15,7 +15,7 @@
 #include "apps/bench/options.hpp"
 #include "elements/block.hpp"
 #include "src/base/index.hpp"
-#include "src/domains/schedule.hpp"
+#include "src/domains/sweep_domains.hpp"
 #include "src/motion/motion.hpp"
 
 namespace {
@@ -82,15 +82,12 @@ Grid ordered(const Grid& grid) {
 }
 
 void sweep(Scene& scene, double step, ThreadTeam& team) {
-  const SweepSchedule& schedule = scene.schedule;
-  for (std::size_t colour = 0; colour + 1 < schedule.colour_first.size(); ++colour) {
-    const std::size_t first = schedule.colour_first[colour];
-    team.for_each(schedule.colour_first[colour + 1] - first, [&](std::size_t i) {
-      const SweepTask& task = schedule.tasks[first + i];
-      Block& block = scene.blocks[task.block];
-      scene.results[first + i] = block.kernel.sweep(block, task.chunk, scene.nodes, step);
-    });
-  }
+  const NodalRows forces{scene.nodes.force.data(), scene.nodes.moment.data()};
+  sweep_domains(scene.schedule, forces, team, [&](std::size_t t) {
+    const SweepTask& task = scene.schedule.tasks[t];
+    Block& block = scene.blocks[task.block];
+    scene.results[t] = block.kernel.sweep(block, task.chunk, scene.nodes, step);
+  });
 }
 
 Scene make_scene(const Grid& grid, const Element& element, const Material& material, Precision precision) {

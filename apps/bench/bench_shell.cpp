@@ -18,7 +18,7 @@
 #include "apps/bench/options.hpp"
 #include "elements/block.hpp"
 #include "src/base/index.hpp"
-#include "src/domains/schedule.hpp"
+#include "src/domains/sweep_domains.hpp"
 #include "src/motion/motion.hpp"
 
 namespace {
@@ -53,15 +53,12 @@ double kinetic_energy(const Nodes& nodes) {
 }
 
 void sweep(Scene& scene, double step, ThreadTeam& team) {
-  const SweepSchedule& schedule = scene.schedule;
-  for (std::size_t colour = 0; colour + 1 < schedule.colour_first.size(); ++colour) {
-    const std::size_t first = schedule.colour_first[colour];
-    team.for_each(schedule.colour_first[colour + 1] - first, [&](std::size_t i) {
-      const SweepTask& task = schedule.tasks[first + i];
-      Block& block = scene.blocks[task.block];
-      scene.results[first + i] = block.kernel.sweep(block, task.chunk, scene.nodes, step);
-    });
-  }
+  const NodalRows forces{scene.nodes.force.data(), scene.nodes.moment.data()};
+  sweep_domains(scene.schedule, forces, team, [&](std::size_t t) {
+    const SweepTask& task = scene.schedule.tasks[t];
+    Block& block = scene.blocks[task.block];
+    scene.results[t] = block.kernel.sweep(block, task.chunk, scene.nodes, step);
+  });
   for (const SweepResult& result : scene.results)
     scene.work += result.internal_energy + result.hourglass_energy + result.viscous_energy;
 }

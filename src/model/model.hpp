@@ -15,6 +15,7 @@
 #include "contact/start/initial_gap.hpp"
 #include "contact/ties/ties.hpp"
 #include "src/deck/deck.hpp"
+#include "src/domains/schedule.hpp"
 #include "src/model/force_sums.hpp"
 #include "src/model/merged_parts.hpp"
 #include "src/model/probes.hpp"
@@ -32,7 +33,6 @@
 #include "src/sweep/erosion.hpp"
 #include "src/sweep/mass_scaling.hpp"
 #include "src/sweep/particles.hpp"
-#include "src/domains/schedule.hpp"
 #include "src/sweep/step_size.hpp"
 #include "src/sweep/surface_numbers.hpp"
 

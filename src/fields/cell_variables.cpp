@@ -57,7 +57,7 @@ constexpr auto shells = &ElementTraits::has_thickness;
 constexpr auto beams = &ElementTraits::has_section;
 constexpr auto with_hourglass_control = &ElementTraits::has_hourglass_control;
 
-constexpr CellVariable chosen[] = {
+constexpr CellVariable by_choice[] = {
     {"von_mises", 1, von_mises, nullptr, "stress", "of `stress`"},
     {"pressure", 1, pressure, nullptr, "stress", "of `stress`, positive in compression"},
     {"triaxiality", 1, triaxiality, nullptr, "-",
@@ -129,13 +129,13 @@ void write_components(const SymmetricTensor<double>& s, double* out) {
   std::ranges::copy(std::array{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}, out);
 }
 
-std::span<const CellVariable> chosen_variables() { return chosen; }
+std::span<const CellVariable> chosen_variables() { return by_choice; }
 std::span<const DefaultField> default_fields() { return told_by_default; }
 std::span<const DefaultField> state_fields() { return of_state; }
 
 const CellVariable& cell_variable(std::string_view name) {
-  const auto* found = std::ranges::find(chosen, name, &CellVariable::name);
-  return found != std::end(chosen) ? *found : *std::ranges::find(by_default, name, &CellVariable::name);
+  const auto* found = std::ranges::find(by_choice, name, &CellVariable::name);
+  return found != std::end(by_choice) ? *found : *std::ranges::find(by_default, name, &CellVariable::name);
 }
 
 std::vector<std::string> named_variables(std::span<const std::string> wanted,
@@ -151,7 +151,7 @@ std::vector<std::string> named_variables(std::span<const std::string> wanted,
       continue;
     }
     add(default_group);
-    for (const CellVariable& variable : chosen)
+    for (const CellVariable& variable : by_choice)
       if (is_had(variable)) add(variable.name);
     for (const std::string_view other : others) add(other);
   }

@@ -107,9 +107,9 @@ MPI_Comm failing = MPI_COMM_NULL;  // where those that fail wait for each other
 
 #endif
 
-/// Processes that were started together; 1: by no such program.
+/// Processes that were started together, as Open MPI and MPICH tell; 1: by neither.
 int started_together() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_SIZE"})
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
     if (const char* count = std::getenv(name)) return std::atoi(count);
   return 1;
 }

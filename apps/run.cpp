@@ -89,7 +89,7 @@ std::string outcome_text(const RunOutcome& outcome) {
                             outcome.vtkhdf.string(), outcome.xdmf.string());
 }
 
-// Of this rank, a step.
+// Of the whole run.
 std::string traffic_text(const Ranks& ranks, std::int64_t steps) {
   std::string text = fmt::format("sent by the first of {} ranks:", ranks.count());
   for (std::size_t kind = 0; kind < Ranks::kinds.size(); ++kind) {

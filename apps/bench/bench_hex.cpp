@@ -97,7 +97,6 @@ Scene make_scene(const Grid& grid, const Element& element, const Material& mater
   scene.blocks.push_back(make_block("cube", element, material, precision, grid.connectivity));
   scene.schedule = make_schedule(scene.blocks, grid.position.size());
   scene.results.resize(scene.schedule.tasks.size());
-  scene.sums.resize(scene.nodes.ranges.size());
   std::mt19937 generator(2);
   std::uniform_real_distribution<double> noise(-1, 1);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {

@@ -89,7 +89,6 @@ Scene sheet(int n, double speed, const Shell4& shell, const Material& material, 
   scene.blocks.push_back(make_block("sheet", shell, material, precision, connectivity));
   scene.schedule = make_schedule(scene.blocks, scene.nodes.size());
   scene.results.resize(scene.schedule.tasks.size());
-  scene.sums.resize(scene.nodes.ranges.size());
   scene.blocks[0].kernel.initialize(scene.blocks[0], scene.nodes);
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     scene.nodes.record[i].inverse_mass = 1 / scene.nodes.mass[i];

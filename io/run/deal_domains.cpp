@@ -88,7 +88,7 @@ void deal_domains(Model& model, Ranks& ranks, const std::vector<double>& cost) {
 void balance_load(Model& model) {
   const std::shared_ptr<DomainExchange> old = model.schedule.exchange;
   if (!old || model.step == 0 || model.step % balanced_every != 0) return;
-  const std::vector<double> cost = old->measured_costs(model.schedule);
+  const std::vector<double> cost = old->measured_costs();
   const int ranks = old->ranks().count();
   const double now = unbalance(old->rank_of_domain(), cost, ranks);
   if (now < largest_unbalance) return;

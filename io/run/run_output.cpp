@@ -82,6 +82,15 @@ void RunOutput::write_last_state(ThreadTeam& team) {
   write_now(nullptr);
 }
 
+// Nothing where another process writes.
+const Snapshot& RunOutput::observe_fields(double time, ThreadTeam& team) {
+  static const Snapshot nothing;
+  if (!writer_.writes()) return nothing;
+  if (!writing_.have_ended() && last_written_ != nullptr && last_written_ == state_) observer_.turn();
+  state_ = nullptr;  // one before is filled anew
+  return observer_.observe(model_, time, team);
+}
+
 void RunOutput::write(bool row, std::optional<double> fields, ThreadTeam& team) {
   const bool keeps = model_.step >= next_kept_;
   if (!row && !fields && !keeps) return;
@@ -95,13 +104,8 @@ void RunOutput::write(bool row, std::optional<double> fields, ThreadTeam& team) 
   observe_history(model_, history_sums_, row_, team);
   if (fields || keeps) {
     finish_writing(1);
-    if (!writing_.have_ended() && last_written_ != nullptr && last_written_ == state_) observer_.turn();
-    state_ = nullptr;  // one before is filled anew
-    // Of several processes the one that writes looks at the fields, and all end where it finds a fault.
-    static const Snapshot not_looked_at;
-    const Snapshot& state = writer_.writes()
-                                ? observer_.observe(model_, fields.value_or(model_.times.time), team)
-                                : not_looked_at;
+    const Snapshot& state = observe_fields(fields.value_or(model_.times.time), team);
+    // Of several processes the one that writes has looked at the fields, and all end where it finds a fault.
     const std::string fault = writer_.writes() ? what_results_cannot_hold(state) : "";
     if (is_on_any_rank(!fault.empty(), model_))
       throw Breakdown(fault + " at time " + written(model_.times.time) +

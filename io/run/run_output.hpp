@@ -56,6 +56,7 @@ class RunOutput {
   void write_now(const Snapshot* fields);
   /// \param fields the time of them, if they are due
   void write(bool row, std::optional<double> fields, ThreadTeam& team);
+  const Snapshot& observe_fields(double time, ThreadTeam& team);
   void keep(const Snapshot& state, bool has_dump);
   void write_start();
 

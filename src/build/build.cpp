@@ -302,7 +302,6 @@ void cut_domains(Model& model, std::size_t least_elements) {
   model.schedule = make_schedule(model.blocks, model.nodes.size(), least_elements);
   model.nodes.ranges = cut_ranges(model.nodes.size(), nodes_of_domains(model.schedule.pieces, model.blocks));
   model.sweep_results.resize(model.schedule.tasks.size());
-  model.kinetic_sums.resize(model.nodes.ranges.size());
 }
 
 Model build(const Deck& deck, std::span<const Mesh> meshes, int threads, std::span<const PartState> states) {

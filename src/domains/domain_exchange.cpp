@@ -57,7 +57,8 @@ DomainExchange::DomainExchange(Ranks& ranks, const SweepSchedule& schedule, std:
     : ranks_(ranks),
       rank_of_domain_(deal(schedule, blocks, ranks.count(), std::move(cost))),
       out_(index(ranks.count())),
-      in_(index(ranks.count())) {
+      in_(index(ranks.count())),
+      seconds_of_domain_(schedule.domain_count(), 0) {
   const std::vector<std::vector<int>> nodes = nodes_of_domains(schedule.pieces, blocks);
   const DomainSums& sums = schedule.sums;
   const bool turning =
@@ -93,24 +94,25 @@ DomainExchange::DomainExchange(Ranks& ranks, const SweepSchedule& schedule, std:
   }
 }
 
-std::vector<double> DomainExchange::measured_costs(const SweepSchedule& schedule) {
-  std::vector<double> cost(schedule.domain_count(), 0);
-  for (std::size_t t = 0; t < seconds_.size(); ++t)
-    cost[schedule.pieces[schedule.tasks[t].piece].domain] += seconds_[t];
+std::vector<double> DomainExchange::measured_costs() {
+  std::vector<double> cost = seconds_of_domain_;
   for (std::size_t d = 0; d < cost.size(); ++d) ranks_.note(rank_of_domain_[d], &cost[d], 1);
   ranks_.share(Ranks::Kind::results);
   return cost;
 }
 
 void DomainExchange::begin_rows(const SweepSchedule& schedule, const NodalRows& rows) {
-  if (seconds_.size() != schedule.tasks.size()) seconds_.assign(schedule.tasks.size(), 0);
+  seconds_.assign(schedule.tasks.size(), 0);
   for (const int node : begun_elsewhere_) {
     rows.linear[node] = {};
     if (rows.angular != nullptr) rows.angular[node] = {};
   }
 }
 
-void DomainExchange::exchange_rows(DomainSums& sums, const NodalRows& rows) {
+void DomainExchange::exchange_rows(SweepSchedule& schedule, const NodalRows& rows) {
+  for (std::size_t t = 0; t < seconds_.size(); ++t)
+    seconds_of_domain_[schedule.pieces[schedule.tasks[t].piece].domain] += seconds_[t];
+  DomainSums& sums = schedule.sums;
   const std::size_t width = rows.angular != nullptr ? 2 : 1;
   const auto linear = [&](int entry) -> NodeVector& {
     return entry < 0 ? sums.linear[index(-1 - entry)] : rows.linear[entry];

@@ -30,15 +30,15 @@ class DomainExchange {
   Ranks& ranks() { return ranks_; }
 
   /// Wall time of a task; those of a sweep may come at the same time.
-  void note_seconds(std::size_t task, double seconds) { seconds_[task] += seconds; }
+  void note_seconds(std::size_t task, double seconds) { seconds_[task] = seconds; }
   /// Wall time of each domain so far, known to all ranks.
-  std::vector<double> measured_costs(const SweepSchedule& schedule);
+  std::vector<double> measured_costs();
   std::span<const int> rank_of_domain() const { return rank_of_domain_; }
 
   /// Before the sweep: what stands on a node is of the rank that sweeps its first domain.
   void begin_rows(const SweepSchedule& schedule, const NodalRows& rows);
   /// After all own domains: rows of followed nodes inside of others' domains, and partial sums on borders.
-  void exchange_rows(DomainSums& sums, const NodalRows& rows);
+  void exchange_rows(SweepSchedule& schedule, const NodalRows& rows);
   /// After the sweep: what it found, with the elements that are deleted or get mass.
   void exchange_results(const SweepSchedule& schedule, std::span<SweepResult> results,
                         std::span<Block> blocks);
@@ -71,7 +71,8 @@ class DomainExchange {
   std::vector<int> begun_elsewhere_;  ///< nodes on borders whose first domain is of another rank
   std::vector<Entries> out_, in_;     ///< by rank
   std::vector<Ranks::Message> messages_;
-  std::vector<double> seconds_;  ///< of each task
+  std::vector<double> seconds_;            ///< of each task of the present sweep
+  std::vector<double> seconds_of_domain_;  ///< of all sweeps
 };
 
 }  // namespace brio

@@ -40,7 +40,7 @@ void sweep_domains(SweepSchedule& schedule, const NodalRows& rows, ThreadTeam& t
     });
   }
   if (exchange == nullptr) return;
-  exchange->exchange_rows(schedule.sums, rows);
+  exchange->exchange_rows(schedule, rows);
   if (!schedule.sums.empty()) finish_sums(schedule.sums, rows, team);
 }
 

@@ -5,8 +5,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 void make_erodible(ContactScene& scene, std::span<const SurfacePart> parts, const Nodes& nodes) {
   scene.erosion.emplace(ContactErosion{.topology = make_topology(scene.surface, parts),
                                        .exclusion = ErodingExclusion(scene.surface, nodes),
@@ -50,16 +48,16 @@ void erode(ContactScene& scene, std::span<const SurfaceElement> deleted) {
       if (!contact.of_edges()) contact.body = surface.face[index(contact.face)].body;
   const std::vector<int>& affected =
       erosion.exclusion.mend(scene.excluded, surface, erosion.topology, erosion.change);
-  scene.velocity.resize(surface.slaves(), Vector3d::Zero());
+  scene.velocity.resize(surface.slaves(), Vector3d{});
   scene.in_contact.resize(surface.slaves());
   scene.loaded.resize(surface.slaves());
   scene.pushed.resize(surface.slaves());
-  scene.normal_impulse.resize(surface.slaves(), Vector3d::Zero());
-  scene.friction_impulse.resize(surface.slaves(), Vector3d::Zero());
+  scene.normal_impulse.resize(surface.slaves(), Vector3d{});
+  scene.friction_impulse.resize(surface.slaves(), Vector3d{});
   for (const auto* slaves : {&erosion.change.new_slave, &erosion.change.dead_slave})
     for (int slave : *slaves) {
-      scene.normal_impulse[index(slave)].setZero();
-      scene.friction_impulse[index(slave)].setZero();
+      scene.normal_impulse[index(slave)] = {};
+      scene.friction_impulse[index(slave)] = {};
     }
   change_features(scene, affected);
 }

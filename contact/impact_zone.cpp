@@ -5,14 +5,12 @@
 #include <map>
 #include <vector>
 
+#include "contact/geometry/eigen_conversions.hpp"
 #include "contact/scene.hpp"
 #include "contact/ties/ties.hpp"
 #include "src/base/index.hpp"
 
 namespace brio {
-
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 namespace {
 
@@ -30,7 +28,7 @@ class RigidFit {
  public:
   explicit RigidFit(std::span<const ZoneMember> members) {
     double mass = 0;
-    Vector3d velocity = Vector3d::Zero();
+    Vector3d velocity{};
     for (const ZoneMember& one : members) {
       mass += one.mass;
       centre_ += one.mass * one.position;
@@ -38,54 +36,54 @@ class RigidFit {
     }
     centre_ /= mass;
     velocity /= mass;
-    Matrix3d inertia = Matrix3d::Zero();
-    Vector3d momentum = Vector3d::Zero();
+    Tensor<double> inertia{};
+    Vector3d momentum{};
     for (const ZoneMember& one : members) {
       const Vector3d arm = one.position - centre_;
-      momentum += one.mass * arm.cross(one.velocity - velocity) + one.inertia * one.angular_velocity;
-      inertia += one.mass * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose()) + one.inertia;
+      momentum += one.mass * cross(arm, one.velocity - velocity) + one.inertia * one.angular_velocity;
+      inertia += one.mass * inertia_of_point(arm) + one.inertia;
     }
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(inertia);
-    const Matrix3d& axis = axes.eigenvectors();
-    const double least = least_inertia * inertia.trace();
-    Vector3d principal = axes.eigenvalues(), turning = axis.transpose() * momentum;
+    const PrincipalAxes axes = principal_axes(inertia);
+    const double least = least_inertia * trace(inertia);
+    Vector3d principal = axes.value, turning = transposed_times(axes.axis, momentum);
     for (int k = 0; k < 3; ++k) {
       turning[k] = principal[k] > least ? turning[k] / principal[k] : 0;
       if (principal[k] <= least) principal[k] = least > 0 ? least : mass;
     }
-    motion_.head<3>() = velocity;
-    motion_.tail<3>() = axis * turning;
+    motion_.head<3>() = to_eigen(velocity);
+    motion_.tail<3>() = to_eigen(axes.axis * turning);
     Matrix6d matrix = Matrix6d::Zero();
-    matrix.topLeftCorner<3, 3>() = mass * Matrix3d::Identity();
-    matrix.bottomRightCorner<3, 3>() = axis * principal.asDiagonal() * axis.transpose();
+    matrix.topLeftCorner<3, 3>() = mass * Eigen::Matrix3d::Identity();
+    matrix.bottomRightCorner<3, 3>() = to_eigen(axes.axis * diagonal(principal) * transposed(axes.axis));
     mass_.compute(matrix);
     meet_prescriptions(members);
   }
 
   /// Less what a support gives to prescribed components.
   void give_impulses(ZoneMember& one) const {
-    const Vector3d turning = motion_.tail<3>();
-    const Vector3d velocity = motion_.head<3>() + turning.cross(one.position - centre_);
+    const Vector3d turning = to_vector(motion_.tail<3>());
+    const Vector3d velocity = to_vector(motion_.head<3>()) + cross(turning, one.position - centre_);
     one.impulse = one.mass * (velocity - one.velocity);
     one.moment = one.inertia * (turning - one.angular_velocity);
     for (int c = 0; c < 6; ++c)
       if (one.prescribed[index(c)])
-        (c < 3 ? one.impulse : one.moment) -= scaled(one, c).dot(support_) * one.axes.col(c % 3);
+        (c < 3 ? one.impulse : one.moment) -= scaled(one, c).dot(support_) * one.axes.column(c % 3);
   }
 
  private:
   // Of a velocity component by the six of the zone.
   Vector6d derivative(const ZoneMember& one, int component) const {
     Vector6d by = Vector6d::Zero();
-    by.segment<3>(component < 3 ? 0 : 3) = one.axes.col(component % 3);
-    if (component < 3) by.tail<3>() = (one.position - centre_).cross(one.axes.col(component));
+    const Vector3d axis = one.axes.column(component % 3);
+    by.segment<3>(component < 3 ? 0 : 3) = to_eigen(axis);
+    if (component < 3) by.tail<3>() = to_eigen(cross(one.position - centre_, axis));
     return by;
   }
   Vector6d scaled(const ZoneMember& one, int component) const {
     return mass_.matrixL().solve(derivative(one, component));
   }
   static double velocity(const ZoneMember& one, int component) {
-    return (component < 3 ? one.velocity : one.angular_velocity).dot(one.axes.col(component % 3));
+    return dot(component < 3 ? one.velocity : one.angular_velocity, one.axes.column(component % 3));
   }
 
   // In components scaled by the root of the mass matrix: change = B+ r, and the supports' B^T change.
@@ -113,7 +111,7 @@ class RigidFit {
     motion_ += mass_.matrixU().solve(change);
   }
 
-  Vector3d centre_ = Vector3d::Zero();
+  Vector3d centre_{};
   Vector6d motion_, support_ = Vector6d::Zero();
   Eigen::LLT<Matrix6d> mass_;
 };
@@ -127,7 +125,7 @@ class Zones {
         bodies_(bodies),
         slaves_(static_cast<int>(scene.surface.slaves())) {
     if (!scene_.zone_impulse.empty()) return;
-    scene_.zone_impulse.assign(scene.surface.slaves(), Vector3d::Zero());
+    scene_.zone_impulse.assign(scene.surface.slaves(), Vector3d{});
     scene_.zone_of.resize(scene.surface.slaves() + bodies.size());
     for (std::size_t u = 0; u < scene_.zone_of.size(); ++u) scene_.zone_of[u] = static_cast<int>(u);
   }
@@ -208,11 +206,11 @@ class Zones {
         one.prescribed[index(axis)] = motion.translation_is_given(axis);
         one.prescribed[index(axis + 3)] = motion.rotation_is_given(axis);
       }
-      one.axes = motion.axes.transpose();
+      one.axes = transposed(motion.axes);
       return one;
     }
     const NodeRecord& record = nodes_.record[global(u)];
-    one = {1 / record.inverse_mass, Vector3d(record.position), Vector3d(record.velocity)};
+    one = {1 / record.inverse_mass, vector_at(record.position), vector_at(record.velocity)};
     one.prescribed = static_cast<unsigned>(nodes_.prescribed_translations(global(u)));
     if (const SupportAxes* own = nodes_.own_axes(global(u)))
       for (int i = 0; i < 9; ++i) one.axes(i % 3, i / 3) = own->linear.m[i / 3][i % 3];
@@ -240,7 +238,7 @@ class Zones {
       const int u = units[i];
       const int part =
           is_body(u) ? scene_.log->part_of_body[index(u - slaves_)] : scene_.log->part_of_node[global(u)];
-      impulse_of_part.try_emplace(part, Vector3d::Zero()).first->second += members[i].impulse;
+      impulse_of_part.try_emplace(part, Vector3d{}).first->second += members[i].impulse;
     }
     scene_.log->add(impulse_of_part);
   }
@@ -256,12 +254,12 @@ class Zones {
     }
     const auto s = index(u);
     double* velocity = nodes_.record[global(u)].velocity;
-    const Vector3<double> change =
-        nodes_.free_inverse_mass(global(u)) * Vector3<double>{one.impulse[0], one.impulse[1], one.impulse[2]};
+    const Vector3d change =
+        nodes_.free_inverse_mass(global(u)) * Vector3d{one.impulse[0], one.impulse[1], one.impulse[2]};
     velocity[0] += change.x;
     velocity[1] += change.y;
     velocity[2] += change.z;
-    scene_.velocity[s] = Vector3d(velocity);
+    scene_.velocity[s] = vector_at(velocity);
     scene_.zone_impulse[s] += one.impulse;
     scene_.in_contact.insert(u);
   }

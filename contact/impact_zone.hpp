@@ -17,14 +17,14 @@ struct Ties;
 /// A node or a rigid body of a zone.
 struct ZoneMember {
   double mass;
-  Eigen::Vector3d position, velocity;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the position
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
-  std::bitset<6> prescribed = 0;  ///< components of the velocity, then of the angular velocity
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: directions of these components
+  Vector3d position, velocity;
+  Tensor<double> inertia{};  ///< about the position
+  Vector3d angular_velocity{};
+  std::bitset<6> prescribed = 0;             ///< components of the velocity, then of the angular velocity
+  Tensor<double> axes = identity<double>();  ///< columns: directions of these components
   /// Impulse and moment by the other members, without supports: they sum to zero. A prescribed component
   /// keeps its velocity: its support balances the impulse.
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+  Vector3d impulse{}, moment{};
 };
 
 /// Impulses after which the members move as one rigid body: of all rigid motions with the prescribed

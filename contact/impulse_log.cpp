@@ -7,11 +7,9 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 void ImpulseLog::begin_step() {
-  impulse.assign(wanted.size(), Vector3d::Zero());
-  friction.assign(wanted.size(), Vector3d::Zero());
+  impulse.assign(wanted.size(), Vector3d{});
+  friction.assign(wanted.size(), Vector3d{});
   supports.clear();
 }
 
@@ -21,9 +19,9 @@ void ImpulseLog::add(int first, int second, const Vector3d& of_second, const Vec
   if (at == wanted.end() || *at != pair) return;
   const auto add_to = [&](Vector3d& sum, const Vector3d& value) {
     if (first == second) {
-      sum += value.cwiseAbs();
+      sum += absolute(value);
     } else {
-      sum += first < second ? value : Vector3d(-value);
+      sum += first < second ? value : -value;
     }
   };
   add_to(impulse[index(at - wanted.begin())], of_second);
@@ -34,7 +32,7 @@ void ImpulseLog::add(const std::map<int, Vector3d>& impulse_of_part) {
   const auto count = static_cast<double>(impulse_of_part.size());
   for (auto a = impulse_of_part.begin(); a != impulse_of_part.end(); ++a)
     for (auto b = std::next(a); b != impulse_of_part.end(); ++b)
-      add(a->first, b->first, (a->second - b->second) / count, Vector3d::Zero());
+      add(a->first, b->first, (a->second - b->second) / count, Vector3d{});
 }
 
 int ImpulseLog::part_of(const ContactScene& scene, std::span<const int> slaves) const {

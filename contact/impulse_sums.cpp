@@ -1,8 +1,8 @@
 #include "contact/impulse_sums.hpp"
 
-#include "contact/geometry/eigen_vector.hpp"
 #include "contact/scene.hpp"
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -18,8 +18,8 @@ void ImpulseSums::add(const ContactScene& scene, std::size_t nodes, double step)
       sum_.push_back({.node = node});
     }
     OfNode& sum = sum_[index(place)];
-    sum.normal = sum.normal + components(scene.normal_impulse[s]);
-    sum.friction = sum.friction + components(scene.friction_impulse[s]);
+    sum.normal = sum.normal + scene.normal_impulse[s];
+    sum.friction = sum.friction + scene.friction_impulse[s];
   });
 }
 

@@ -17,7 +17,7 @@ class ImpulseSums {
   struct OfNode {
     int node = -1;   ///< global
     int unused = 0;  // no byte of a saved state is left undefined
-    Vector3<double> normal{0, 0, 0}, friction{0, 0, 0};
+    Vector3d normal{0, 0, 0}, friction{0, 0, 0};
   };
 
   /// Of a step of contact. \param step over which its impulses act

@@ -2,8 +2,9 @@
 /// One contact constraint: a slave node and a face, or two edges, in contact or possibly in contact within
 /// the time step.
 
-#include <Eigen/Dense>
 #include <array>
+
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -16,13 +17,13 @@ struct Contact {
   int body = 0;               ///< of the face, or of the second edge
   int own = 1;                ///< how many of the nodes are of the first side: the node, or both of an edge
   std::array<int, 5> node{};  ///< slave indices: the node, then the corners of the face
-  std::array<double, 5> weight{};  ///< 1, then minus the weights of the corners; their sum is 0
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit vector from the second side to the first
-  double gap = 0;                                    ///< at the beginning of the step; negative: old overlap
-  double friction_coefficient = 0;                   ///< Coulomb's
-  bool along_meeting = false;  ///< the normal is that at first contact, later in the step
-  double impulse = 0;          ///< along the normal, on the first side; never negative
-  Eigen::Vector3d friction = Eigen::Vector3d::Zero();  ///< tangential impulse on the first side
+  std::array<double, 5> weight{};   ///< 1, then minus the weights of the corners; their sum is 0
+  Vector3d normal{};                ///< unit vector from the second side to the first
+  double gap = 0;                   ///< at the beginning of the step; negative: old overlap
+  double friction_coefficient = 0;  ///< Coulomb's
+  bool along_meeting = false;       ///< the normal is that at first contact, later in the step
+  double impulse = 0;               ///< along the normal, on the first side; never negative
+  Vector3d friction{};              ///< tangential impulse on the first side
 
   bool of_edges() const { return face < 0; }
 

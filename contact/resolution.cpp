@@ -6,15 +6,13 @@
 
 #include "contact/detection/warm_start.hpp"
 #include "contact/enforcement/recovery.hpp"
-#include "contact/geometry/eigen_vector.hpp"
 #include "contact/impact_zone.hpp"
 #include "contact/scene.hpp"
 #include "contact/step_totals.hpp"
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
-
-using Eigen::Vector3d;
 
 namespace {
 
@@ -22,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-void set(double* components, const Vector3<double>& a) {
+void set(double* components, const Vector3d& a) {
   components[0] = a.x;
   components[1] = a.y;
   components[2] = a.z;
@@ -154,9 +152,9 @@ class Resolution {
   // Friction at the sliding velocity with which the time step begins.
   void slow_friction(ConstraintRow& row) const {
     if (row.friction_coefficient == 0) return;
-    const Vector3<double> velocity =
+    const Vector3d velocity =
         RowMap(rows_.rows, row).velocity([&](int block) { return rows_.before[index(block)]; });
-    const Vector3<double> sliding = velocity - dot(row.normal, velocity) * row.normal;
+    const Vector3d sliding = velocity - dot(row.normal, velocity) * row.normal;
     const double speed = std::sqrt(dot(sliding, sliding));
     row.friction_coefficient *= scene_.options.kinetic_friction->share(scene_.options.friction, speed);
   }
@@ -212,21 +210,21 @@ class Resolution {
     if (!ties_.empty()) carry_velocities(ties_, nodes_, dt_);
   }
 
-  void store(const BlockOwner& owner, const Vector3<double>& velocity) {
+  void store(const BlockOwner& owner, const Vector3d& velocity) {
     const auto of = index(owner.index);
     switch (owner.kind) {
       case BlockOwner::Kind::node:
         set(nodes_.record[of].velocity, velocity);
         if (const int slave = scene_.surface.slave(owner.index); slave >= 0)
-          scene_.velocity[index(slave)] = eigen(velocity);
+          scene_.velocity[index(slave)] = velocity;
         return;
       case BlockOwner::Kind::rotation_of_node:
         return set(nodes_.angular_velocity[of].component, velocity);
       case BlockOwner::Kind::body:
-        bodies_[of].velocity = eigen(velocity);
+        bodies_[of].velocity = velocity;
         return;
       case BlockOwner::Kind::rotation_of_body:
-        bodies_[of].angular_velocity = eigen(velocity);
+        bodies_[of].angular_velocity = velocity;
         return;
     }
   }
@@ -246,7 +244,7 @@ class Resolution {
     scene_.added.last_of_node.resize(scene_.surface.slaves(), -1);
     for (const Hit& hit : scene_.guard.hits) {
       const bool again = add(hit.at_start, ordinary);
-      if (hit.at_hit && (again || hit.at_start.normal.isZero(0))) add(*hit.at_hit, ordinary);
+      if (hit.at_hit && (again || is_zero(hit.at_start.normal))) add(*hit.at_hit, ordinary);
     }
     for (std::size_t i = ordinary; i < known; ++i) {
       ConstraintRow& row = row_of(i);
@@ -259,7 +257,7 @@ class Resolution {
   static bool is_same(const Contact& a, const Contact& b) {
     double apart = 0;
     for (std::size_t k = 0; k < 5; ++k) apart = std::max(apart, std::abs(a.weight[k] - b.weight[k]));
-    return a.node == b.node && apart < same_weight && a.normal.dot(b.normal) > same_direction;
+    return a.node == b.node && apart < same_weight && dot(a.normal, b.normal) > same_direction;
   }
   // Features nearly in contact cross by the rotation of the normal alone, for any velocity along the normal:
   // by the relative displacement of the nodes times the angle by which it rotates an edge.
@@ -267,15 +265,14 @@ class Resolution {
     const double edge = scene_.features.smallest_edge;
     double squared = 0;
     for (int slave : contact.node)
-      squared = std::max(
-          squared,
-          (scene_.motion.displacement(slave) - scene_.motion.displacement(contact.node[0])).squaredNorm());
+      squared = std::max(squared, squared_norm(scene_.motion.displacement(slave) -
+                                               scene_.motion.displacement(contact.node[0])));
     row.target_velocity =
         std::min(std::max(2 * row.target_velocity, squared / edge / dt_), separation_share * edge / dt_);
   }
   // \returns whether such a constraint is there already
   bool add(const Contact& wanted, std::size_t ordinary) {
-    if (wanted.normal.isZero(0)) return true;
+    if (is_zero(wanted.normal)) return true;
     int& last = scene_.added.last_of_node[index(wanted.node[0])];
     for (int i = last; i >= 0; i = scene_.added.before[index(i) - ordinary]) {
       Contact& known = scene_.contacts[index(i)];
@@ -297,7 +294,7 @@ class Resolution {
     team_.for_ranges(scene_.contacts.size(), contacts_a_range, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         scene_.contacts[i].impulse = row_of(i).impulse;
-        scene_.contacts[i].friction = eigen(row_of(i).friction);
+        scene_.contacts[i].friction = row_of(i).friction;
       }
     });
     if (scene_.log) log_contacts(scene_);
@@ -341,29 +338,29 @@ class Resolution {
     ContactStep& step = scene_.step;
     for (std::size_t s = 0; s < scene_.zone_impulse.size(); ++s) {
       const Vector3d& impulse = scene_.zone_impulse[s];
-      if (impulse.isZero(0)) continue;
+      if (is_zero(impulse)) continue;
       scene_.pushed.insert(static_cast<int>(s));
       scene_.normal_impulse[s] += impulse;
       const auto node = index(scene_.surface.node[s]);
-      const Vector3d before(nodes_.velocity_before[node].component), after(nodes_.record[node].velocity);
-      step.normal_work_before += impulse.dot(before);
-      step.normal_work_after += impulse.dot(after);
-      const Vector3<double> given{impulse[0], impulse[1], impulse[2]};
-      const Vector3d reaction = eigen(nodes_.free_translations(node) * given - given);
-      if (scene_.log && !reaction.isZero(0))
+      const Vector3d before = vector_at(nodes_.velocity_before[node].component),
+                     after = vector_at(nodes_.record[node].velocity);
+      step.normal_work_before += dot(impulse, before);
+      step.normal_work_after += dot(impulse, after);
+      const Vector3d reaction = nodes_.free_translations(node) * impulse - impulse;
+      if (scene_.log && !is_zero(reaction))
         scene_.log->supports.push_back({.node = scene_.surface.node[s], .impulse = reaction});
-      const Vector3d position(nodes_.record[node].position);
-      account_support({reaction, position.cross(reaction), reaction.dot(before), reaction.dot(after)});
+      const Vector3d position = vector_at(nodes_.record[node].position);
+      account_support({reaction, cross(position, reaction), dot(reaction, before), dot(reaction, after)});
     }
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const RigidMotion& body = bodies_[b];
       step.normal_work_before +=
-          body.impulse.dot(body.velocity_before) + body.moment.dot(body.angular_velocity_before);
-      step.normal_work_after += body.impulse.dot(body.velocity) + body.moment.dot(body.angular_velocity);
+          dot(body.impulse, body.velocity_before) + dot(body.moment, body.angular_velocity_before);
+      step.normal_work_after += dot(body.impulse, body.velocity) + dot(body.moment, body.angular_velocity);
       RigidSupport support = support_against(body, body.impulse, body.moment);
       if (scene_.log)
         scene_.log->supports.push_back({.body = static_cast<int>(b), .impulse = support.impulse});
-      support.moment += body.centre.cross(support.impulse);
+      support.moment += cross(body.centre, support.impulse);
       account_support(support);
     }
     for (std::size_t b = 0; b < rows_.block.size(); ++b) rows_.block[b].velocity = final_velocity(b);
@@ -376,27 +373,27 @@ class Resolution {
     step.support_work_after += support.work_after;
   }
 
-  Vector3<double> final_velocity(std::size_t block) const {
+  Vector3d final_velocity(std::size_t block) const {
     const auto of = index(rows_.owner[block].index);
     switch (rows_.owner[block].kind) {
       case BlockOwner::Kind::node:
-        return components(nodes_.record[of].velocity);
+        return vector_at(nodes_.record[of].velocity);
       case BlockOwner::Kind::rotation_of_node:
-        return components(nodes_.angular_velocity[of].component);
+        return vector_at(nodes_.angular_velocity[of].component);
       case BlockOwner::Kind::body:
-        return components(bodies_[of].velocity);
+        return bodies_[of].velocity;
       default:
-        return components(bodies_[of].angular_velocity);
+        return bodies_[of].angular_velocity;
     }
   }
 
   void log_supports() {
-    std::vector<Vector3<double>>& reaction = scene_.log->reaction;
+    std::vector<Vector3d>& reaction = scene_.log->reaction;
     reaction.assign(rows_.block.size(), {0, 0, 0});
     sum_reactions(rows_.rows, rows_.block, rows_.place, reaction);
     for (std::size_t b = 0; b < reaction.size(); ++b) {
-      const Vector3d impulse = eigen(reaction[b]);
-      if (impulse.isZero(0)) continue;
+      const Vector3d impulse = reaction[b];
+      if (is_zero(impulse)) continue;
       const BlockOwner& owner = rows_.owner[b];
       if (owner.kind == BlockOwner::Kind::node)
         scene_.log->supports.push_back({.node = owner.index, .impulse = impulse});
@@ -412,8 +409,8 @@ class Resolution {
         account_work(rows_.rows, rows_.before, rows_.block, rows_.place, pushes, rows_.work, team_);
     ContactStep& step = scene_.step;
     for (const ImpulseOnWall& push : pushes) {
-      step.wall_impulse -= eigen(push.impulse);
-      step.wall_moment -= eigen(push.moment);
+      step.wall_impulse -= push.impulse;
+      step.wall_moment -= push.moment;
     }
     step.normal_work_before += work.normal_before;
     step.normal_work_after += work.normal_after;
@@ -421,17 +418,16 @@ class Resolution {
     step.friction_work_after += work.friction_after;
     step.support_work_before += work.support_before;
     step.support_work_after += work.support_after;
-    step.support_impulse += eigen(work.support_impulse);
-    step.support_moment += eigen(work.support_moment);
+    step.support_impulse += work.support_impulse;
+    step.support_moment += work.support_moment;
     if (scene_.log) log_supports();
     if (bodies_.empty()) return;
     for (const ConstraintRow& row : rows_.rows.row) {
       if (row.impulse == 0) continue;
-      RowMap(rows_.rows, row).spread(impulse_of(row), [&](int b, const Vector3<double>& given) {
+      RowMap(rows_.rows, row).spread(impulse_of(row), [&](int b, const Vector3d& given) {
         const BlockOwner& owner = rows_.owner[index(b)];
-        if (owner.kind == BlockOwner::Kind::body) bodies_[index(owner.index)].impulse += eigen(given);
-        if (owner.kind == BlockOwner::Kind::rotation_of_body)
-          bodies_[index(owner.index)].moment += eigen(given);
+        if (owner.kind == BlockOwner::Kind::body) bodies_[index(owner.index)].impulse += given;
+        if (owner.kind == BlockOwner::Kind::rotation_of_body) bodies_[index(owner.index)].moment += given;
       });
     }
   }

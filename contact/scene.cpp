@@ -6,8 +6,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 ContactScene::ContactScene() = default;
 ContactScene::ContactScene(const ContactScene&) = default;
 ContactScene::ContactScene(ContactScene&&) noexcept = default;
@@ -24,11 +22,11 @@ ContactScene make_contact_scene(const ContactOptions& options, std::span<const S
   measure(scene.features, scene.surface, nodes);
   collect(scene.features, scene.surface, options);
   const std::size_t slaves = scene.surface.slaves();
-  scene.velocity.resize(slaves, Vector3d::Zero());
+  scene.velocity.resize(slaves, Vector3d{});
   scene.loaded.resize(slaves);
   scene.in_contact = scene.pushed = SlaveSet(slaves);
-  scene.normal_impulse.resize(slaves, Vector3d::Zero());
-  scene.friction_impulse.resize(slaves, Vector3d::Zero());
+  scene.normal_impulse.resize(slaves, Vector3d{});
+  scene.friction_impulse.resize(slaves, Vector3d{});
   return scene;
 }
 

@@ -51,10 +51,10 @@ struct ContactStep {
   /// Reactions of the supports of prescribed components of motion.
   double support_work_before = 0;
   double support_work_after = 0;
-  Eigen::Vector3d support_impulse = Eigen::Vector3d::Zero();
-  Eigen::Vector3d support_moment = Eigen::Vector3d::Zero();  ///< about the origin
-  Eigen::Vector3d wall_impulse = Eigen::Vector3d::Zero();    ///< of walls on nodes
-  Eigen::Vector3d wall_moment = Eigen::Vector3d::Zero();     ///< about the origin
+  Vector3d support_impulse{};
+  Vector3d support_moment{};  ///< about the origin
+  Vector3d wall_impulse{};    ///< of walls on nodes
+  Vector3d wall_moment{};     ///< about the origin
 
   double normal_work() const { return 0.5 * (normal_work_before + normal_work_after); }
   double friction_work() const { return 0.5 * (friction_work_before + friction_work_after); }
@@ -114,8 +114,8 @@ struct ContactScene {
   } added;
   NodesAtWalls walls;
   ImpulseSolver solver;
-  std::vector<Eigen::Vector3d> zone_impulse;  ///< of each slave node, in this step; empty: no zone
-  std::vector<int> zone_of;                   ///< of each slave node and body
+  std::vector<Vector3d> zone_impulse;  ///< of each slave node, in this step; empty: no zone
+  std::vector<int> zone_of;            ///< of each slave node and body
   std::uint64_t steps_with_hits = 0, rounds = 0, zones = 0;
   /// Steps that ended with an unresolved crossing, and the first such pair.
   struct Unresolved {
@@ -125,11 +125,11 @@ struct ContactScene {
   } unresolved;
 
   LoadedNodes loaded;
-  SlaveSet in_contact;                          ///< nodes moved by rows in this step
-  std::vector<Eigen::Vector3d> velocity;        ///< of each slave node; up to date for those in contact
-  SlaveSet pushed;                              ///< nodes with an impulse in the last step
-  std::vector<Eigen::Vector3d> normal_impulse;  ///< of each slave node, in the last step
-  std::vector<Eigen::Vector3d> friction_impulse;
+  SlaveSet in_contact;                   ///< nodes moved by rows in this step
+  std::vector<Vector3d> velocity;        ///< of each slave node; up to date for those in contact
+  SlaveSet pushed;                       ///< nodes with an impulse in the last step
+  std::vector<Vector3d> normal_impulse;  ///< of each slave node, in the last step
+  std::vector<Vector3d> friction_impulse;
 
   ContactStep step;
   ContactTotals totals;

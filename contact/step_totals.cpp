@@ -9,8 +9,8 @@ namespace brio {
 
 void sum_impulses(ContactScene& scene) {
   scene.pushed.for_each([&](std::size_t s) {
-    scene.normal_impulse[s].setZero();
-    scene.friction_impulse[s].setZero();
+    scene.normal_impulse[s] = {};
+    scene.friction_impulse[s] = {};
   });
   scene.pushed.clear();
   for (const Contact& contact : scene.contacts) {

@@ -7,6 +7,7 @@
 
 #include "elements/base/element_kind.hpp"
 #include "src/base/fields.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -24,7 +25,7 @@ struct Rigid {
   std::optional<double> thickness;
   std::optional<double> mass;
   std::optional<std::array<double, 6>> inertia;
-  std::optional<std::array<double, 3>> centre;
+  std::optional<Vector3d> centre;
 
   double contact_thickness() const { return thickness.value_or(0); }
 

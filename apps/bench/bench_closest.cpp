@@ -39,7 +39,7 @@ class Sheet {
     for (int j = 0; j < rows; ++j) {
       for (int i = 0; i < columns; ++i) {
         const auto node = index(j * columns + i);
-        const Eigen::Vector3d place = Eigen::Vector3d(i, j, 0) + vector(0.2);
+        const Vector3d place = Vector3d{i, j, 0} + vector(0.2);
         for (int k = 0; k < 3; ++k) {
           node_[node].position[k] = place[k];
           end_[node].component[k] = place[k] + 0.01 * number();
@@ -55,7 +55,7 @@ class Sheet {
   const PointRow* ends() const { return &end_[0]; }
   // Five nodes of eight pairs each: node and face; the first four are also those of two edges.
   const int* pack(std::size_t k) const { return &index_[40 * k]; }
-  Eigen::Vector3d position(int node) const {
+  Vector3d position(int node) const {
     const double* p = node_[index(node)].position;
     return {p[0], p[1], p[2]};
   }
@@ -70,7 +70,7 @@ class Sheet {
   int whole(int low, int high) {
     return low + static_cast<int>(engine_() % static_cast<unsigned>(high - low + 1));
   }
-  Eigen::Vector3d vector(double size) {
+  Vector3d vector(double size) {
     const double x = size * number();
     const double y = size * number();
     return {x, y, size * number()};

@@ -55,13 +55,13 @@ struct Plane {
     const double v = y - line;
     const int own = side * n_ * n_ + i + n_ * j;
     const int first = (1 - side) * n_ * n_ + static_cast<int>(column) + n_ * static_cast<int>(line);
-    const Vector3<double> normal{0, 0, side == 0 ? 1.0 : -1.0};
+    const Vector3d normal{0, 0, side == 0 ? 1.0 : -1.0};
     FaceFoot foot;
     const int corner[4] = {first, first + 1, first + 1 + n_, first + n_};
     const double weight[4] = {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
     const double along[4] = {v - 1, 1 - v, v, -v};
     const double across[4] = {u - 1, -u, u, 1 - u};
-    const Vector3<double> place[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    const Vector3d place[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     for (int k = 0; k < 4; ++k) {
       foot.block[k] = corner[k];
       foot.weight[k] = weight[k];

@@ -25,7 +25,7 @@ using namespace brio;
 
 double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-Mesh bricks(std::array<int, 3> cells, double edge, std::array<double, 3> lowest) {
+Mesh bricks(std::array<int, 3> cells, double edge, Vector3d lowest) {
   Mesh mesh;
   const auto at = [&](int i, int j, int k) { return i + (cells[0] + 1) * (j + (cells[1] + 1) * k); };
   for (int k = 0; k <= cells[2]; ++k)

@@ -21,7 +21,7 @@
 namespace {
 
 using namespace brio;
-using Point = std::array<double, 3>;
+using Point = Vector3d;
 
 struct Scene {
   Nodes nodes;

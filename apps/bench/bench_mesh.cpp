@@ -35,7 +35,7 @@ double peak_mb() {
 int node(int n, int i, int j, int k) { return 1 + i + (n + 1) * (j + (n + 1) * k); }
 
 struct Cube {
-  std::vector<std::array<double, 3>> position;
+  std::vector<Vector3d> position;
   std::vector<std::array<int, 8>> corners;  ///< from 1
 };
 

@@ -24,7 +24,7 @@
 namespace brio {
 namespace {
 
-using Position = Vector3<double>;
+using Position = Vector3d;
 
 struct FacedSurface {
   std::vector<Position> node;

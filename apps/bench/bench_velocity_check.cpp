@@ -22,8 +22,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr std::size_t pair_count = std::size_t{1} << 14;
 
 struct Pair {
@@ -47,15 +45,15 @@ class Pairs {
     static constexpr double corner[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     Pair result;
     for (std::size_t k = 0; k < 4; ++k) {
-      result.face.start[k] = Vector3d(corner[k][0], corner[k][1], 0) + vector(0.1);
+      result.face.start[k] = Vector3d{corner[k][0], corner[k][1], 0} + vector(0.1);
       result.face.displacement[k] = vector(0.1);
     }
     result.node.displacement = vector(0.1);
     if (kind_ == Kind::random) {
-      result.node.start = Vector3d(0.5, 0.5, 0) + vector(2);
+      result.node.start = Vector3d{0.5, 0.5, 0} + vector(2);
       return result;
     }
-    Vector3d target = Vector3d::Zero();
+    Vector3d target{};
     const double time = 0.5 + 0.4 * number();
     const double x = kind_ == Kind::hit ? 0.5 + 0.4 * number() : -0.01;
     const double y = 0.5 + 0.4 * number();
@@ -98,7 +96,7 @@ class EdgePairs {
   Edges pair() {
     Edges result;
     for (MovingEdge* edge : {&result.a, &result.b}) {
-      const Vector3d direction = kind_ == Kind::parallel ? Vector3d(1, 0, 0) : vector(1).normalized();
+      const Vector3d direction = kind_ == Kind::parallel ? Vector3d{1, 0, 0} : normalized(vector(1));
       const Vector3d motion = vector(0.1);
       for (std::size_t k = 0; k < 2; ++k) {
         edge->start[k] = (k == 0 ? -0.5 : 0.5) * direction;

@@ -9,8 +9,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// Of the largest coordinate: positions are sums of many steps, each rounded.
@@ -31,7 +29,7 @@ void join(std::vector<int>& parent, int a, int b) {
 }
 
 Vector3d unit_normal(const AuditedFace& face) {
-  return (face.x[2] - face.x[0]).cross(face.x[3] - face.x[1]).normalized();
+  return normalized(cross(face.x[2] - face.x[0], face.x[3] - face.x[1]));
 }
 
 }  // namespace
@@ -43,7 +41,7 @@ AuditedSurface::AuditedSurface(const Surface& the_surface, const Nodes& the_node
   find_continuation();
   double largest = 0;
   for (int node : surface.node)
-    if (node >= 0) largest = std::max(largest, position(node).cwiseAbs().maxCoeff());
+    if (node >= 0) largest = std::max(largest, maximum_norm(position(node)));
   tolerance = rounding_ratio * largest;
 }
 
@@ -94,13 +92,13 @@ void AuditedSurface::add_face(int number) {
   const auto corners = index(own.corners);
   double shortest = HUGE_VAL;
   for (std::size_t k = 0; k < corners; ++k)
-    shortest = std::min(shortest, (own.x[(k + 1) % corners] - own.x[k]).squaredNorm());
+    shortest = std::min(shortest, squared_norm(own.x[(k + 1) % corners] - own.x[k]));
   own.shortest_edge = std::sqrt(shortest);
   (known.shell ? has_shells : has_solids) = true;
 }
 
 void AuditedSurface::find_continuation() {
-  std::vector<Vector3d> normal(surface.face.size(), Vector3d::Zero());
+  std::vector<Vector3d> normal(surface.face.size(), Vector3d{});
   std::vector<std::uint8_t> ends_at(
       surface.slaves());  // of each slave node: 1 where a sharp or free edge ends
   for (const AuditedFace& f : face) normal[index(f.face)] = unit_normal(f);
@@ -109,7 +107,7 @@ void AuditedSurface::find_continuation() {
     for (std::size_t k = 0; k < index(f.corners); ++k) {
       const auto own = index(f.face);
       const int across = surface.neighbor[own][k];
-      f.edge_continues[k] = across >= 0 && normal[own].dot(normal[index(across)]) > cosine_of_continuing;
+      f.edge_continues[k] = across >= 0 && dot(normal[own], normal[index(across)]) > cosine_of_continuing;
       if (!f.edge_continues[k])
         ends_at[slave(f.node[k])] = ends_at[slave(f.node[(k + 1) % index(f.corners)])] = 1;
     }

@@ -1,7 +1,6 @@
 #pragma once
 /// The surface as the audit sees it: living faces along a curve, at their present positions.
 
-#include <Eigen/Dense>
 #include <array>
 #include <vector>
 
@@ -10,11 +9,12 @@
 #include "contact/surface/surface.hpp"
 #include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
 struct AuditedFace {
-  std::array<Eigen::Vector3d, 4> x;      ///< corners; a triangle repeats its third
+  std::array<Vector3d, 4> x;             ///< corners; a triangle repeats its third
   std::array<int, 4> node{};             ///< global
   std::array<bool, 4> edge_continues{};  ///< as Continuation says
   std::array<bool, 4> corner_continues{};
@@ -53,7 +53,7 @@ struct AuditedSurface {
   bool has_shells = false, has_solids = false;
   double tolerance = 0;  ///< a depth that rounding of positions explains
 
-  Eigen::Vector3d position(int global_node) const {
+  Vector3d position(int global_node) const {
     const double* x = nodes.record[index(global_node)].position;
     return {x[0], x[1], x[2]};
   }

@@ -24,11 +24,11 @@ std::vector<int> morton_order(std::span<const BoundingBox> boxes) {
   BoundingBox all;
   for (const BoundingBox& box : boxes) all.add(0.5 * (box.lower + box.upper));
   constexpr double cells = (1 << bits_of_axis) - 1;
-  const double extent = boxes.empty() ? 0 : (all.upper - all.lower).maxCoeff();
+  const double extent = boxes.empty() ? 0 : largest_component(all.upper - all.lower);
   const double scale = extent > 0 ? cells / extent : 0;
   std::vector<std::pair<std::uint64_t, int>> key(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Eigen::Vector3d at = scale * (0.5 * (boxes[i].lower + boxes[i].upper) - all.lower);
+    const Vector3d at = scale * (0.5 * (boxes[i].lower + boxes[i].upper) - all.lower);
     std::uint64_t code = 0;
     for (int axis = 0; axis < 3; ++axis)
       code |= spread(static_cast<std::uint64_t>(std::clamp(at[axis], 0.0, cells))) << axis;

@@ -1,7 +1,6 @@
 #pragma once
 /// The audit's own search: a tree of bounding boxes over items sorted along a Morton curve.
 
-#include <Eigen/Dense>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -12,33 +11,37 @@
 #include <immintrin.h>
 
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 #endif
 
 namespace brio {
 
 /// Axis-aligned, closed.
 struct BoundingBox {
-  Eigen::Vector3d lower = Eigen::Vector3d::Constant(HUGE_VAL);
-  Eigen::Vector3d upper = Eigen::Vector3d::Constant(-HUGE_VAL);
+  Vector3d lower{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+  Vector3d upper{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
-  void add(const Eigen::Vector3d& x) {
-    lower = lower.cwiseMin(x);
-    upper = upper.cwiseMax(x);
+  void add(const Vector3d& x) {
+    lower = minimum(lower, x);
+    upper = maximum(upper, x);
   }
   void add(const BoundingBox& other) {
-    lower = lower.cwiseMin(other.lower);
-    upper = upper.cwiseMax(other.upper);
+    lower = minimum(lower, other.lower);
+    upper = maximum(upper, other.upper);
   }
-  BoundingBox grown(double by) const { return {lower.array() - by, upper.array() + by}; }
+  BoundingBox grown(double by) const {
+    const Vector3d margin{by, by, by};
+    return {lower - margin, upper + margin};
+  }
   bool overlaps(const BoundingBox& other) const {
     return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] && lower[1] <= other.upper[1] &&
            other.lower[1] <= upper[1] && lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
   }
   bool holds(const BoundingBox& other) const {
-    return (lower.array() <= other.lower.array()).all() && (other.upper.array() <= upper.array()).all();
+    return minimum(lower, other.lower) == lower && maximum(upper, other.upper) == upper;
   }
-  double squared_distance(const Eigen::Vector3d& x) const {
-    return (lower - x).cwiseMax(x - upper).cwiseMax(0.0).squaredNorm();
+  double squared_distance(const Vector3d& x) const {
+    return squared_norm(maximum(maximum(lower - x, x - upper), {0, 0, 0}));
   }
 };
 

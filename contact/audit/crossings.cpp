@@ -9,8 +9,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 constexpr std::size_t faces_per_task = 128;
@@ -64,7 +62,7 @@ class CrossingSearch {
     audited_.tree.for_overlapping(box, 0, [&](int j) {
       PairOfElements pair;
       cross(own, face(j), audited_.tree.box(j), pair);
-      note(pair, std::min(face(j).shortest_edge, (x[1] - x[0]).norm()), audited_.piece_of_node(beam.node[0]),
+      note(pair, std::min(face(j).shortest_edge, norm(x[1] - x[0])), audited_.piece_of_node(beam.node[0]),
            face(j).piece, result);
     });
   }

@@ -5,8 +5,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 double ratio_within(double part, double whole) {
@@ -15,18 +13,18 @@ double ratio_within(double part, double whole) {
 
 double squared_distance_to_edge(const Vector3d& x, const Vector3d& a, const Vector3d& b) {
   const Vector3d along = b - a;
-  return (x - a - ratio_within((x - a).dot(along), along.squaredNorm()) * along).squaredNorm();
+  return squared_norm(x - a - ratio_within(dot(x - a, along), squared_norm(along)) * along);
 }
 
 }  // namespace
 
 double squared_distance_to_triangle(const Vector3d& x, const Vector3d& a, const Vector3d& b,
                                     const Vector3d& c) {
-  const Vector3d normal = (b - a).cross(c - a);
-  const double area = normal.squaredNorm();
-  if (area > 0 && normal.dot((b - a).cross(x - a)) >= 0 && normal.dot((c - b).cross(x - b)) >= 0 &&
-      normal.dot((a - c).cross(x - c)) >= 0) {
-    const double height = normal.dot(x - a);
+  const Vector3d normal = cross(b - a, c - a);
+  const double area = squared_norm(normal);
+  if (area > 0 && dot(normal, cross(b - a, x - a)) >= 0 && dot(normal, cross(c - b, x - b)) >= 0 &&
+      dot(normal, cross(a - c, x - c)) >= 0) {
+    const double height = dot(normal, x - a);
     return height * height / area;
   }
   return std::min({squared_distance_to_edge(x, a, b), squared_distance_to_edge(x, b, c),
@@ -45,14 +43,14 @@ double distance_to_face(const Vector3d& x, const std::array<Vector3d, 4>& face, 
 SegmentDistance distance_of_segments(const std::array<Vector3d, 2>& first,
                                      const std::array<Vector3d, 2>& second) {
   const Vector3d u = first[1] - first[0], v = second[1] - second[0], between = first[0] - second[0];
-  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
-  const double u_between = u.dot(between), v_between = v.dot(between);
+  const double uu = squared_norm(u), vv = squared_norm(v), uv = dot(u, v);
+  const double u_between = dot(u, between), v_between = dot(v, between);
   const auto on_second = [&](double s) { return ratio_within(uv * s + v_between, vv); };
   const auto on_first = [&](double t) { return ratio_within(uv * t - u_between, uu); };
   double s = ratio_within(uv * v_between - vv * u_between, uu * vv - uv * uv);
   const double t = on_second(s);
   s = on_first(t);
-  return {.distance = (between + s * u - t * v).norm(), .parameter = {s, t}};
+  return {.distance = norm(between + s * u - t * v), .parameter = {s, t}};
 }
 
 }  // namespace brio

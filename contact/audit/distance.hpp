@@ -1,8 +1,9 @@
 #pragma once
 /// Distances of the audit (Ericson 2005, "Real-time collision detection", 5.1).
 
-#include <Eigen/Dense>
 #include <array>
+
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -11,12 +12,12 @@ namespace brio {
 inline constexpr double tolerated_closeness = 0.1;
 
 /// From a point to a triangle, squared.
-double squared_distance_to_triangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
-                                    const Eigen::Vector3d& b, const Eigen::Vector3d& c);
+double squared_distance_to_triangle(const Vector3d& x, const Vector3d& a, const Vector3d& b,
+                                    const Vector3d& c);
 
 /// From a point to a face: of a quadrilateral, to the four triangles around its mean.
 /// \param corners 3 or 4
-double distance_to_face(const Eigen::Vector3d& x, const std::array<Eigen::Vector3d, 4>& face, int corners);
+double distance_to_face(const Vector3d& x, const std::array<Vector3d, 4>& face, int corners);
 
 /// Closest points of two segments.
 struct SegmentDistance {
@@ -26,7 +27,7 @@ struct SegmentDistance {
   bool inside(std::size_t segment) const { return parameter[segment] > 0 && parameter[segment] < 1; }
 };
 /// \param first, second ends; the same twice: a point
-SegmentDistance distance_of_segments(const std::array<Eigen::Vector3d, 2>& first,
-                                     const std::array<Eigen::Vector3d, 2>& second);
+SegmentDistance distance_of_segments(const std::array<Vector3d, 2>& first,
+                                     const std::array<Vector3d, 2>& second);
 
 }  // namespace brio

@@ -7,8 +7,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 constexpr std::size_t probes_per_task = 64;
@@ -50,7 +48,7 @@ class Enclosure {
     const BoundingBox& solid = piece(probe.pieces[1]).box;
     const double length = 1.01 * (solid.upper[0] - probe.x[0]) + audited_.tolerance;
     for (const auto& slope : slope_of_ray) {
-      const Vector3d end = probe.x + length * Vector3d(1, slope[0], slope[1]);
+      const Vector3d end = probe.x + length * Vector3d{1, slope[0], slope[1]};
       bool meets_an_edge = false;
       const int turns = turns_along(probe, end, meets_an_edge);
       if (!meets_an_edge) return turns != 0;

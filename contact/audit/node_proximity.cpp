@@ -7,8 +7,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 constexpr std::size_t nodes_per_task = 128;

@@ -6,8 +6,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// Exact sum of doubles that do not overlap, ascending in size, zeros left out. The determinant of three

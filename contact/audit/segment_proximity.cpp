@@ -9,8 +9,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 constexpr std::size_t segments_per_task = 128;

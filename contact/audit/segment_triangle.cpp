@@ -7,12 +7,10 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 Vector3d permanent_of(const Vector3d& u, const Vector3d& v) {
-  const Vector3d a = u.cwiseAbs(), b = v.cwiseAbs();
+  const Vector3d a = absolute(u), b = absolute(v);
   return {a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]};
 }
 
@@ -30,9 +28,9 @@ SurfaceTriangle::SurfaceTriangle(const Vector3d& a, const Vector3d& b, const Vec
                                  const Continuation& continuing)
     : corner{a, b, c},
       continues(continuing),
-      area((b - a).cross(c - a)),
+      area(cross(b - a, c - a)),
       permanent(permanent_of(b - a, c - a)),
-      twice_area(area.norm()) {}
+      twice_area(norm(area)) {}
 
 bool crosses(const Vector3d& from, const Vector3d& to, const SurfaceTriangle& triangle) {
   const int start = side_of(from, triangle);
@@ -52,14 +50,14 @@ bool crosses(const Vector3d& from, const Vector3d& to, const SurfaceTriangle& tr
 double crossing_depth(const Vector3d& from, const Vector3d& to, const SurfaceTriangle& triangle) {
   double depth = std::min(std::abs(triangle.volume(from).value), std::abs(triangle.volume(to).value)) /
                  triangle.twice_area;
-  const Vector3d along = (to - from).normalized();
+  const Vector3d along = normalized(to - from);
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d& corner = triangle.corner[k];
-    if (!triangle.continues.corner[k]) depth = std::min(depth, along.cross(corner - from).norm());
+    if (!triangle.continues.corner[k]) depth = std::min(depth, norm(cross(along, corner - from)));
     if (triangle.continues.edge[k]) continue;
-    const Vector3d both = along.cross(triangle.corner[(k + 1) % 3] - corner);
-    const double size = both.norm();
-    if (size > 0) depth = std::min(depth, std::abs(both.dot(corner - from)) / size);
+    const Vector3d both = cross(along, triangle.corner[(k + 1) % 3] - corner);
+    const double size = norm(both);
+    if (size > 0) depth = std::min(depth, std::abs(dot(both, corner - from)) / size);
   }
   return depth;
 }

@@ -11,8 +11,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 // The triangles of the face, the one that is met first.
@@ -110,7 +108,7 @@ std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
 
 // What is nearer than the separation does not approach, and is recovered as an overlap is.
 void CrossingCheck::set_start(Hit& hit, Contact& contact, const Vector3d& offset, double floor) const {
-  const double distance = offset.norm();
+  const double distance = norm(offset);
   if (distance < no_distance * features_.smallest_edge) return;
   contact.normal = offset / distance;
   contact.gap = distance - floor - separation_;
@@ -118,13 +116,13 @@ void CrossingCheck::set_start(Hit& hit, Contact& contact, const Vector3d& offset
 }
 
 void CrossingCheck::set_hit(Hit& hit, Contact contact, Vector3d normal, bool without_side) const {
-  if (normal.squaredNorm() < 0.5) return;
-  Vector3d offset = Vector3d::Zero();
+  if (squared_norm(normal) < 0.5) return;
+  Vector3d offset{};
   for (std::size_t k = 0; k < 5; ++k) offset += contact.weight[k] * motion_.start(contact.node[k]);
-  if (without_side && hit.at_start.normal.dot(normal) < 0) normal = -normal;
+  if (without_side && dot(hit.at_start.normal, normal) < 0) normal = -normal;
   contact.normal = normal;
   contact.along_meeting = true;
-  const double gap = normal.dot(offset);
+  const double gap = dot(normal, offset);
   if (gap <= 0) return;
   contact.gap = gap - separation_;
   hit.at_hit = contact;

@@ -28,8 +28,8 @@ class CrossingCheck {
   std::optional<Hit> edge_and_edge(std::size_t pair) const;
 
  private:
-  void set_start(Hit& hit, Contact& contact, const Eigen::Vector3d& offset, double floor) const;
-  void set_hit(Hit& hit, Contact contact, Eigen::Vector3d normal, bool without_side) const;
+  void set_start(Hit& hit, Contact& contact, const Vector3d& offset, double floor) const;
+  void set_hit(Hit& hit, Contact contact, Vector3d normal, bool without_side) const;
 
   const SurfaceFeatures& features_;
   const Surface& surface_;

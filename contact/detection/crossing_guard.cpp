@@ -75,7 +75,7 @@ class Look {
 
   BRIO_INLINE void certify(const OnePair<Kind>& one, PairsOfRange& uncertain,
                            CrossingGuard::Range& range) const {
-    const Vector3<double> d = one.direction();
+    const Vector3d d = one.direction();
     const auto start = one.points(start_rows_), end = one.points(end_rows_);
     double floor = 0;
     if (is_of_points(one)) {

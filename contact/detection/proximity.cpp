@@ -11,19 +11,17 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 // Of unit length but for rounding to single precision, or zero.
 template <class Points>
-Vector3<double> between_middles(const Points& at) {
+Vector3d between_middles(const Points& at) {
   const auto middle = [](const auto& points) {
-    Vector3<double> sum = points[0];
+    Vector3d sum = points[0];
     for (std::size_t k = 1; k < points.size(); ++k) sum = sum + points[k];
     return 1.0 / static_cast<double>(points.size()) * sum;
   };
-  const Vector3<double> d = middle(at.first) - middle(at.second);
+  const Vector3d d = middle(at.first) - middle(at.second);
   const double inverse = std::sqrt(inverse_or_zero(dot(d, d)));
   const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
   return {rounded(inverse * d.x), rounded(inverse * d.y), rounded(inverse * d.z)};
@@ -61,7 +59,7 @@ class Finder {
   // Whether its stored direction does not separate it by enough. Of a pair that has been as near as the band
   // the direction is not asked: it would be answered so in every step of a contact.
   BRIO_INLINE bool is_near(const OnePair<Kind>& one) const {
-    Vector3<double> direction = one.direction();
+    Vector3d direction = one.direction();
     const bool is_known = !(dot(direction, direction) < 0.5);
     if (is_known && one.record.spacing != Spacing::waiting && kind_.list.wake[one.pair] <= one.path())
       return true;

@@ -11,8 +11,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// Neighbours that are nearer by less than this sine are ignored, so that surfaces in contact that bend keep
@@ -40,15 +38,15 @@ constexpr std::array<double, 2> looked_at_shares{0.5, 1};
 template <class Faces>
 ProximityFilter::Edginess ProximityFilter::edginess(const Faces& faces, const Vector3d& direction) const {
   Edginess found;
-  Vector3d first = Vector3d::Zero();
+  Vector3d first{};
   for (int f : faces) {
     if (f < 0) continue;
     const std::array<int, 4>& corner = features_.face_node[index(f)];
     const auto at = [&](std::size_t k) { return motion_.start(corner[k]); };
-    const Vector3d normal = unit_or((at(2) - at(0)).cross(at(3) - at(1)), Vector3d::Zero());
-    found.cosine = std::max(found.cosine, normal.dot(direction));
-    if (first.isZero(0)) first = normal;
-    found.sharp |= normal.dot(first) < sharp_cosine;
+    const Vector3d normal = unit_or(cross(at(2) - at(0), at(3) - at(1)), Vector3d{});
+    found.cosine = std::max(found.cosine, dot(normal, direction));
+    if (is_zero(first)) first = normal;
+    found.sharp |= dot(normal, first) < sharp_cosine;
   }
   return found;
 }
@@ -68,7 +66,7 @@ double ProximityFilter::spared_skin(double tilt) const {
 // The sine of the error of directions for a distance of the closest points.
 double ProximityFilter::slack_of(const Vector3d& foot, double distance) {
   return std::max(flat_sine,
-                  roundings * std::numeric_limits<double>::epsilon() * foot.cwiseAbs().maxCoeff() / distance);
+                  roundings * std::numeric_limits<double>::epsilon() * maximum_norm(foot) / distance);
 }
 
 // Of parameters: nearer to a node, the direction differs by less than the sine from that of the node, which
@@ -94,8 +92,8 @@ bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot,
     return std::all_of(neighbours.begin(), neighbours.end(), [&](int neighbour) {
       if (neighbour < 0) return true;
       const Vector3d arm = motion_.start(neighbour) + share * motion_.displacement(neighbour) - from;
-      const double height = arm.dot(away);
-      return height >= 0 || height * height <= slack * slack * arm.squaredNorm() ||
+      const double height = dot(arm, away);
+      return height >= 0 || height * height <= slack * slack * squared_norm(arm) ||
              height >= -allowed(neighbour) || is_one_piece(neighbour, other);
     });
   };
@@ -129,9 +127,9 @@ ProximityFilter::MovingPoint ProximityFilter::point_of(int node) const {
 
 // Whether the step's approach, or twice it, closes the gap.
 bool ProximityFilter::is_near(const Contact& contact) const {
-  Vector3d relative = Vector3d::Zero();
+  Vector3d relative{};
   for (std::size_t k = 0; k < 5; ++k) relative += contact.weight[k] * motion_.displacement(contact.node[k]);
-  return contact.gap <= band_ + approach_factor * std::abs(contact.normal.dot(relative));
+  return contact.gap <= band_ + approach_factor * std::abs(dot(contact.normal, relative));
 }
 
 // Whether the foot on the face is a local minimum on the union of faces; what it lies on: a node, two nodes,
@@ -204,15 +202,15 @@ bool ProximityFilter::lay_in_plane(const NearPair<4>& near, double slack, Contac
   const std::size_t next = (k + 1) % corners, previous = (k + corners - 1) % corners;
   const Vector3d along = motion_.start(corner[next]) - motion_.start(corner[k]);
   const Vector3d across = motion_.start(corner[previous]) - motion_.start(corner[k]);
-  const Vector3d normal = unit_or(along.cross(across), Vector3d::Zero());
-  const double cosine = normal.dot(near.normal);
+  const Vector3d normal = unit_or(cross(along, across), Vector3d{});
+  const double cosine = dot(normal, near.normal);
   const Vector3d aside = near.normal - cosine * normal;
-  if (normal.isZero(0) || aside.squaredNorm() > slack * slack) return false;
+  if (is_zero(normal) || squared_norm(aside) > slack * slack) return false;
   // The foot moves by first * along + second * across.
-  const double aa = along.squaredNorm(), ab = along.dot(across), bb = across.squaredNorm();
+  const double aa = squared_norm(along), ab = dot(along, across), bb = squared_norm(across);
   const double scale = near.distance / (aa * bb - ab * ab);
-  const double first = scale * (bb * along.dot(aside) - ab * across.dot(aside));
-  const double second = scale * (aa * across.dot(aside) - ab * along.dot(aside));
+  const double first = scale * (bb * dot(along, aside) - ab * dot(across, aside));
+  const double second = scale * (aa * dot(across, aside) - ab * dot(along, aside));
   contact.weight[1 + next] -= first;
   contact.weight[1 + previous] -= second;
   contact.weight[1 + k] += first + second;
@@ -262,7 +260,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   contact.gap = near.distance - near.reach;
   if (!is_near(contact)) return;
   std::array<int, 2> support{};
-  MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d::Zero()};
+  MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d{}};
   foot.end = foot.start;
   for (std::size_t k = 0; k < 4; ++k) foot.end += near.at[k] * motion_.displacement(corner[k]);
   const double slack = slack_of(foot.start, near.distance);
@@ -312,8 +310,8 @@ ProximityFilter::Flatness ProximityFilter::flatness(const EdgeFeature& own, cons
   for (int neighbour : own.wing) {
     if (neighbour < 0) continue;
     const Vector3d arm = motion_.start(neighbour) - foot;
-    const double height = arm.dot(direction);
-    (height * height <= flat_sine * flat_sine * arm.squaredNorm() ? flat : steep) += 1;
+    const double height = dot(arm, direction);
+    (height * height <= flat_sine * flat_sine * squared_norm(arm) ? flat : steep) += 1;
   }
   if (flat == 0) return Flatness::none;
   return steep == 0 && own.faces == 2 ? Flatness::inside : Flatness::rim;
@@ -325,7 +323,7 @@ bool ProximityFilter::are_parallel(const EdgeFeature& a, const EdgeFeature& b, d
   if (!a.of_face() || !b.of_face()) return false;
   const Vector3d along_a = motion_.start(a.node[1]) - motion_.start(a.node[0]);
   const Vector3d along_b = motion_.start(b.node[1]) - motion_.start(b.node[0]);
-  return along_a.cross(along_b).squaredNorm() <= sine * sine * along_a.squaredNorm() * along_b.squaredNorm();
+  return squared_norm(cross(along_a, along_b)) <= sine * sine * squared_norm(along_a) * squared_norm(along_b);
 }
 
 void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundContact>& found) const {

@@ -15,7 +15,7 @@ template <std::size_t Numbers>
 struct NearPair {
   int pair = 0;
   std::array<double, Numbers> at{};  ///< weights of the corners of the face; parameters on both edges
-  Eigen::Vector3d normal;            ///< unit vector from the second feature to the first
+  Vector3d normal;                   ///< unit vector from the second feature to the first
   double distance = 0;
   double reach = 0;  ///< distance at which they touch
 };
@@ -40,28 +40,28 @@ class ProximityFilter {
   const EdgeFeature& edge(int e) const { return features_.edge[index(e)]; }
   /// At both ends of the step, as predicted.
   struct MovingPoint {
-    Eigen::Vector3d start, end;
+    Vector3d start, end;
   };
   /// The other side, where it is of the same shell: neighbours that are one piece with it do not count.
   using OtherSide = std::span<const int>;
   bool is_one_piece(int neighbour, OtherSide other) const;
   /// \param allowed by how much a neighbour may come nearer all the same
   template <class List, class Allowed>
-  bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away, double slack,
+  bool look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away, double slack,
                  OtherSide other, const Allowed& allowed) const;
   template <class List>
-  bool look_away(const List& neighbours, const MovingPoint& foot, const Eigen::Vector3d& away, double slack,
+  bool look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away, double slack,
                  OtherSide other) const;
-  bool wings_look_away(const EdgeFeature& own, const MovingPoint& foot, const Eigen::Vector3d& away,
-                       double slack, bool radii, OtherSide other) const;
+  bool wings_look_away(const EdgeFeature& own, const MovingPoint& foot, const Vector3d& away, double slack,
+                       bool radii, OtherSide other) const;
   MovingPoint point_of(int node) const;
-  static double slack_of(const Eigen::Vector3d& foot, double distance);
+  static double slack_of(const Vector3d& foot, double distance);
   bool is_near(const Contact& contact) const;
   double rounding_of_foot(double slack, double distance) const;
   bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const MovingPoint& foot,
-                          const Eigen::Vector3d& normal, double slack, OtherSide other,
+                          const Vector3d& normal, double slack, OtherSide other,
                           std::array<int, 2>& support) const;
-  bool is_minimum_on_edge(int edge, double parameter, const MovingPoint& foot, const Eigen::Vector3d& away,
+  bool is_minimum_on_edge(int edge, double parameter, const MovingPoint& foot, const Vector3d& away,
                           double slack, double distance, bool radii, OtherSide other, int& on) const;
   bool lay_in_plane(const NearPair<4>& near, double slack, Contact& contact) const;
   bool is_kept_beside_rim(const NearPair<4>& near, const std::array<int, 2>& support, bool in_plane,
@@ -72,7 +72,7 @@ class ProximityFilter {
     bool sharp = false;
   };
   template <class Faces>
-  Edginess edginess(const Faces& faces, const Eigen::Vector3d& direction) const;
+  Edginess edginess(const Faces& faces, const Vector3d& direction) const;
   static double tilt_of(double cosine);
   double spared_skin(double tilt) const;
   double passing_gap(double tilt) const;
@@ -81,8 +81,7 @@ class ProximityFilter {
   std::array<int, 2> faces_of_side(int face, const std::array<int, 2>& ends) const;
   bool are_parallel(const EdgeFeature& a, const EdgeFeature& b, double sine) const;
   enum class Flatness : std::uint8_t { none, rim, inside };
-  Flatness flatness(const EdgeFeature& own, const Eigen::Vector3d& foot,
-                    const Eigen::Vector3d& direction) const;
+  Flatness flatness(const EdgeFeature& own, const Vector3d& foot, const Vector3d& direction) const;
 
   const SurfaceFeatures& features_;
   const Surface& surface_;

@@ -6,8 +6,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// Contacts whose directions differ by more than 60 degrees do not inherit from each other.
@@ -16,7 +14,7 @@ constexpr double inherited_direction = 0.5;
 void add(const Contact& last, double share, Contact& contact) {
   contact.impulse += share * last.impulse;
   const Vector3d friction = share * last.friction;
-  contact.friction += friction - contact.normal.dot(friction) * contact.normal;
+  contact.friction += friction - dot(contact.normal, friction) * contact.normal;
 }
 // Whether closest points lie on the same corners: a foot that leaves an edge for the faces beside it is new
 // on both of them.
@@ -27,7 +25,7 @@ bool same_pair(const Contact& a, const Contact& b) {
   return same;
 }
 bool inherits(const Contact& contact, const Contact& last) {
-  return last.body == contact.body && last.normal.dot(contact.normal) > inherited_direction;
+  return last.body == contact.body && dot(last.normal, contact.normal) > inherited_direction;
 }
 
 }  // namespace

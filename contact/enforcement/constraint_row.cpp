@@ -12,29 +12,21 @@ namespace {
 
 double sign_of(Side side) { return side == Side::first ? 1 : -1; }
 
-Vector3<double> unit(const Vector3<double>& a) { return (1 / std::sqrt(dot(a, a))) * a; }
+Vector3d unit(const Vector3d& a) { return (1 / std::sqrt(dot(a, a))) * a; }
 
-void span_plane(const Vector3<double>& normal, Vector3<double> (&tangent)[2]) {
+void span_plane(const Vector3d& normal, Vector3d (&tangent)[2]) {
   const double size[3] = {std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)};
   int smallest = 0;
   for (int axis = 1; axis < 3; ++axis)
     if (size[axis] < size[smallest]) smallest = axis;
-  const Vector3<double> along{smallest == 0 ? 1.0 : 0.0, smallest == 1 ? 1.0 : 0.0,
-                              smallest == 2 ? 1.0 : 0.0};
+  const Vector3d along{smallest == 0 ? 1.0 : 0.0, smallest == 1 ? 1.0 : 0.0, smallest == 2 ? 1.0 : 0.0};
   tangent[0] = unit(cross(along, normal));
   tangent[1] = cross(normal, tangent[0]);
 }
 
-// weight one + a b^T + c d^T
-Tensor<double> dyads(double weight, const Vector3<double>& a, const Vector3<double>& b,
-                     const Vector3<double>& c, const Vector3<double>& d) {
-  const double left[2][3] = {{a.x, a.y, a.z}, {c.x, c.y, c.z}};
-  const double right[2][3] = {{b.x, b.y, b.z}, {d.x, d.y, d.z}};
-  Tensor<double> sum;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      sum.m[i][j] = (i == j ? weight : 0) + left[0][i] * right[0][j] + left[1][i] * right[1][j];
-  return sum;
+// weight one + a b^T
+Tensor<double> weighted_map(double weight, const Vector3d& a, const Vector3d& b) {
+  return weight * identity<double>() + outer_product(a, b);
 }
 
 template <class Entry>
@@ -42,11 +34,6 @@ Entry* find(std::vector<Entry>& entries, const EntryRange& range, int block) {
   for (std::uint32_t i = range.begin; i < range.end; ++i)
     if (entries[i].block == block) return &entries[i];
   return nullptr;
-}
-
-void add_to(Tensor<double>& sum, const Tensor<double>& term) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) sum.m[i][j] += term.m[i][j];
 }
 
 /// Of the impulse: what the difference of two normals may do to the share of a corner.
@@ -60,20 +47,20 @@ void shift(EntryRange& range, std::size_t by) {
 }  // namespace
 
 // g^1 = g_2 x m / |g_1 x g_2|, g^2 = m x g_1 / |g_1 x g_2|.
-void set_gradients(FaceFoot& foot, std::span<const Vector3<double>> corner, std::span<const double> along,
+void set_gradients(FaceFoot& foot, std::span<const Vector3d> corner, std::span<const double> along,
                    std::span<const double> across) {
-  Vector3<double> g{0, 0, 0};
-  Vector3<double> h{0, 0, 0};
+  Vector3d g{0, 0, 0};
+  Vector3d h{0, 0, 0};
   for (std::size_t k = 1; k < index(foot.corners); ++k) {
     g = g + along[k] * (corner[k] - corner[0]);
     h = h + across[k] * (corner[k] - corner[0]);
   }
-  const Vector3<double> area = cross(g, h);
+  const Vector3d area = cross(g, h);
   const double size = std::sqrt(dot(area, area));
   assert(size > 0);
   foot.normal = (1 / size) * area;
-  const Vector3<double> dual_g = (1 / size) * cross(h, foot.normal);
-  const Vector3<double> dual_h = (1 / size) * cross(foot.normal, g);
+  const Vector3d dual_g = (1 / size) * cross(h, foot.normal);
+  const Vector3d dual_h = (1 / size) * cross(foot.normal, g);
   for (std::size_t k = 0; k < index(foot.corners); ++k)
     foot.gradient[k] = along[k] * dual_g + across[k] * dual_h;
 }
@@ -85,8 +72,7 @@ void ConstraintRows::resize(const RowCounts& counts) {
   matrix.resize(counts.matrix);
 }
 
-ConstraintRow& ConstraintRows::add_row(const Vector3<double>& normal, double gap,
-                                       double friction_coefficient) {
+ConstraintRow& ConstraintRows::add_row(const Vector3d& normal, double gap, double friction_coefficient) {
   ConstraintRow& added = row.emplace_back();
   added.normal = normal;
   span_plane(normal, added.tangent);
@@ -98,10 +84,12 @@ ConstraintRow& ConstraintRows::add_row(const Vector3<double>& normal, double gap
   return added;
 }
 
-void ConstraintRows::add_translation(int block, double weight, const Vector3<double>& tilt) {
+void ConstraintRows::add_translation(int block, double weight, const Vector3d& tilt) {
   ConstraintRow& own = row.back();
-  if (MatrixEntry* entry = find(matrix, own.matrix, block))
-    return add_to(entry->matrix, dyads(weight, tilt, own.normal, {0, 0, 0}, {0, 0, 0}));
+  if (MatrixEntry* entry = find(matrix, own.matrix, block)) {
+    entry->matrix += weighted_map(weight, tilt, own.normal);
+    return;
+  }
   const double components[2] = {dot(tilt, own.tangent[0]), dot(tilt, own.tangent[1])};
   if (TranslationEntry* entry = find(translation, own.translation, block)) {
     entry->weight += weight;
@@ -112,7 +100,7 @@ void ConstraintRows::add_translation(int block, double weight, const Vector3<dou
   ++own.translation.end;
 }
 
-void ConstraintRows::add_rotation(int block, const Vector3<double>& signed_arm) {
+void ConstraintRows::add_rotation(int block, const Vector3d& signed_arm) {
   ConstraintRow& own = row.back();
   if (RotationEntry* entry = find(rotation, own.rotation, block)) {
     entry->arm = entry->arm + signed_arm;
@@ -124,12 +112,14 @@ void ConstraintRows::add_rotation(int block, const Vector3<double>& signed_arm) 
 
 void ConstraintRows::add_matrix(int block, const Tensor<double>& signed_matrix) {
   ConstraintRow& own = row.back();
-  if (MatrixEntry* entry = find(matrix, own.matrix, block)) return add_to(entry->matrix, signed_matrix);
+  if (MatrixEntry* entry = find(matrix, own.matrix, block)) {
+    entry->matrix += signed_matrix;
+    return;
+  }
   matrix.push_back({block, signed_matrix});
   ++own.matrix.end;
   if (TranslationEntry* entry = find(translation, own.translation, block)) {
-    add_to(matrix.back().matrix,
-           dyads(entry->weight, tilt_of(own, *entry), own.normal, {0, 0, 0}, {0, 0, 0}));
+    matrix.back().matrix += weighted_map(entry->weight, tilt_of(own, *entry), own.normal);
     *entry = translation.back();
     translation.pop_back();
     --own.translation.end;
@@ -155,9 +145,9 @@ void ConstraintRows::add_turning_point(int block, int rotation_block, double hei
 // and the point foot + height n moves with the foot and with omega x height n. Where n is m or -m, that is a
 // tilt: weight v - height gradient (n . v).
 void ConstraintRows::add_solid_face(const FaceFoot& foot, double height, double sign) {
-  const Vector3<double> n = row.back().normal;
-  const Vector3<double>& m = foot.normal;
-  const Vector3<double> twist = cross(n, m);
+  const Vector3d n = row.back().normal;
+  const Vector3d& m = foot.normal;
+  const Vector3d twist = cross(n, m);
   double steepest = 0;
   for (int k = 0; k < foot.corners; ++k)
     steepest = std::max(steepest, dot(foot.gradient[k], foot.gradient[k]));
@@ -168,9 +158,9 @@ void ConstraintRows::add_solid_face(const FaceFoot& foot, double height, double 
       add_translation(foot.block[k], weight, (-sign * height) * foot.gradient[k]);
       continue;
     }
-    const Vector3<double> c = cross(m, foot.gradient[k]);
-    add_matrix(foot.block[k],
-               dyads(weight, (sign * height) * cross(n, c), m, (-0.5 * sign * height) * twist, c));
+    const Vector3d c = cross(m, foot.gradient[k]);
+    add_matrix(foot.block[k], weighted_map(weight, (sign * height) * cross(n, c), m) +
+                                  outer_product((-0.5 * sign * height) * twist, c));
   }
 }
 
@@ -186,7 +176,7 @@ void ConstraintRows::add_face(const FaceFoot& foot, double height, Side side) {
   }
 }
 
-void ConstraintRows::add_rigid_body(int translation_block, int rotation_block, const Vector3<double>& arm,
+void ConstraintRows::add_rigid_body(int translation_block, int rotation_block, const Vector3d& arm,
                                     Side side) {
   add_point(translation_block, side);
   add_rotation(rotation_block, sign_of(side) * arm);
@@ -214,9 +204,9 @@ void ConstraintRows::overwrite(const RowCounts& at, const ConstraintRows& other)
   copy(other.matrix, matrix, at.matrix);
 }
 
-double RowMap::inverse_mass(const Vector3<double>& direction, std::span<const VelocityBlock> blocks) const {
+double RowMap::inverse_mass(const Vector3d& direction, std::span<const VelocityBlock> blocks) const {
   double sum = 0;
-  spread(direction, [&](int block, const Vector3<double>& impulse) {
+  spread(direction, [&](int block, const Vector3d& impulse) {
     sum += dot(impulse, blocks[index(block)].inverse_mass * impulse);
   });
   return sum;

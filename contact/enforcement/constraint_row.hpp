@@ -22,7 +22,7 @@ namespace brio {
 /// on the directions in which its motion is not prescribed), its rotation (likewise), the translation or the
 /// rotation of a rigid body.
 struct VelocityBlock {
-  Vector3<double> velocity;
+  Vector3d velocity;
   SymmetricTensor<double> inverse_mass;  ///< or inverse inertia
   double norm = 0;                       ///< its spectral norm, where that is known; 0: bounded
 };
@@ -37,7 +37,7 @@ struct TranslationEntry {
 /// A rotation: omega x arm. The arm carries the sign of the side.
 struct RotationEntry {
   int block;
-  Vector3<double> arm;
+  Vector3d arm;
 };
 /// Any other: matrix v.
 struct MatrixEntry {
@@ -53,17 +53,17 @@ struct EntryRange {
 };
 
 struct ConstraintRow {
-  Vector3<double> normal;                  ///< unit vector from the second side to the first
-  Vector3<double> tangent[2];              ///< complete the normal
-  double gap = 0;                          ///< at the beginning of the step; negative: overlap
-  double friction_coefficient = 0;         ///< Coulomb's
-  double target_velocity = 0;              ///< least normal relative velocity
-  double impulse = 0;                      ///< along the normal, on the first side; never negative
-  double normal_work = 0;                  ///< work of the normal impulse in the step
-  Vector3<double> friction{0, 0, 0};       ///< tangential impulse on the first side
-  Vector3<double> wall_velocity{0, 0, 0};  ///< of an immovable second side
-  Vector3<double> point{0, 0, 0};          ///< contact point at a wall, for its moment
-  int wall = -1;                           ///< number of the wall; -1: none
+  Vector3d normal;                  ///< unit vector from the second side to the first
+  Vector3d tangent[2];              ///< complete the normal
+  double gap = 0;                   ///< at the beginning of the step; negative: overlap
+  double friction_coefficient = 0;  ///< Coulomb's
+  double target_velocity = 0;       ///< least normal relative velocity
+  double impulse = 0;               ///< along the normal, on the first side; never negative
+  double normal_work = 0;           ///< work of the normal impulse in the step
+  Vector3d friction{0, 0, 0};       ///< tangential impulse on the first side
+  Vector3d wall_velocity{0, 0, 0};  ///< of an immovable second side
+  Vector3d point{0, 0, 0};          ///< contact point at a wall, for its moment
+  int wall = -1;                    ///< number of the wall; -1: none
   EntryRange translation, rotation, matrix;
 };
 
@@ -87,13 +87,13 @@ struct FaceFoot {
   int block[4];                     ///< translation of each corner
   int rotation[4]{-1, -1, -1, -1};  ///< of corners with rotations (shells, beams)
   double weight[4];                 ///< shape functions
-  Vector3<double> gradient[4];      ///< of the shape functions along the face (solids with a height)
-  Vector3<double> normal;           ///< unit normal of the face (likewise)
+  Vector3d gradient[4];             ///< of the shape functions along the face (solids with a height)
+  Vector3d normal;                  ///< unit normal of the face (likewise)
 };
 /// Gradients and normal by the dual basis of a face at the foot: sum over a of g^a N_k,a.
 /// \param along, across derivatives N_k,1 and N_k,2 of the shape functions.
 /// \pre the face has an area at the foot.
-void set_gradients(FaceFoot& foot, std::span<const Vector3<double>> corner, std::span<const double> along,
+void set_gradients(FaceFoot& foot, std::span<const Vector3d> corner, std::span<const double> along,
                    std::span<const double> across);
 
 /// Rows and their entries. Arrays are reused: nothing is allocated for fewer rows than before.
@@ -109,7 +109,7 @@ struct ConstraintRows {
   void clear() { resize({}); }
 
   /// A new row; the entries added next belong to it. The reference is valid until the next row.
-  ConstraintRow& add_row(const Vector3<double>& normal, double gap, double friction_coefficient);
+  ConstraintRow& add_row(const Vector3d& normal, double gap, double friction_coefficient);
 
   /// These add entries to the last row. An entry of a block that it has already is summed to it.
   void add_point(int block, Side side, double weight = 1);
@@ -120,10 +120,10 @@ struct ConstraintRows {
   /// of 0 needs neither gradients nor normal.
   void add_face(const FaceFoot& foot, double height, Side side);
   /// A point of a rigid body, `arm` from its centre.
-  void add_rigid_body(int translation_block, int rotation_block, const Vector3<double>& arm, Side side);
+  void add_rigid_body(int translation_block, int rotation_block, const Vector3d& arm, Side side);
   /// weight v + tilt (normal . v) with the sign of the side; the tilt is at right angles to the normal.
-  void add_translation(int block, double signed_weight, const Vector3<double>& signed_tilt);
-  void add_rotation(int block, const Vector3<double>& signed_arm);
+  void add_translation(int block, double signed_weight, const Vector3d& signed_tilt);
+  void add_rotation(int block, const Vector3d& signed_arm);
   void add_matrix(int block, const Tensor<double>& signed_matrix);
 
   /// Rows of another, after the own.
@@ -153,45 +153,36 @@ class RowMap {
   /// Velocity of the first side relative to the second, for a wall at rest.
   /// \param velocity_of velocity of a block by its number.
   template <class VelocityOf>
-  Vector3<double> velocity(VelocityOf&& velocity_of) const;
+  Vector3d velocity(VelocityOf&& velocity_of) const;
   /// Relative velocity including the motion of the wall.
-  Vector3<double> relative_velocity(std::span<const VelocityBlock> blocks) const {
+  Vector3d relative_velocity(std::span<const VelocityBlock> blocks) const {
     return velocity([&](int b) { return blocks[index(b)].velocity; }) - row_.wall_velocity;
   }
   /// `give(block, impulse)` for each entry: the transpose.
   template <class Give>
-  void spread(const Vector3<double>& impulse, Give&& give) const;
+  void spread(const Vector3d& impulse, Give&& give) const;
   /// Change of the relative velocity along a direction by a unit impulse along it.
-  double inverse_mass(const Vector3<double>& direction, std::span<const VelocityBlock> blocks) const;
+  double inverse_mass(const Vector3d& direction, std::span<const VelocityBlock> blocks) const;
 
  private:
   const ConstraintRows& rows_;
   const ConstraintRow& row_;
 };
 
-inline Vector3<double> tilt_of(const ConstraintRow& row, const TranslationEntry& entry) {
+inline Vector3d tilt_of(const ConstraintRow& row, const TranslationEntry& entry) {
   return entry.tilt[0] * row.tangent[0] + entry.tilt[1] * row.tangent[1];
 }
-inline Vector3<double> impulse_of(const ConstraintRow& row) {
-  return row.impulse * row.normal + row.friction;
-}
-inline Vector3<double> operator*(const Tensor<double>& a, const Vector3<double>& b) {
+inline Vector3d impulse_of(const ConstraintRow& row) { return row.impulse * row.normal + row.friction; }
+inline Vector3d operator*(const Tensor<double>& a, const Vector3d& b) {
   return {a.m[0][0] * b.x + a.m[0][1] * b.y + a.m[0][2] * b.z,
           a.m[1][0] * b.x + a.m[1][1] * b.y + a.m[1][2] * b.z,
           a.m[2][0] * b.x + a.m[2][1] * b.y + a.m[2][2] * b.z};
 }
-/// The transpose of a tensor times a vector.
-inline Vector3<double> transposed_times(const Tensor<double>& a, const Vector3<double>& b) {
-  return {a.m[0][0] * b.x + a.m[1][0] * b.y + a.m[2][0] * b.z,
-          a.m[0][1] * b.x + a.m[1][1] * b.y + a.m[2][1] * b.z,
-          a.m[0][2] * b.x + a.m[1][2] * b.y + a.m[2][2] * b.z};
-}
-
 template <class VelocityOf>
-Vector3<double> RowMap::velocity(VelocityOf&& velocity_of) const {
-  Vector3<double> sum{0, 0, 0};
+Vector3d RowMap::velocity(VelocityOf&& velocity_of) const {
+  Vector3d sum{0, 0, 0};
   for (const TranslationEntry& entry : translations()) {
-    const Vector3<double> v = velocity_of(entry.block);
+    const Vector3d v = velocity_of(entry.block);
     sum = sum + (entry.weight * v + dot(row_.normal, v) * tilt_of(row_, entry));
   }
   for (const RotationEntry& entry : rotations()) sum = sum + cross(velocity_of(entry.block), entry.arm);
@@ -200,7 +191,7 @@ Vector3<double> RowMap::velocity(VelocityOf&& velocity_of) const {
 }
 
 template <class Give>
-void RowMap::spread(const Vector3<double>& impulse, Give&& give) const {
+void RowMap::spread(const Vector3d& impulse, Give&& give) const {
   for (const TranslationEntry& entry : translations())
     give(entry.block, entry.weight * impulse + dot(tilt_of(row_, entry), impulse) * row_.normal);
   for (const RotationEntry& entry : rotations()) give(entry.block, cross(entry.arm, impulse));

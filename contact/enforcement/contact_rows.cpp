@@ -1,7 +1,7 @@
 #include "contact/enforcement/contact_rows.hpp"
 
-#include "contact/geometry/eigen_vector.hpp"
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -31,7 +31,7 @@ class BlockFiller {
   }
 
  private:
-  void set(std::size_t block, const VelocityBlock& velocity, const Vector3<double>& before,
+  void set(std::size_t block, const VelocityBlock& velocity, const Vector3d& before,
            const BlockPlace& place) const {
     all_.block[block] = velocity;
     all_.before[block] = before;
@@ -40,31 +40,29 @@ class BlockFiller {
   void fill_node(std::size_t block, std::size_t n) const {
     const bool skew = nodes_.own_axes(n) != nullptr && nodes_.prescribed_translations(n) != 0;
     const double norm = skew && nodes_.prescribed_translations(n) != 7 ? nodes_.record[n].inverse_mass : 0;
-    set(block, {components(nodes_.record[n].velocity), nodes_.free_inverse_mass(n), norm},
-        components(nodes_.velocity_before[n].component),
-        {.position = components(nodes_.record[n].position), .skew = skew, .mass = skew ? nodes_.mass[n] : 0});
+    set(block, {vector_at(nodes_.record[n].velocity), nodes_.free_inverse_mass(n), norm},
+        vector_at(nodes_.velocity_before[n].component),
+        {.position = vector_at(nodes_.record[n].position), .skew = skew, .mass = skew ? nodes_.mass[n] : 0});
   }
   void fill_rotation(std::size_t block, std::size_t n) const {
     const double* rate = nodes_.angular_velocity[n].component;
     const bool skew = nodes_.own_axes(n) != nullptr && nodes_.prescribed_rotations(n) != 0;
     const double norm = skew && nodes_.prescribed_rotations(n) != 7 ? rate[3] : 0;
-    set(block, {components(rate), nodes_.free_inverse_inertia(n), norm},
-        components(nodes_.angular_velocity_before[n].component),
+    set(block, {vector_at(rate), nodes_.free_inverse_inertia(n), norm},
+        vector_at(nodes_.angular_velocity_before[n].component),
         {.turns = true, .skew = skew, .mass = skew ? nodes_.rotational_inertia[n] : 0});
   }
   void fill_body(std::size_t block, const RigidMotion& motion) const {
     const bool skew = motion.has_own_axes();
     set(block,
-        {components(motion.velocity), symmetric_components(motion.free_inverse_mass()),
-         motion.inverse_mass.maxCoeff()},
-        components(motion.velocity_before),
-        {.position = components(motion.centre), .skew = skew, .mass = skew ? motion.mass : 0});
+        {motion.velocity, symmetric_part(motion.free_inverse_mass()), largest_component(motion.inverse_mass)},
+        motion.velocity_before, {.position = motion.centre, .skew = skew, .mass = skew ? motion.mass : 0});
   }
   void fill_rotation_of_body(std::size_t block, std::size_t body) const {
     const RigidMotion& motion = bodies_[body];
-    all_.body_inertia[body] = symmetric_components(motion.inertia);
-    set(block, {components(motion.angular_velocity), symmetric_components(motion.inverse_inertia)},
-        components(motion.angular_velocity_before),
+    all_.body_inertia[body] = symmetric_part(motion.inertia);
+    set(block, {motion.angular_velocity, symmetric_part(motion.inverse_inertia)},
+        motion.angular_velocity_before,
         {.turns = true, .inertia = &all_.body_inertia[body], .skew = motion.has_own_axes()});
   }
 

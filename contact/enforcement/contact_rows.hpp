@@ -18,11 +18,11 @@ struct ContactRows {
   ConstraintRows rows;  ///< one per contact
   RowCounts end;        ///< of the rows since `clear`; arrays are cut to them as rows are added
   std::vector<VelocityBlock> block;
-  std::vector<BlockOwner> owner;        ///< of each block
-  std::vector<Vector3<double>> before;  ///< velocities at the half step before
-  std::vector<BlockPlace> place;        ///< of each block
-  std::vector<int> unknown;             ///< of each block
-  std::vector<int> block_of;            ///< of each unknown; -1: no row names it
+  std::vector<BlockOwner> owner;  ///< of each block
+  std::vector<Vector3d> before;   ///< velocities at the half step before
+  std::vector<BlockPlace> place;  ///< of each block
+  std::vector<int> unknown;       ///< of each block
+  std::vector<int> block_of;      ///< of each unknown; -1: no row names it
   std::vector<SymmetricTensor<double>> body_inertia;
   std::vector<RowWork> work;           ///< working space
   std::vector<std::uint8_t> taken;     ///< working space

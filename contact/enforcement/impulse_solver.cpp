@@ -16,13 +16,11 @@ void each_of(ThreadTeam* team, std::size_t count, Task&& task) {
   for (std::size_t i = 0; i < count; ++i) task(i);
 }
 
-Vector3<double> vector_of(const double* a) { return {a[0], a[1], a[2]}; }
 bool is_diagonal(const SymmetricTensor<double>& a) { return a.xy == 0 && a.yz == 0 && a.xz == 0; }
 
 void store_given_of(const RowUnknowns<double, true>& unknown, const ConstraintRow& row, RowImpulse& given) {
   const double* impulse = unknown.impulse;
-  const Vector3<double> force =
-      impulse[0] * row.normal + impulse[1] * row.tangent[0] + impulse[2] * row.tangent[1];
+  const Vector3d force = impulse[0] * row.normal + impulse[1] * row.tangent[0] + impulse[2] * row.tangent[1];
   given.force[0] = force.x;
   given.force[1] = force.y;
   given.force[2] = force.z;
@@ -56,8 +54,7 @@ void ImpulseSolver::store_given(const ConstraintRows& rows, std::uint32_t p) {
 
 void ImpulseSolver::velocity_of(const ConstraintRows& rows, const ConstraintRow& row,
                                 const std::vector<BlockVelocity>& blocks, double (&velocity)[3]) {
-  const Vector3<double> u =
-      RowMap(rows, row).velocity([&](int b) { return vector_of(blocks[index(b)].component); });
+  const Vector3d u = RowMap(rows, row).velocity([&](int b) { return vector_at(blocks[index(b)].component); });
   velocity[0] = dot(row.normal, u);
   velocity[1] = dot(row.tangent[0], u);
   velocity[2] = dot(row.tangent[1], u);
@@ -125,12 +122,12 @@ Row4 ImpulseSolver::given_to(const ConstraintRows& rows, std::size_t b) const {
     sum += (item->tilt[0] * given.slope_0 + item->tilt[1] * given.slope_1) * load_row(given.normal);
   }
   for (const OtherItem* item = rotation_.begin(b); item != rotation_.end(b); ++item) {
-    const Vector3<double> add = cross(rows.rotation[item->entry].arm, vector_of(given_[item->slot].force));
+    const Vector3d add = cross(rows.rotation[item->entry].arm, vector_at(given_[item->slot].force));
     sum += Row4{add.x, add.y, add.z, 0};
   }
   for (const OtherItem* item = matrix_.begin(b); item != matrix_.end(b); ++item) {
-    const Vector3<double> add =
-        transposed_times(rows.matrix[item->entry].matrix, vector_of(given_[item->slot].force));
+    const Vector3d add =
+        transposed_times(rows.matrix[item->entry].matrix, vector_at(given_[item->slot].force));
     sum += Row4{add.x, add.y, add.z, 0};
   }
   return sum;
@@ -147,7 +144,7 @@ void ImpulseSolver::gather(const ConstraintRows& rows, std::span<const VelocityB
       const Row4 sum = given_to(rows, b);
       Row4 change = Row4{w.xx, w.yy, w.zz, 0} * sum;
       if (!is_diagonal(w)) {
-        const Vector3<double> full = w * Vector3<double>{sum[0], sum[1], sum[2]};
+        const Vector3d full = w * Vector3d{sum[0], sum[1], sum[2]};
         change = Row4{full.x, full.y, full.z, 0};
       }
       const Row4 last = load_row(now_[b].component);
@@ -178,7 +175,7 @@ void ImpulseSolver::store(ConstraintRows& rows, std::span<VelocityBlock> blocks,
     }
   });
   team.for_ranges(blocks.size(), blocks_a_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) blocks[b].velocity = vector_of(now_[b].component);
+    for (std::size_t b = begin; b < end; ++b) blocks[b].velocity = vector_at(now_[b].component);
   });
 }
 

@@ -251,9 +251,8 @@ void ImpulseSolver::Unconverged::add(const ConstraintRows& from, std::uint32_t i
       const auto b = index(entries[e].block);
       if (number[b] == no_row) {
         number[b] = static_cast<std::uint32_t>(blocks.size());
-        const double* velocity = velocities[b].component;
         blocks.push_back(
-            {{velocity[0], velocity[1], velocity[2]}, all_blocks[b].inverse_mass, all_blocks[b].norm});
+            {vector_at(velocities[b].component), all_blocks[b].inverse_mass, all_blocks[b].norm});
         block.push_back(static_cast<std::uint32_t>(b));
       }
       to.push_back(entries[e]);
@@ -269,7 +268,7 @@ void ImpulseSolver::Unconverged::add(const ConstraintRows& from, std::uint32_t i
 
 void ImpulseSolver::Unconverged::take_impulses_off() {
   for (const ConstraintRow& one : rows.row)
-    RowMap(rows, one).spread(impulse_of(one), [&](int b, const Vector3<double>& given) {
+    RowMap(rows, one).spread(impulse_of(one), [&](int b, const Vector3d& given) {
       VelocityBlock& to = blocks[index(b)];
       to.velocity = to.velocity - to.inverse_mass * given;
     });

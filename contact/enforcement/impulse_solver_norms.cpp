@@ -26,16 +26,9 @@ double norm_bound(const VelocityBlock& block) {
 bool is_isotropic(const SymmetricTensor<double>& a) {
   return a.xx == a.yy && a.yy == a.zz && a.xy == 0 && a.yz == 0 && a.xz == 0;
 }
-double frobenius_squared(const Tensor<double>& a) {
-  double sum = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) sum += a.m[i][j] * a.m[i][j];
-  return sum;
-}
-double energy(const SymmetricTensor<double>& inverse_mass, const Vector3<double>& impulse) {
+double energy(const SymmetricTensor<double>& inverse_mass, const Vector3d& impulse) {
   return dot(impulse, inverse_mass * impulse);
 }
-
 /// c^2 of each kind of entry, times the squared scale of the row: |W^(1/2) B^T|^2, of the normal alone where
 /// there is no friction. `bound` is as in block_bound_. Squares scale with the unit of mass by powers of two
 /// as it does; roots would not.
@@ -57,13 +50,13 @@ double entry_square(const ConstraintRow& row, const MatrixEntry& entry, const Ve
                     double bound) {
   if (row.friction_coefficient == 0)
     return energy(block.inverse_mass, transposed_times(entry.matrix, row.normal));
-  return frobenius_squared(entry.matrix) * std::abs(bound);
+  return squared_norm(entry.matrix) * std::abs(bound);
 }
 
 bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<const VelocityBlock> blocks) {
   const RowMap map(rows, row);
   // \param given impulse by one along the normal of the row. \param squared its most for any direction
-  const auto moves = [&](int block, const Vector3<double>& given, double squared) {
+  const auto moves = [&](int block, const Vector3d& given, double squared) {
     const SymmetricTensor<double>& inverse_mass = blocks[index(block)].inverse_mass;
     return energy(inverse_mass, given) > held_share * squared * norm_bound(blocks[index(block)]);
   };
@@ -73,8 +66,8 @@ bool is_held(const ConstraintRows& rows, const ConstraintRow& row, std::span<con
   for (const RotationEntry& entry : map.rotations())
     held = held && !moves(entry.block, cross(entry.arm, row.normal), dot(entry.arm, entry.arm));
   for (const MatrixEntry& entry : map.matrices())
-    held = held &&
-           !moves(entry.block, transposed_times(entry.matrix, row.normal), frobenius_squared(entry.matrix));
+    held =
+        held && !moves(entry.block, transposed_times(entry.matrix, row.normal), squared_norm(entry.matrix));
   return held;
 }
 

@@ -121,7 +121,7 @@ namespace {
 // Impulses that are carried over may no longer be admissible: they are once their row has been visited.
 template <class T, bool friction, class Set>
 void start(RowUnknowns<T, friction>& unknown, const ConstraintRow& row, double majorant, Set&& set) {
-  const Vector3<double> frame[3] = {row.normal, row.tangent[0], row.tangent[1]};
+  const Vector3d frame[3] = {row.normal, row.tangent[0], row.tangent[1]};
   const bool moves = majorant > 0;
   set(unknown.majorant, majorant);
   set(unknown.step, moves ? 1 / majorant : 0);
@@ -227,7 +227,7 @@ void ImpulseSolver::fill_lane(std::vector<RowPack<friction>>& packs, const Const
     to.arm[1].set(lane, entry.arm.y);
     to.arm[2].set(lane, entry.arm.z);
   }
-  const Vector3<double> frame[3] = {row.normal, row.tangent[0], row.tangent[1]};
+  const Vector3d frame[3] = {row.normal, row.tangent[0], row.tangent[1]};
   for (int axis = 0; axis < (friction ? 3 : 1); ++axis) {
     pack.frame[3 * axis].set(lane, frame[axis].x);
     pack.frame[3 * axis + 1].set(lane, frame[axis].y);
@@ -274,7 +274,7 @@ void ImpulseSolver::fill_rows(const ConstraintRows& rows, ThreadTeam& team) {
     for (auto p = static_cast<std::uint32_t>(begin); p < end; ++p) {
       for (std::uint32_t slot = p * lanes; slot < (p + 1) * lanes; ++slot) {
         if (row_of_slot_[slot] == no_row) continue;
-        const Vector3<double>& normal = rows.row[row_of_slot_[slot]].normal;
+        const Vector3d& normal = rows.row[row_of_slot_[slot]].normal;
         given_[slot] = {{0, 0, 0}, 0, {normal.x, normal.y, normal.z}, 0};
         if (pack_[p].kind == general) fill_general(rows, slot);
       }

@@ -8,17 +8,16 @@ namespace {
 
 constexpr std::size_t rows_a_part = 512;
 
-Vector3<double> diagonal(const SymmetricTensor<double>& a) { return {a.xx, a.yy, a.zz}; }
-Vector3<double> where_zero(const Vector3<double>& chosen, const Vector3<double>& value) {
+Vector3d diagonal(const SymmetricTensor<double>& a) { return {a.xx, a.yy, a.zz}; }
+Vector3d where_zero(const Vector3d& chosen, const Vector3d& value) {
   return {chosen.x == 0 ? value.x : 0, chosen.y == 0 ? value.y : 0, chosen.z == 0 ? value.z : 0};
 }
 
 // Minus the impulse on the prescribed components; of a body, that on the free ones acts on the others as
 // well.
-Vector3<double> reaction_of(const VelocityBlock& block, const BlockPlace& place,
-                            const Vector3<double>& given) {
-  Vector3<double> left = Vector3<double>{0, 0, 0} - given;
-  const Vector3<double> change = block.inverse_mass * given;
+Vector3d reaction_of(const VelocityBlock& block, const BlockPlace& place, const Vector3d& given) {
+  Vector3d left = Vector3d{0, 0, 0} - given;
+  const Vector3d change = block.inverse_mass * given;
   if (place.inertia != nullptr) left = left + *place.inertia * change;
   if (place.skew) return left + place.mass * change;
   return where_zero(diagonal(block.inverse_mass), left);
@@ -29,13 +28,13 @@ bool is_free(const VelocityBlock& block, const BlockPlace& place) {
   return !place.skew && a.xx != 0 && a.yy != 0 && a.zz != 0;
 }
 
-void account_supports(const RowMap& map, const Vector3<double>& impulse,
-                      std::span<const Vector3<double>> before, std::span<const VelocityBlock> after,
-                      std::span<const BlockPlace> places, RowWork& work) {
-  map.spread(impulse, [&](int b, const Vector3<double>& given) {
+void account_supports(const RowMap& map, const Vector3d& impulse, std::span<const Vector3d> before,
+                      std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
+                      RowWork& work) {
+  map.spread(impulse, [&](int b, const Vector3d& given) {
     const VelocityBlock& block = after[index(b)];
     if (is_free(block, places[index(b)])) return;
-    const Vector3<double> reaction = reaction_of(block, places[index(b)], given);
+    const Vector3d reaction = reaction_of(block, places[index(b)], given);
     work.support_before += dot(reaction, before[index(b)]);
     work.support_after += dot(reaction, block.velocity);
     if (places[index(b)].turns) {
@@ -47,11 +46,11 @@ void account_supports(const RowMap& map, const Vector3<double>& impulse,
   });
 }
 
-void account_row(const ConstraintRows& rows, ConstraintRow& row, std::span<const Vector3<double>> before,
+void account_row(const ConstraintRows& rows, ConstraintRow& row, std::span<const Vector3d> before,
                  std::span<const VelocityBlock> after, std::span<const BlockPlace> places, RowWork& work) {
   const RowMap map(rows, row);
-  const Vector3<double> was = map.velocity([&](int b) { return before[index(b)]; });
-  const Vector3<double> is = map.velocity([&](int b) { return after[index(b)].velocity; });
+  const Vector3d was = map.velocity([&](int b) { return before[index(b)]; });
+  const Vector3d is = map.velocity([&](int b) { return after[index(b)].velocity; });
   const double normal_before = row.impulse * dot(row.normal, was);
   const double normal_after = row.impulse * dot(row.normal, is);
   row.normal_work = 0.5 * (normal_before + normal_after);
@@ -65,7 +64,7 @@ void account_row(const ConstraintRows& rows, ConstraintRow& row, std::span<const
 void sum_at_walls(const ConstraintRows& rows, std::span<ImpulseOnWall> walls) {
   for (const ConstraintRow& row : rows.row) {
     if (row.wall < 0) continue;
-    const Vector3<double> impulse = impulse_of(row);
+    const Vector3d impulse = impulse_of(row);
     ImpulseOnWall& wall = walls[index(row.wall)];
     wall.impulse = wall.impulse - impulse;
     wall.moment = wall.moment - cross(row.point, impulse);
@@ -87,7 +86,7 @@ RowWork& RowWork::operator+=(const RowWork& other) {
   return *this;
 }
 
-RowWork account_work(ConstraintRows& rows, std::span<const Vector3<double>> before,
+RowWork account_work(ConstraintRows& rows, std::span<const Vector3d> before,
                      std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
                      std::span<ImpulseOnWall> walls, std::vector<RowWork>& parts, ThreadTeam& team) {
   parts.assign((rows.size() + rows_a_part - 1) / rows_a_part, {});
@@ -103,10 +102,10 @@ RowWork account_work(ConstraintRows& rows, std::span<const Vector3<double>> befo
 }
 
 void sum_reactions(const ConstraintRows& rows, std::span<const VelocityBlock> after,
-                   std::span<const BlockPlace> places, std::span<Vector3<double>> reaction) {
+                   std::span<const BlockPlace> places, std::span<Vector3d> reaction) {
   for (const ConstraintRow& row : rows.row) {
     if (row.impulse == 0) continue;
-    RowMap(rows, row).spread(impulse_of(row), [&](int b, const Vector3<double>& given) {
+    RowMap(rows, row).spread(impulse_of(row), [&](int b, const Vector3d& given) {
       const VelocityBlock& block = after[index(b)];
       if (!is_free(block, places[index(b)]))
         reaction[index(b)] = reaction[index(b)] + reaction_of(block, places[index(b)], given);

@@ -10,8 +10,8 @@ namespace brio {
 
 /// Location of a velocity block, for moments and reactions.
 struct BlockPlace {
-  Vector3<double> position{0, 0, 0};  ///< of a translation, at the beginning of the step
-  bool turns = false;                 ///< a rotation: its reactions are couples
+  Vector3d position{0, 0, 0};  ///< of a translation, at the beginning of the step
+  bool turns = false;          ///< a rotation: its reactions are couples
   /// Of a rigid body of which some rotations are prescribed and others free; else not needed.
   const SymmetricTensor<double>* inertia = nullptr;
   bool skew = false;  ///< supports are not along the global axes
@@ -28,30 +28,30 @@ struct RowWork {
   /// Of the supports of prescribed components: impulses that keep these unchanged.
   double support_before = 0;
   double support_after = 0;
-  Vector3<double> support_impulse{0, 0, 0};
-  Vector3<double> support_moment{0, 0, 0};  ///< about the origin
+  Vector3d support_impulse{0, 0, 0};
+  Vector3d support_moment{0, 0, 0};  ///< about the origin
 
   RowWork& operator+=(const RowWork& other);
 };
 
 /// Impulse and work of all rows at a rigid wall.
 struct ImpulseOnWall {
-  Vector3<double> impulse{0, 0, 0};
-  Vector3<double> moment{0, 0, 0};  ///< about the origin
-  double work = 0;                  ///< of the wall on the bodies
+  Vector3d impulse{0, 0, 0};
+  Vector3d moment{0, 0, 0};  ///< about the origin
+  double work = 0;           ///< of the wall on the bodies
 };
 
 /// Adds up work and reactions, and sets the normal work of each row.
 /// \param before velocities of the blocks before the step's impulses, at the half step before.
 /// \param after the blocks with their velocities at the end.
 /// \param walls by number; their sums are increased. \param parts working space: sums of ranges of rows
-RowWork account_work(ConstraintRows& rows, std::span<const Vector3<double>> before,
+RowWork account_work(ConstraintRows& rows, std::span<const Vector3d> before,
                      std::span<const VelocityBlock> after, std::span<const BlockPlace> places,
                      std::span<ImpulseOnWall> walls, std::vector<RowWork>& parts, ThreadTeam& team);
 
 /// Reactions of supports block by block, of which `account_work` gives the sums. \param reaction one a block;
 /// they are increased
 void sum_reactions(const ConstraintRows& rows, std::span<const VelocityBlock> after,
-                   std::span<const BlockPlace> places, std::span<Vector3<double>> reaction);
+                   std::span<const BlockPlace> places, std::span<Vector3d> reaction);
 
 }  // namespace brio

@@ -15,8 +15,8 @@ struct Heights {
   double start, end;
 };
 Heights heights_of(const ContactWall& wall, const FeatureMotion& motion, std::size_t slave, double dt) {
-  const Eigen::Vector3d start(motion.node[slave].start), end(motion.node[slave].end);
-  return {wall.normal.dot(start - wall.point), wall.normal.dot(end - wall.point - dt * wall.velocity)};
+  const Vector3d start = vector_at(motion.node[slave].start), end = vector_at(motion.node[slave].end);
+  return {dot(wall.normal, start - wall.point), dot(wall.normal, end - wall.point - dt * wall.velocity)};
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 /// Nodes of the surface at rigid walls. Each is a constraint row, so that the impulses of walls and contacts
 /// are found together.
 
-#include <Eigen/Dense>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,8 +15,8 @@ namespace brio {
 
 /// A plane that nodes cannot pass, at the start of a step.
 struct ContactWall {
-  Eigen::Vector3d point, normal;  ///< the normal of unit length, into the free side
-  Eigen::Vector3d velocity;
+  Vector3d point, normal;  ///< the normal of unit length, into the free side
+  Vector3d velocity;
   double friction = 0;  ///< Coulomb's coefficient
 };
 
@@ -26,7 +25,7 @@ struct NodeAtWall {
   int wall = 0;
   int slave = 0;
   double impulse = 0;
-  Vector3<double> friction{0, 0, 0};
+  Vector3d friction{0, 0, 0};
 };
 
 struct NodesAtWalls {

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/geometry/eigen_vector.hpp"
+#include "contact/geometry/eigen_conversions.hpp"
 #include "contact/surface/face_geometry.hpp"
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
-
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 namespace {
 
@@ -24,12 +22,6 @@ constexpr double least_share_left = 0.1;
 /// Of that, what is not prescribed: less is a lever (`held_share` of the solver).
 constexpr double least_share_free = 1e-6;
 
-Matrix3d cross_matrix(const Vector3d& a) {
-  Matrix3d m;
-  m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return m;
-}
-
 /// Degrees of freedom that resist the couple of a side.
 enum class Couple { none, faces, rotations, rigid };
 
@@ -40,7 +32,7 @@ struct SidePoint {
   std::size_t count = 0;
   int body = -1;  ///< rigid, of all its nodes
   Couple couple = Couple::none;
-  Vector3d point = Vector3d::Zero();
+  Vector3d point{};
   double radius = 0;
   std::size_t number = 0;  ///< 0 or 1
   double upright = -1;     ///< largest squared cosine of a normal of its faces; negative: not known
@@ -58,10 +50,9 @@ class Builder {
     normal_ = contact.normal;
     if (contact.along_meeting && add_without_spin(contact, first, second)) return;
     const bool rubs = contact.friction_coefficient > 0 && divide(contact, first, second);
-    ConstraintRow& row =
-        rows_.add_row(components(normal_), contact.gap, rubs ? contact.friction_coefficient : 0);
+    ConstraintRow& row = rows_.add_row(normal_, contact.gap, rubs ? contact.friction_coefficient : 0);
     row.impulse = contact.impulse;
-    if (rubs) row.friction = components(contact.friction);
+    if (rubs) row.friction = contact.friction;
     if (!rubs) height_[0] = height_[1] = 0;
     add_side(first, 1, height_[0], first.point - height_[0] * normal_);
     add_side(second, -1, height_[1], second.point + height_[1] * normal_);
@@ -71,15 +62,15 @@ class Builder {
     const int node = sources_.surface.node[index(touch.slave)];
     const Vector3d x = position(sources_.nodes, node);
     normal_ = wall.normal;
-    ConstraintRow& row = rows_.add_row(components(normal_), wall.normal.dot(x - wall.point), wall.friction);
+    ConstraintRow& row = rows_.add_row(normal_, dot(wall.normal, x - wall.point), wall.friction);
     row.impulse = touch.impulse;
     row.friction = touch.friction;
     row.wall = touch.wall;
-    row.wall_velocity = components(wall.velocity);
-    row.point = components(x);
+    row.wall_velocity = wall.velocity;
+    row.point = x;
     if (const int body = sources_.surface.rigid_body(node); body >= 0) {
       const int unknown = unknowns_.body(body);
-      rows_.add_rigid_body(unknown, unknown + 1, components(x - centre(body)), Side::first);
+      rows_.add_rigid_body(unknown, unknown + 1, x - centre(body), Side::first);
     } else {
       add_node(node, 1);
     }
@@ -111,9 +102,9 @@ class Builder {
 
   // Square of what of a vector is not prescribed.
   double free_square(int node, const Vector3d& seen) const {
-    if (sources_.surface.rigid_body(node) >= 0 || sources_.ties.is_tied(node)) return seen.squaredNorm();
+    if (sources_.surface.rigid_body(node) >= 0 || sources_.ties.is_tied(node)) return squared_norm(seen);
     if (sources_.nodes.record[index(node)].inverse_mass == 0) return 0;
-    const Vector3<double> all = components(seen);
+    const Vector3d all = seen;
     return dot(all, sources_.nodes.free_translations(index(node)) * all);
   }
   bool turns(int node) const {
@@ -128,7 +119,7 @@ class Builder {
 
   // How far the contact point stands off both sides. \returns whether there is a place for it.
   bool divide(const Contact& contact, SidePoint& first, SidePoint& second) {
-    const double distance = normal_.dot(first.point - second.point);
+    const double distance = dot(normal_, first.point - second.point);
     const double share = first_share(contact, first, second);
     if (share < 0) return false;
     height_[0] = share * distance;
@@ -165,27 +156,27 @@ class Builder {
   // then constrains the relative velocity in the frame rotating with them. \returns whether much of it
   // remains, and some of that not prescribed
   bool add_without_spin(const Contact& contact, const SidePoint& first, const SidePoint& second) {
-    Vector3d middle = Vector3d::Zero();
+    Vector3d middle{};
     const auto count = static_cast<double>(first.count + second.count);
     for_nodes(first, second, [&](int node, double) { middle += position(sources_.nodes, node) / count; });
-    Matrix3d inertia = Matrix3d::Zero();
+    Tensor<double> inertia{};
     double size = 0;
     for_nodes(first, second, [&](int node, double weight) {
       const Vector3d arm = position(sources_.nodes, node) - middle;
-      inertia += arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose();
+      inertia += inertia_of_point(arm);
       size += weight * weight;
     });
-    const Vector3d spin = solve_semidefinite(inertia, (first.point - second.point).cross(normal_));
-    const double left = size - spin.dot(inertia * spin);
+    const Vector3d spin = solve_semidefinite(inertia, cross(first.point - second.point, normal_));
+    const double left = size - dot(spin, inertia * spin);
     double free = 0;
     for_nodes(first, second, [&](int node, double weight) {
-      free += free_square(node, weight * normal_ - spin.cross(position(sources_.nodes, node) - middle));
+      free += free_square(node, weight * normal_ - cross(spin, position(sources_.nodes, node) - middle));
     });
     if (!(left > least_share_left * size) || !(free > least_share_free * size)) return false;
-    rows_.add_row(components(normal_), contact.gap, 0).impulse = contact.impulse;
+    rows_.add_row(normal_, contact.gap, 0).impulse = contact.impulse;
     for_nodes(first, second, [&](int node, double weight) {
-      const Vector3d turned = spin.cross(position(sources_.nodes, node) - middle);
-      add_mapped(node, weight * Matrix3d::Identity() - normal_ * turned.transpose());
+      const Vector3d turned = cross(spin, position(sources_.nodes, node) - middle);
+      add_mapped(node, weight * identity<double>() - outer_product(normal_, turned));
     });
     return true;
   }
@@ -195,21 +186,21 @@ class Builder {
     for (std::size_t k = 0; k < second.count; ++k) visit(second.node[k], -second.weight[k]);
   }
   // Of nodes in a line one eigenvalue is none, and the couple has no part along it.
-  static Vector3d solve_semidefinite(const Matrix3d& matrix, const Vector3d& right) {
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(matrix);
-    const double least = no_weight * eigen.eigenvalues()[2];
-    Vector3d solution = Vector3d::Zero();
-    for (int i = 0; i < 3; ++i)
-      if (const double value = eigen.eigenvalues()[i]; value > least)
-        solution += eigen.eigenvectors().col(i).dot(right) / value * eigen.eigenvectors().col(i);
+  static Vector3d solve_semidefinite(const Tensor<double>& matrix, const Vector3d& right) {
+    const PrincipalAxes principal = principal_axes(matrix);
+    const double least = no_weight * principal.value[2];
+    Vector3d solution{};
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d axis = principal.axis.column(i);
+      if (principal.value[i] > least) solution += dot(axis, right) / principal.value[i] * axis;
+    }
     return solution;
   }
 
   void add_side(const SidePoint& side, double sign, double height, const Vector3d& contact_point) {
     if (side.body >= 0) {
       const int unknown = unknowns_.body(side.body);
-      rows_.add_rigid_body(unknown, unknown + 1,
-                           components(contact_point - sources_.bodies[index(side.body)].centre),
+      rows_.add_rigid_body(unknown, unknown + 1, contact_point - sources_.bodies[index(side.body)].centre,
                            sign > 0 ? Side::first : Side::second);
       return;
     }
@@ -235,9 +226,9 @@ class Builder {
         has_all = has_all && (side.weight[k] <= no_weight || face.has(side.node[k]));
       if (!has_all) continue;
       const auto [g, h] = tangents(face);
-      const Vector3d area = g.cross(h);
-      const double size = area.squaredNorm();
-      const double along = normal_.dot(area);
+      const Vector3d area = cross(g, h);
+      const double size = squared_norm(area);
+      const double along = dot(normal_, area);
       const double share = size > 0 ? along * along / size : 0;
       faces.push_back({&face, share, g, h});
       side.upright = std::max(side.upright, share);
@@ -275,10 +266,10 @@ class Builder {
   void tilt_with(const RowPiece::TiltedFace& face, double height) {
     constexpr double along[4] = {-1, 1, 1, -1}, across[4] = {-1, -1, 1, 1};
     const Vector3d &g = face.along, &h = face.across;
-    const double area = normal_.dot(g.cross(h));
-    const Vector3d dual_g = h.cross(normal_) / area, dual_h = normal_.cross(g) / area;
+    const double area = dot(normal_, cross(g, h));
+    const Vector3d dual_g = cross(h, normal_) / area, dual_h = cross(normal_, g) / area;
     for (std::size_t k = 0; k < 4; ++k) {
-      const Vector3<double> tilt = components(height * (along[k] * dual_g + across[k] * dual_h));
+      const Vector3d tilt = height * (along[k] * dual_g + across[k] * dual_h);
       const auto known = std::find_if(piece_.tilted.begin(), piece_.tilted.end(),
                                       [&](const auto& one) { return one.node == face.face->node[k]; });
       if (known == piece_.tilted.end())
@@ -289,7 +280,7 @@ class Builder {
   }
 
   // weight v + tilt (normal . v) of a node. All that follow carry the sign of their side.
-  void add_node(int node, double weight, const Vector3<double>& tilt = {0, 0, 0}) {
+  void add_node(int node, double weight, const Vector3d& tilt = {0, 0, 0}) {
     const Tie* tie = tie_of(node);
     const bool plain = tilt.x == 0 && tilt.y == 0 && tilt.z == 0;
     if (tie != nullptr && plain && tie->gap == 0) {
@@ -302,45 +293,43 @@ class Builder {
     }
     const int body = sources_.surface.rigid_body(node);
     if (tie != nullptr || (body >= 0 && !plain)) {
-      const Matrix3d map =
-          weight * Matrix3d::Identity() + Vector3d(tilt.x, tilt.y, tilt.z) * normal_.transpose();
+      const Tensor<double> map = weight * identity<double>() + outer_product(tilt, normal_);
       return add_mapped(node, map);
     }
     if (body >= 0) {
       const int unknown = unknowns_.body(body);
       rows_.add_point(unknown, Side::first, weight);
-      rows_.add_rotation(unknown + 1, components(weight * (position(sources_.nodes, node) - centre(body))));
+      rows_.add_rotation(unknown + 1, weight * (position(sources_.nodes, node) - centre(body)));
       return;
     }
     rows_.add_translation(unknowns_.node(node), weight, tilt);
   }
 
   // map v of a node.
-  void add_mapped(int node, const Matrix3d& map) {
+  void add_mapped(int node, const Tensor<double>& map) {
     if (const Tie* tie = tie_of(node)) return add_mapped(*tie, map);
     if (const int body = sources_.surface.rigid_body(node); body >= 0) {
       const int unknown = unknowns_.body(body);
-      rows_.add_matrix(unknown, tensor_components(map));
-      rows_.add_matrix(unknown + 1,
-                       tensor_components(-map * cross_matrix(position(sources_.nodes, node) - centre(body))));
+      rows_.add_matrix(unknown, map);
+      rows_.add_matrix(unknown + 1, map * cross_matrix(centre(body) - position(sources_.nodes, node)));
       return;
     }
-    rows_.add_matrix(unknowns_.node(node), tensor_components(map));
+    rows_.add_matrix(unknowns_.node(node), map);
   }
 
   // Of a tied node with a gap, by the derivative of the map from its corners.
-  void add_mapped(const Tie& tie, const Matrix3d& map) {
-    std::array<Matrix3d, 4> share;
-    for (std::size_t k = 0; k < 4; ++k) share[k] = tie.weight[k] * Matrix3d::Identity();
+  void add_mapped(const Tie& tie, const Tensor<double>& map) {
+    std::array<Tensor<double>, 4> share;
+    for (std::size_t k = 0; k < 4; ++k) share[k] = tie.weight[k] * identity<double>();
     if (tie.gap != 0) {
       const FaceVertices corners = corners_of(tie, sources_.nodes);
       for (int axis = 0; axis < 3; ++axis) {
-        const std::array<Vector3d, 4> row = spread(tie, corners, Vector3d::Unit(axis));
-        for (std::size_t k = 0; k < 4; ++k) share[k].row(axis) = row[k].transpose();
+        const std::array<Vector3d, 4> row = spread(tie, corners, identity<double>().row(axis));
+        for (std::size_t k = 0; k < 4; ++k) share[k].set_row(axis, row[k]);
       }
     }
     for (std::size_t k = 0; k < 4; ++k) {
-      if (share[k].isZero(0)) continue;
+      if (share[k] == Tensor<double>{}) continue;
       add_mapped(tie.corner[k], map * share[k]);
       if (tie.has_arm()) add_mapped_turn(tie.corner[k], -tie.weight[k] * (map * cross_matrix(tie.arm)));
     }
@@ -353,15 +342,15 @@ class Builder {
         if (tie->weight[k] != 0) add_turn(tie->corner[k], tie->weight[k] * arm);
       return;
     }
-    rows_.add_rotation(rotation_of(node), components(arm));
+    rows_.add_rotation(rotation_of(node), arm);
   }
-  void add_mapped_turn(int node, const Matrix3d& map) {
+  void add_mapped_turn(int node, const Tensor<double>& map) {
     if (const Tie* tie = tie_of(node); tie != nullptr && tie->turning) {
       for (std::size_t k = 0; k < 4; ++k)
         if (tie->weight[k] != 0) add_mapped_turn(tie->corner[k], tie->weight[k] * map);
       return;
     }
-    rows_.add_matrix(rotation_of(node), tensor_components(map));
+    rows_.add_matrix(rotation_of(node), map);
   }
 
   int rotation_of(int node) const {

@@ -81,13 +81,13 @@ struct RowPiece {
   struct TiltedNode {
     int node;
     double weight;
-    Vector3<double> tilt;
+    Vector3d tilt;
   };
   /// A face that may take a share of the couple of a side, with its mean tangents.
   struct TiltedFace {
     const Face* face;
     double share;
-    Eigen::Vector3d along, across;
+    Vector3d along, across;
   };
   std::vector<TiltedNode> tilted;                ///< working space
   std::array<std::vector<TiltedFace>, 2> faces;  ///< working space: of either side

@@ -8,13 +8,11 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 constexpr std::size_t features_a_range = 4096, groups_a_range = 16;
 
-double length_in_frame(const double* from, const double* to, const std::array<double, 3>& frame) {
+double length_in_frame(const double* from, const double* to, const Vector3d& frame) {
   double square = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double d = to[axis] - from[axis] - frame[axis];
@@ -92,9 +90,8 @@ void FeatureMotion::form_groups(const SurfaceFeatures& features, const Surface& 
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   position_.resize(node.size());
   for (std::size_t s = 0; s < node.size(); ++s)
-    position_[s] = surface.node[s] < 0
-                       ? Vector3<double>{none, none, none}
-                       : Vector3<double>{node[s].start[0], node[s].start[1], node[s].start[2]};
+    position_[s] = surface.node[s] < 0 ? Vector3d{none, none, none}
+                                       : Vector3d{node[s].start[0], node[s].start[1], node[s].start[2]};
   groups.form(surface, features, position_, team);
 }
 
@@ -234,7 +231,7 @@ void FeatureMotion::measure_steps(ThreadTeam& team) {
     for (std::size_t g = begin; g < end; ++g) {
       MotionGroups::Group& group = groups.group[g];
       const std::span<const int> members = groups.members(g);
-      std::array<double, 3> sum{};
+      Vector3d sum{};
       for (int s : members)
         for (std::size_t axis = 0; axis < 3; ++axis)
           sum[axis] += node[index(s)].end[axis] - node[index(s)].start[axis];
@@ -288,7 +285,7 @@ void FeatureMotion::watch_only(std::span<const std::uint8_t> flagged) {
 }
 
 void FeatureMotion::end_of_body_node(std::size_t slave, const RigidMotion& body, double dt) {
-  const Vector3d v = body.velocity_at(Vector3d(node[slave].start) - body.centre);
+  const Vector3d v = body.velocity_at(vector_at(node[slave].start) - body.centre);
   for (int axis = 0; axis < 3; ++axis) node[slave].end[axis] = node[slave].start[axis] + dt * v[axis];
 }
 
@@ -314,7 +311,7 @@ void FeatureMotion::finish_raising(const SurfaceFeatures& features, ThreadTeam& 
 }
 
 void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surface& surface,
-                                    const SlaveSet& in_contact, std::span<const Eigen::Vector3d> corrected,
+                                    const SlaveSet& in_contact, std::span<const Vector3d> corrected,
                                     double dt, std::span<const RigidMotion> bodies, ThreadTeam& team) {
   const std::size_t driven = bodies.empty() ? 0 : driven_.size();
   const std::size_t ranges = in_contact.ranges();

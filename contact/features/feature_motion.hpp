@@ -47,8 +47,8 @@ class FeatureMotion {
   /// the features at them, whose predicted paths are extended. \param in_contact is kept until the next
   /// prediction
   void end_by_solution(const SurfaceFeatures& features, const Surface& surface, const SlaveSet& in_contact,
-                       std::span<const Eigen::Vector3d> corrected, double dt,
-                       std::span<const RigidMotion> bodies, ThreadTeam& team);
+                       std::span<const Vector3d> corrected, double dt, std::span<const RigidMotion> bodies,
+                       ThreadTeam& team);
   /// Limit of the motion of nodes in this step: a factor times their predicted displacement, and a surplus.
   void set_limits(double factor, double surplus);
   /// Whether the last positions at the end of the step were beyond the limits of any node.
@@ -102,9 +102,9 @@ class FeatureMotion {
   /// Largest coordinate: rounding is in proportion to it.
   double magnitude() const { return magnitude_; }
 
-  Eigen::Vector3d start(int slave) const { return Eigen::Vector3d(node[index(slave)].start); }
-  Eigen::Vector3d end(int slave) const { return Eigen::Vector3d(node[index(slave)].end); }
-  Eigen::Vector3d displacement(int slave) const { return end(slave) - start(slave); }
+  Vector3d start(int slave) const { return vector_at(node[index(slave)].start); }
+  Vector3d end(int slave) const { return vector_at(node[index(slave)].end); }
+  Vector3d displacement(int slave) const { return end(slave) - start(slave); }
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
@@ -127,7 +127,7 @@ class FeatureMotion {
   };
 
   void end_of_body_node(std::size_t slave, const RigidMotion& body, double dt);
-  const std::array<double, 3>& frame_of(std::size_t slave) const {
+  const Vector3d& frame_of(std::size_t slave) const {
     return groups.group[index(groups.of_node(static_cast<int>(slave)))].step;
   }
   void set_frame();
@@ -144,7 +144,7 @@ class FeatureMotion {
   std::vector<int> watched_edge_;      ///< those that are
   std::vector<double> solution_step_;  ///< likewise, of those that contact has moved in this step
   std::vector<Sum> sum_;               ///< one a range
-  std::vector<Vector3<double>> position_;
+  std::vector<Vector3d> position_;
   std::vector<std::pair<double, double>> of_groups_;  ///< displacement along an axis, nodes
   std::vector<int> driven_;                           ///< slave nodes of rigid bodies
   std::vector<int> joined_;                           ///< slave nodes since the last step

@@ -324,7 +324,7 @@ void measure(SurfaceFeatures& features, const Surface& surface, const Nodes& nod
     features.drawn_beam.push_back({position(nodes, round.node[0]), position(nodes, round.node[1])});
     if (!round.alive()) continue;
     add(round.is_point() ? 2 * round.radius
-                         : (position(nodes, round.node[1]) - position(nodes, round.node[0])).norm());
+                         : norm(position(nodes, round.node[1]) - position(nodes, round.node[0])));
   }
   features.smallest_edge = count == 0 ? 0 : smallest;
   features.mean_edge = count == 0 ? 0 : sum / static_cast<double>(count);

@@ -9,7 +9,6 @@
 /// Every feature has a radius: half the thickness of a shell, the radius of a beam or a particle, and for
 /// solids a skin, a small thickness outside of the mesh (`skin_share`).
 
-#include <Eigen/Dense>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -20,6 +19,7 @@
 #include "contact/surface/surface_topology.hpp"
 #include "src/base/lists.hpp"
 #include "src/base/nodes.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -54,17 +54,17 @@ struct SurfaceFeatures {
   double mean_edge = 0;      ///< as built
   double skin = 0;           ///< contact radius of solids
   std::vector<EdgeFeature> edge;
-  bool all_of_faces = true;                                ///< no edge is a beam or a point
-  std::vector<std::array<int, 4>> edge_of_face;            ///< sides by corner; -1: none
-  std::vector<std::array<int, 2>> diagonal_of_face;        ///< both diagonals; -1: none
-  std::vector<int> edge_of_round;                          ///< of each beam and particle
-  std::vector<std::array<Eigen::Vector3d, 2>> drawn_beam;  ///< ends of each beam and particle as drawn
-  std::vector<int> point_of_node;             ///< of each slave node, where there are beams; -1: none
-  std::vector<std::array<int, 4>> face_node;  ///< slave indices of the corners; of dead faces node 0
-  std::vector<std::array<int, 2>> edge_node;  ///< EdgeFeature::node side by side
-  std::vector<double> edge_radius;            ///< EdgeFeature::radius side by side
-  std::vector<double> node_radius;            ///< of each slave node
-  std::vector<double> face_radius;            ///< of each face
+  bool all_of_faces = true;                          ///< no edge is a beam or a point
+  std::vector<std::array<int, 4>> edge_of_face;      ///< sides by corner; -1: none
+  std::vector<std::array<int, 2>> diagonal_of_face;  ///< both diagonals; -1: none
+  std::vector<int> edge_of_round;                    ///< of each beam and particle
+  std::vector<std::array<Vector3d, 2>> drawn_beam;   ///< ends of each beam and particle as drawn
+  std::vector<int> point_of_node;                    ///< of each slave node, where there are beams; -1: none
+  std::vector<std::array<int, 4>> face_node;         ///< slave indices of the corners; of dead faces node 0
+  std::vector<std::array<int, 2>> edge_node;         ///< EdgeFeature::node side by side
+  std::vector<double> edge_radius;                   ///< EdgeFeature::radius side by side
+  std::vector<double> node_radius;                   ///< of each slave node
+  std::vector<double> face_radius;                   ///< of each face
   Lists ring;  ///< of each slave node: those at the other ends of its sides and beams, ascending
   std::vector<int> retired, free;  ///< numbers of edges that are no more: of the last update, and of before
 

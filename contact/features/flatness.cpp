@@ -316,16 +316,16 @@ void SurfaceFlatness::watch(const SurfaceFeatures& features, const FeatureMotion
 
 void SurfaceFlatness::measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge) {
   const EdgeFeature& own = features.edge[index(edge)];
-  const double length = (motion.start(own.node[1]) - motion.start(own.node[0])).norm();
+  const double length = norm(motion.start(own.node[1]) - motion.start(own.node[0]));
   length_[index(edge)] = static_cast<float>(length);
   if (!Sides{Faces{features, motion}, side_node_}.exists(index(edge))) return;
   side_node_[index(edge)] = nodes_of_side(features, own);
   double area = std::numeric_limits<double>::infinity();
   for (int face : own.face) {
     const std::array<int, 4>& corner = features.face_node[index(face)];
-    const Eigen::Vector3d first = motion.start(corner[2]) - motion.start(corner[0]),
-                          second = motion.start(corner[3]) - motion.start(corner[1]);
-    area = std::min(area, 0.5 * first.cross(second).norm());
+    const Vector3d first = motion.start(corner[2]) - motion.start(corner[0]),
+                   second = motion.start(corner[3]) - motion.start(corner[1]);
+    area = std::min(area, 0.5 * norm(cross(first, second)));
   }
   width_[index(edge)] = static_cast<float>(area / length);
 }

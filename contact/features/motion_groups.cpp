@@ -14,7 +14,7 @@ constexpr std::size_t nodes_a_group = 128;  // or more, so that groups are not m
 constexpr std::size_t most_groups = 512;
 constexpr std::size_t fewest_nodes = 8;  // with which a body begins a group of its own, in the same way
 
-double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+double distance(const Vector3d& a, const Vector3d& b) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   return std::sqrt(x * x + y * y + z * z) * paths_rounded_up;
 }
@@ -22,7 +22,7 @@ double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) 
 }  // namespace
 
 void MotionGroups::form(const Surface& surface, const SurfaceFeatures& features,
-                        std::span<const Vector3<double>> position, ThreadTeam& team) {
+                        std::span<const Vector3d> position, ThreadTeam& team) {
   order_.sort(position, team);
   std::vector<int> slaves;
   of_node_.assign(surface.slaves(), -1);

@@ -35,7 +35,7 @@ struct PathAndAhead {
 class MotionGroups {
  public:
   struct Group {
-    std::array<double, 3> step{}, last{};  ///< displacement of the frame in this step and in the last one
+    Vector3d step{}, last{};      ///< displacement of the frame in this step and in the last one
     double moved = 0, ahead = 0;  ///< longest displacement of its nodes in the last step and in this one
     double longest_path = 0, longest_ahead = 0;  ///< no feature of it has more
   };
@@ -47,8 +47,8 @@ class MotionGroups {
 
   /// Group the nodes by where they are; nothing is related. \param position of each slave node, of dead ones
   /// not a number
-  void form(const Surface& surface, const SurfaceFeatures& features,
-            std::span<const Vector3<double>> position, ThreadTeam& team);
+  void form(const Surface& surface, const SurfaceFeatures& features, std::span<const Vector3d> position,
+            ThreadTeam& team);
   /// Follow a deletion: new nodes belong to groups of nodes that share a face with them. \param edges new and
   /// changed ones
   void join(const Surface& surface, const SurfaceFeatures& features, const SurfaceChange& change,

@@ -1,54 +1,53 @@
 #pragma once
 /// Motion of a rigid body within one time step, for contact and walls.
 
-#include <Eigen/Dense>
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
 struct RigidMotion {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();            ///< at the beginning of the step
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< of the centre
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< both over the step, as corrected so far
+  Vector3d centre{};            ///< at the beginning of the step
+  Vector3d velocity{};          ///< of the centre
+  Vector3d angular_velocity{};  ///< both over the step, as corrected so far
   /// Over the step before; the angular one is that which the angular momentum of then has at the present
   /// attitude.
-  Eigen::Vector3d velocity_before = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular_velocity_before = Eigen::Vector3d::Zero();
+  Vector3d velocity_before{};
+  Vector3d angular_velocity_before{};
   double mass = 0;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();          ///< about the centre, at the present attitude
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();         ///< rows: of components that are prescribed
-  Eigen::Vector3d inverse_mass = Eigen::Vector3d::Zero();     ///< along each of them; 0 where prescribed
-  Eigen::Matrix3d inverse_inertia = Eigen::Matrix3d::Zero();  ///< of the rotations that are free; else 0
+  Tensor<double> inertia{};                  ///< about the centre, at the present attitude
+  Tensor<double> axes = identity<double>();  ///< rows: of components that are prescribed
+  Vector3d inverse_mass{};                   ///< along each of them; 0 where prescribed
+  Tensor<double> inverse_inertia{};          ///< of the rotations that are free; else 0
   /// Impulse of contact and walls on the body in this step, and its moment about the centre.
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  Vector3d impulse{};
+  Vector3d moment{};
 
   /// Of the point at the end of an arm from the centre.
-  Eigen::Vector3d velocity_at(const Eigen::Vector3d& arm) const {
-    return velocity + angular_velocity.cross(arm);
+  Vector3d velocity_at(const Vector3d& arm) const { return velocity + cross(angular_velocity, arm); }
+  Vector3d velocity_before_at(const Vector3d& arm) const {
+    return velocity_before + cross(angular_velocity_before, arm);
   }
-  Eigen::Vector3d velocity_before_at(const Eigen::Vector3d& arm) const {
-    return velocity_before + angular_velocity_before.cross(arm);
-  }
-  void apply_impulse(const Eigen::Vector3d& given, const Eigen::Vector3d& arm) {
-    const Eigen::Vector3d turn = arm.cross(given);
+  void apply_impulse(const Vector3d& given, const Vector3d& arm) {
+    const Vector3d turn = cross(arm, given);
     impulse += given;
     moment += turn;
     velocity += free_inverse_mass() * given;
     angular_velocity += inverse_inertia * turn;
   }
-  Eigen::Matrix3d free_inverse_mass() const { return axes.transpose() * inverse_mass.asDiagonal() * axes; }
+  Tensor<double> free_inverse_mass() const { return transposed(axes) * diagonal(inverse_mass) * axes; }
   bool translation_is_given(int axis) const { return inverse_mass[axis] == 0; }
   bool rotation_is_given(int axis) const {
-    const Eigen::Vector3d along = axes.row(axis);
-    return along.dot(inverse_inertia * along) <= rounding * inverse_inertia.trace();
+    const Vector3d along = axes.row(axis);
+    return dot(along, inverse_inertia * along) <= rounding * trace(inverse_inertia);
   }
-  bool has_own_axes() const { return !axes.isIdentity(0); }
+  bool has_own_axes() const { return axes != identity<double>(); }
   /// Change of the velocity along a direction by a unit impulse along it.
-  double inverse_mass_along(const Eigen::Vector3d& direction, const Eigen::Vector3d& arm) const {
-    const Eigen::Vector3d turn = arm.cross(direction);
-    const Eigen::Vector3d along = axes * direction;
-    const double sum = along.cwiseProduct(along).dot(inverse_mass) + turn.dot(inverse_inertia * turn);
-    const double most = inverse_mass.maxCoeff() + turn.squaredNorm() * inverse_inertia.trace();
+  double inverse_mass_along(const Vector3d& direction, const Vector3d& arm) const {
+    const Vector3d turn = cross(arm, direction);
+    const Vector3d along = axes * direction;
+    const double sum =
+        dot(componentwise_product(along, along), inverse_mass) + dot(turn, inverse_inertia * turn);
+    const double most = largest_component(inverse_mass) + squared_norm(turn) * trace(inverse_inertia);
     return sum > rounding * most ? sum : 0;
   }
 
@@ -64,26 +63,26 @@ struct RigidMotion {
 
 /// Reaction of the supports of prescribed components to an impulse and a moment on a body.
 struct RigidSupport {
-  Eigen::Vector3d impulse;
-  Eigen::Vector3d moment;  ///< about the centre
-  double work_before;      ///< with the velocities before and after the step's impulses
+  Vector3d impulse;
+  Vector3d moment;     ///< about the centre
+  double work_before;  ///< with the velocities before and after the step's impulses
   double work_after;
 };
-inline RigidSupport support_against(const RigidMotion& body, const Eigen::Vector3d& impulse,
-                                    const Eigen::Vector3d& moment) {
+inline RigidSupport support_against(const RigidMotion& body, const Vector3d& impulse,
+                                    const Vector3d& moment) {
   RigidSupport support{};
-  const Eigen::Vector3d pushed = body.axes * impulse;
-  const Eigen::Vector3d left = body.axes * (body.inertia * (body.inverse_inertia * moment) - moment);
-  Eigen::Vector3d held = Eigen::Vector3d::Zero(), turned = Eigen::Vector3d::Zero();
+  const Vector3d pushed = body.axes * impulse;
+  const Vector3d left = body.axes * (body.inertia * (body.inverse_inertia * moment) - moment);
+  Vector3d held{}, turned{};
   for (int axis = 0; axis < 3; ++axis) {
     if (body.translation_is_given(axis)) held[axis] = -pushed[axis];
     if (body.rotation_is_given(axis)) turned[axis] = left[axis];
   }
-  support.impulse = body.axes.transpose() * held;
-  support.moment = body.axes.transpose() * turned;
+  support.impulse = transposed_times(body.axes, held);
+  support.moment = transposed_times(body.axes, turned);
   support.work_before =
-      support.impulse.dot(body.velocity_before) + support.moment.dot(body.angular_velocity_before);
-  support.work_after = support.impulse.dot(body.velocity) + support.moment.dot(body.angular_velocity);
+      dot(support.impulse, body.velocity_before) + dot(support.moment, body.angular_velocity_before);
+  support.work_after = dot(support.impulse, body.velocity) + dot(support.moment, body.angular_velocity);
   return support;
 }
 

@@ -3,23 +3,23 @@
 /// (conservative advancement, Mirtich 1996, along directions that turn), and the cubic of four moving points.
 /// The points are relative positions: of a face's vertices to a node, or of one edge's ends to the other's.
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "src/base/floating_point.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio::advancement {
 
-inline double largest(const Eigen::Vector3d& a) { return a.lpNorm<Eigen::Infinity>(); }
+inline double largest(const Vector3d& a) { return maximum_norm(a); }
 
 /// A point that moves linearly with the fraction of the step.
 struct Path {
-  Eigen::Vector3d start;
-  Eigen::Vector3d displacement;
-  Eigen::Vector3d at(double time) const { return start + time * displacement; }
+  Vector3d start;
+  Vector3d displacement;
+  Vector3d at(double time) const { return start + time * displacement; }
 };
 
 inline Path operator-(const Path& a, const Path& b) {
@@ -53,18 +53,18 @@ inline constexpr double cubic_roundings = 1100;
 /// offset . (e x f), where at any time `scale` bounds the components of the offset, and `area` a quarter of
 /// the product of a component of e and one of f.
 inline Cubic volume(const Path& offset, const Path& e, const Path& f, double scale, double area) {
-  const Eigen::Vector3d& u0 = offset.start;
-  const Eigen::Vector3d u1 = u0 + offset.displacement;
-  const Eigen::Vector3d& e0 = e.start;
-  const Eigen::Vector3d e1 = e0 + e.displacement;
-  const Eigen::Vector3d& f0 = f.start;
-  const Eigen::Vector3d f1 = f0 + f.displacement;
-  const Eigen::Vector3d n0 = e0.cross(f0);
-  const Eigen::Vector3d n1 = 0.5 * (e0.cross(f1) + e1.cross(f0));
-  const Eigen::Vector3d n2 = e1.cross(f1);
+  const Vector3d& u0 = offset.start;
+  const Vector3d u1 = u0 + offset.displacement;
+  const Vector3d& e0 = e.start;
+  const Vector3d e1 = e0 + e.displacement;
+  const Vector3d& f0 = f.start;
+  const Vector3d f1 = f0 + f.displacement;
+  const Vector3d n0 = cross(e0, f0);
+  const Vector3d n1 = 0.5 * (cross(e0, f1) + cross(e1, f0));
+  const Vector3d n2 = cross(e1, f1);
   Cubic cubic;
-  cubic.coefficients = {u0.dot(n0), (u1.dot(n0) + 2 * u0.dot(n1)) / 3, (2 * u1.dot(n1) + u0.dot(n2)) / 3,
-                        u1.dot(n2)};
+  cubic.coefficients = {dot(u0, n0), (dot(u1, n0) + 2 * dot(u0, n1)) / 3, (2 * dot(u1, n1) + dot(u0, n2)) / 3,
+                        dot(u1, n2)};
   cubic.error = cubic_roundings * unit_roundoff * scale * area;
   return cubic;
 }
@@ -98,42 +98,37 @@ inline constexpr int patience = 1024;
 /// A direction from the origin that changes linearly: `towards` (1 + elapsed `growth`) + elapsed `turning`.
 /// `towards` is a unit vector and `turning` at right angles to it. Both zero: no direction.
 struct Direction {
-  Eigen::Vector3d towards;
-  Eigen::Vector3d turning;
+  Vector3d towards;
+  Vector3d turning;
   double growth = 0;
 };
 
-inline Direction no_direction() { return {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}; }
-inline Direction without_turn(const Direction& direction) {
-  return {direction.towards, Eigen::Vector3d::Zero()};
-}
+inline Direction no_direction() { return {Vector3d{}, Vector3d{}}; }
+inline Direction without_turn(const Direction& direction) { return {direction.towards, Vector3d{}}; }
 
 /// Across a segment that turns, towards the side of the offset.
-inline Direction across(const Eigen::Vector3d& edge, const Eigen::Vector3d& edge_motion,
-                        const Eigen::Vector3d& offset) {
-  const double length_squared = edge.squaredNorm();
+inline Direction across(const Vector3d& edge, const Vector3d& edge_motion, const Vector3d& offset) {
+  const double length_squared = squared_norm(edge);
   if (!(length_squared > 0)) return no_direction();
-  const Eigen::Vector3d towards = (offset - edge * (edge.dot(offset) / length_squared)).normalized();
-  return {towards, edge * (-towards.dot(edge_motion) / length_squared)};
+  const Vector3d towards = normalized(offset - edge * (dot(edge, offset) / length_squared));
+  return {towards, edge * (-dot(towards, edge_motion) / length_squared)};
 }
 
 /// The same, exactly at right angles to the segment however long and far it turns.
-inline Direction strictly_across(const Eigen::Vector3d& edge, const Eigen::Vector3d& edge_motion,
-                                 const Eigen::Vector3d& offset) {
+inline Direction strictly_across(const Vector3d& edge, const Vector3d& edge_motion, const Vector3d& offset) {
   Direction direction = across(edge, edge_motion, offset);
-  if (!direction.towards.isZero(0)) direction.growth = edge_motion.dot(edge) / edge.squaredNorm();
+  if (!is_zero(direction.towards)) direction.growth = dot(edge_motion, edge) / squared_norm(edge);
   return direction;
 }
 
 /// Along a normal that changes, towards the side of the offset.
-inline Direction along_normal(const Eigen::Vector3d& normal, const Eigen::Vector3d& change,
-                              const Eigen::Vector3d& offset) {
-  const double length = normal.norm();
+inline Direction along_normal(const Vector3d& normal, const Vector3d& change, const Vector3d& offset) {
+  const double length = norm(normal);
   if (!(length > 0)) return no_direction();
-  const double sign = normal.dot(offset) < 0 ? -1 : 1;
-  const Eigen::Vector3d towards = normal * (sign / length);
-  const Eigen::Vector3d rate = change * (sign / length);
-  return {towards, rate - towards * towards.dot(rate)};
+  const double sign = dot(normal, offset) < 0 ? -1 : 1;
+  const Vector3d towards = normal * (sign / length);
+  const Vector3d rate = change * (sign / length);
+  return {towards, rate - towards * dot(towards, rate)};
 }
 
 /// For how long c + b x + a x^2 stays positive from x = 0 on.
@@ -149,12 +144,11 @@ inline double positive_until(double a, double b, double c) {
 /// For how long all points, which move on by `motions` each step, stay farther than `reach` along the
 /// direction. `scale` bounds their components at any time of the step, and `reach`.
 template <std::size_t count>
-double separated_for(const std::array<Eigen::Vector3d, count>& points,
-                     const std::array<Eigen::Vector3d, count>& motions, const Direction& direction,
-                     double scale, double reach) {
+double separated_for(const std::array<Vector3d, count>& points, const std::array<Vector3d, count>& motions,
+                     const Direction& direction, double scale, double reach) {
   const double rounding = unit_roundoff * scale;
   const double nearest = reach + direction_roundings * rounding;
-  const double turn = direction.turning.norm();
+  const double turn = norm(direction.turning);
   const double growth = direction.growth;
   // Beyond half a right angle the direction is useless, and its length, 1 + growth elapsed + (turn elapsed)^2
   // / (2 (1 + growth elapsed)), too rough; that it shrinks by no more than half bounds the length.
@@ -162,11 +156,11 @@ double separated_for(const std::array<Eigen::Vector3d, count>& points,
   if (growth < 0) elapsed = std::min(elapsed, -0.5 / growth);
   const double bend = growth < 0 ? 1 : 0.5;
   for (std::size_t k = 0; k < count; ++k) {
-    const double rise = direction.towards.dot(motions[k]);
-    const double c = direction.towards.dot(points[k]) - nearest;
+    const double rise = dot(direction.towards, motions[k]);
+    const double c = dot(direction.towards, points[k]) - nearest;
     const double b =
-        rise + direction.turning.dot(points[k]) - turning_roundings * rounding * turn + growth * c;
-    const double a = direction.turning.dot(motions[k]) - bend * nearest * turn * turn + growth * rise;
+        rise + dot(direction.turning, points[k]) - turning_roundings * rounding * turn + growth * c;
+    const double a = dot(direction.turning, motions[k]) - bend * nearest * turn * turn + growth * rise;
     elapsed = std::min(elapsed, positive_until(a, b, c));
   }
   return elapsed;

@@ -3,13 +3,11 @@
 #include <cmath>
 
 #include "contact/geometry/closest_on_triangle.hpp"
-#include "contact/geometry/eigen_vector.hpp"
 #include "src/base/floating_point.hpp"
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
-
-using Eigen::Vector3d;
 
 namespace {
 
@@ -30,10 +28,9 @@ Vector3d accurate_cross(const Vector3d& a, const Vector3d& b) {
 
 TrianglePoint closest_point_on_triangle(const Vector3d& node, const std::array<Vector3d, 3>& vertices) {
   const auto [a, b, c] = vertices;
-  const ClosestOnTriangle<double> found =
-      closest_on_triangle(components(node), components(a), components(b), components(c));
-  TrianglePoint point{found.weights,          -eigen(found.offset), accurate_cross(a - c, b - a),
-                      found.squared_distance, Feature::interior,    0};
+  const ClosestOnTriangle<double> found = closest_on_triangle(node, a, b, c);
+  TrianglePoint point{found.weights,          -found.offset,     accurate_cross(a - c, b - a),
+                      found.squared_distance, Feature::interior, 0};
   // Edge k faces vertex k + 2.
   for (int k = 0; k < 3; ++k) {
     if (found.weights[index((k + 2) % 3)] == 0) {
@@ -51,17 +48,17 @@ TrianglePoint closest_point_on_triangle(const Vector3d& node, const std::array<V
 }
 
 double safe_length(const Vector3d& vector) {
-  const double squared = vector.squaredNorm();
+  const double squared = squared_norm(vector);
   if (squared > 0x1p-900 && squared < 0x1p900) return std::sqrt(squared);
-  const double largest = vector.lpNorm<Eigen::Infinity>();
-  return largest > 0 && largest < infinity ? largest * (vector / largest).norm() : largest;
+  const double largest = maximum_norm(vector);
+  return largest > 0 && largest < infinity ? largest * norm(vector / largest) : largest;
 }
 
 Vector3d unit_or(const Vector3d& area_vector, const Vector3d& otherwise) {
   const double length = safe_length(area_vector);
   if (length > 0) return area_vector / length;
   const double other_length = safe_length(otherwise);
-  return other_length > 0 ? Vector3d(otherwise / other_length) : Vector3d::Zero();
+  return other_length > 0 ? otherwise / other_length : Vector3d{};
 }
 
 ClosestPoint closest_point_on_quad(const Vector3d& node, const FaceVertices& vertices) {

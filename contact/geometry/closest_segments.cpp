@@ -2,11 +2,9 @@
 
 #include "contact/geometry/closest_on_segments.hpp"
 #include "contact/geometry/closest_point.hpp"
-#include "contact/geometry/eigen_vector.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
-
-using Eigen::Vector3d;
 
 namespace {
 
@@ -24,15 +22,13 @@ SegmentFeature feature_at(double parameter) {
 }  // namespace
 
 ClosestSegments closest_points_of_segments(const SegmentPair& pair) {
-  const auto between = [&](std::size_t i, std::size_t j) { return components(pair.between[i][j]); };
-  const ClosestOnSegments<double> found = closest_on_segments(
-      SegmentDifferences<double>{between(0, 0), between(0, 1), between(1, 0), between(1, 1),
-                                 components(pair.along_a), components(pair.along_b)});
-  const Vector3d normal =
-      found.parallel ? Vector3d(Vector3d::Zero()) : antisymmetric_cross(pair.along_a, pair.along_b);
+  const auto between = [&](std::size_t i, std::size_t j) { return pair.between[i][j]; };
+  const ClosestOnSegments<double> found = closest_on_segments(SegmentDifferences<double>{
+      between(0, 0), between(0, 1), between(1, 0), between(1, 1), pair.along_a, pair.along_b});
+  const Vector3d normal = found.parallel ? Vector3d{} : antisymmetric_cross(pair.along_a, pair.along_b);
   return {{found.on_a, found.on_b},
           {feature_at(found.on_a), feature_at(found.on_b)},
-          eigen(found.offset),
+          found.offset,
           normal,
           found.squared_distance};
 }

@@ -7,11 +7,9 @@
 #include "contact/geometry/advancement.hpp"
 #include "contact/geometry/closest_point.hpp"
 #include "contact/geometry/edges_apart.hpp"
-#include "contact/geometry/eigen_vector.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
-
-using Eigen::Vector3d;
 using namespace advancement;
 
 namespace {
@@ -91,8 +89,8 @@ class Certificates {
  private:
   bool surely_crossed() const {
     constexpr double sine = 0.1;
-    return sight_.closest.normal.squaredNorm() >
-           sine * sine * (sight_.along_a.squaredNorm() * sight_.along_b.squaredNorm());
+    return squared_norm(sight_.closest.normal) >
+           sine * sine * (squared_norm(sight_.along_a) * squared_norm(sight_.along_b));
   }
 
   double along(const Direction& direction) const {
@@ -105,13 +103,14 @@ class Certificates {
   // The common perpendicular, as it turns: along_a x along_b is quadratic in time. It is followed to the end
   // of the time for which it is seen to separate, then, less roughly, only for that time and a little more.
   double along_perpendicular() const {
-    const double length = sight_.closest.normal.norm();
+    const double length = norm(sight_.closest.normal);
     if (!(length > 0)) return 0;
-    const double scale = (sight_.closest.normal.dot(sight_.closest.offset) < 0 ? -1 : 1) / length;
-    const Perpendicular perpendicular{scale * sight_.closest.normal,
-                                      scale * (edges_.along_a.displacement.cross(sight_.along_b) +
-                                               sight_.along_a.cross(edges_.along_b.displacement)),
-                                      scale * edges_.along_a.displacement.cross(edges_.along_b.displacement)};
+    const double scale = (dot(sight_.closest.normal, sight_.closest.offset) < 0 ? -1 : 1) / length;
+    const Perpendicular perpendicular{
+        scale * sight_.closest.normal,
+        scale * (cross(edges_.along_a.displacement, sight_.along_b) +
+                 cross(sight_.along_a, edges_.along_b.displacement)),
+        scale * cross(edges_.along_a.displacement, edges_.along_b.displacement)};
     double elapsed = 0;
     double most = 1.01 * left_;
     for (int pass = 0; pass < 4; ++pass) {
@@ -120,7 +119,7 @@ class Certificates {
       if (!(here > 0) || here >= 0.5 * most) break;
       most = 2 * here;
     }
-    return elapsed > left_ ? elapsed : std::max(elapsed, over({perpendicular.towards, Vector3d::Zero()}));
+    return elapsed > left_ ? elapsed : std::max(elapsed, over({perpendicular.towards, Vector3d{}}));
   }
 
   // A direction that is `towards`, a unit vector, + elapsed `turning` + elapsed^2 `bending`.
@@ -133,24 +132,24 @@ class Certificates {
   double over(const Perpendicular& direction, double most) const {
     const double rounding = unit_roundoff * edges_.scale;
     const double nearest = edges_.reach + direction_roundings * rounding;
-    const double growth = direction.towards.dot(direction.turning);
-    const double second_growth = direction.towards.dot(direction.bending);
+    const double growth = dot(direction.towards, direction.turning);
+    const double second_growth = dot(direction.towards, direction.bending);
     if (growth < 0) most = std::min(most, -0.25 / growth);
     if (second_growth < 0) most = std::min(most, 0.5 / std::sqrt(-second_growth));
     const double shortest = 1 + std::min(growth, 0.0) * most + std::min(second_growth, 0.0) * most * most;
-    const double turn = (direction.turning - growth * direction.towards).norm() +
-                        most * (direction.bending - second_growth * direction.towards).norm();
+    const double turn = norm(direction.turning - growth * direction.towards) +
+                        most * norm(direction.bending - second_growth * direction.towards);
     const double turning_rounding =
-        turning_roundings * rounding * (direction.turning.norm() + most * direction.bending.norm());
+        turning_roundings * rounding * (norm(direction.turning) + most * norm(direction.bending));
     double elapsed = most;
     for (std::size_t k = 0; k < 4; ++k) {
       const Vector3d& point = sight_.corners[k];
       const Vector3d& motion = sight_.motions[k];
-      const double c = direction.towards.dot(point) - nearest;
-      const double b =
-          direction.towards.dot(motion) + direction.turning.dot(point) - nearest * growth - turning_rounding;
-      const double a = direction.turning.dot(motion) + direction.bending.dot(point) +
-                       most * std::min(direction.bending.dot(motion), 0.0) -
+      const double c = dot(direction.towards, point) - nearest;
+      const double b = dot(direction.towards, motion) + dot(direction.turning, point) - nearest * growth -
+                       turning_rounding;
+      const double a = dot(direction.turning, motion) + dot(direction.bending, point) +
+                       most * std::min(dot(direction.bending, motion), 0.0) -
                        nearest * (second_growth + turn * turn / (2 * shortest));
       elapsed = std::min(elapsed, positive_until(a, b, c));
     }
@@ -163,7 +162,7 @@ class Certificates {
   Direction across_b() const {
     return strictly_across(sight_.along_b, edges_.along_b.displacement, sight_.closest.offset);
   }
-  Direction between_points() const { return {sight_.closest.offset.normalized(), Vector3d::Zero()}; }
+  Direction between_points() const { return {normalized(sight_.closest.offset), Vector3d{}}; }
 
   const RelativeEdges& edges_;
   const SightOfEdges& sight_;
@@ -188,14 +187,14 @@ std::optional<TouchOfEdges> first_touch(const RelativeEdges& edges) {
   const double rounding = unit_roundoff * edges.scale;
   const double directed = offset_roundings * rounding;
   double tolerance = touch_roundings * rounding;
-  Vector3d approach = Vector3d::Zero();
+  Vector3d approach{};
   SightOfEdges sight;
   for (std::size_t k = 0; k < 4; ++k) sight.motions[k] = edges.between[k].displacement;
   double time = 0;
   for (int count = 1;; ++count) {
     look(edges, time, sight);
     const ClosestSegments& closest = sight.closest;
-    if (closest.squared_distance > directed * directed || approach.isZero(0)) approach = closest.offset;
+    if (closest.squared_distance > directed * directed || is_zero(approach)) approach = closest.offset;
     const double touching = edges.reach + tolerance;
     if (closest.squared_distance <= touching * touching) return TouchOfEdges{time, closest, approach};
     const Certificates certificates(edges, sight, 1 - time);
@@ -210,7 +209,7 @@ std::optional<TouchOfEdges> first_touch(const RelativeEdges& edges) {
 }
 
 int side_before(const RelativeEdges& edges, const TouchOfEdges& touch) {
-  if (touch.closest.normal.isZero(0)) return 0;
+  if (is_zero(touch.closest.normal)) return 0;
   // Where an edge is long the scale bounds half of it.
   const double area = 0.25 * bound(edges.along_a) * bound(edges.along_b);
   return sign_before(volume(edges.between[0], edges.along_a, edges.along_b, edges.scale, area), touch.time);
@@ -229,10 +228,10 @@ Vector3d contact_normal(const RelativeEdges& edges, const TouchOfEdges& touch, i
 MovingEdgePair<double> edge_pair(const MovingEdge& a, const MovingEdge& b) {
   MovingEdgePair<double> pair;
   for (std::size_t k = 0; k < 2; ++k) {
-    pair.start_a[k] = components(a.start[k]);
-    pair.displacement_a[k] = components(a.displacement[k]);
-    pair.start_b[k] = components(b.start[k]);
-    pair.displacement_b[k] = components(b.displacement[k]);
+    pair.start_a[k] = a.start[k];
+    pair.displacement_a[k] = a.displacement[k];
+    pair.start_b[k] = b.start[k];
+    pair.displacement_b[k] = b.displacement[k];
   }
   return pair;
 }

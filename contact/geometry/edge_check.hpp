@@ -24,11 +24,11 @@
 /// Two to four certificates are usual, the most seen in a million adversarial queries is 90. The work is
 /// bounded as in `velocity_check`: should 1024 not do, the tolerance doubles, and again for each 1024 more.
 
-#include <Eigen/Dense>
 #include <array>
 #include <optional>
 
 #include "contact/geometry/closest_segments.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -47,7 +47,7 @@ struct EdgeContact {
   /// on the side that a comes from, or, where that side is zero or an end is met, the direction in which they
   /// came together. In contact from the start without distance or side, it is the perpendicular to either
   /// side, and zero if there is none.
-  Eigen::Vector3d normal;
+  Vector3d normal;
   double distance;  // then: within rounding of the reach, or less at time 0
   /// Of (a - b) . (along a x along b) just before the time: that at the start, unless the lines that the
   /// edges lie on have passed each other beside them.

@@ -3,21 +3,20 @@
 
 #include "contact/geometry/closest_on_hull.hpp"
 #include "contact/geometry/closest_point.hpp"
-#include "contact/geometry/eigen_vector.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
 struct HullPoint {
-  Eigen::Vector3d offset;           ///< node minus closest point
+  Vector3d offset;                  ///< node minus closest point
   std::array<double, 4> weights{};  ///< of the corners
   double squared_distance = 0;      ///< 0 inside of the hull
 };
 
-inline HullPoint closest_on_face(const Eigen::Vector3d& x, const FaceVertices& at, bool as_hull) {
+inline HullPoint closest_on_face(const Vector3d& x, const FaceVertices& at, bool as_hull) {
   if (as_hull) {
-    const ClosestOnHull<double> found = closest_on_hull<double>(
-        components(x), {components(at[0]), components(at[1]), components(at[2]), components(at[3])});
-    return {eigen(found.offset), found.weights, found.squared_distance};
+    const ClosestOnHull<double> found = closest_on_hull<double>(x, {at[0], at[1], at[2], at[3]});
+    return {found.offset, found.weights, found.squared_distance};
   }
   const TrianglePoint first = closest_point_on_triangle(x, {at[0], at[1], at[2]});
   const TrianglePoint second = closest_point_on_triangle(x, {at[0], at[2], at[3]});

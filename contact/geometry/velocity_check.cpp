@@ -6,12 +6,10 @@
 
 #include "contact/geometry/advancement.hpp"
 #include "contact/geometry/apart.hpp"
-#include "contact/geometry/eigen_vector.hpp"
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
-
-using Eigen::Vector3d;
 
 using namespace advancement;
 
@@ -70,13 +68,13 @@ struct SightOfTriangle {
 Direction separating_direction(const SightOfTriangle& sight, Feature feature, int number) {
   const auto k = index(number);
   const std::size_t next = (k + 1) % 3;
-  if (feature == Feature::vertex) return {sight.vertices[k].normalized(), Vector3d::Zero()};
+  if (feature == Feature::vertex) return {normalized(sight.vertices[k]), Vector3d{}};
   const Vector3d edge = sight.vertices[next] - sight.vertices[k];
   const Vector3d edge_motion = sight.motions[next] - sight.motions[k];
   if (feature == Feature::edge) return across(edge, edge_motion, sight.closest.offset);
   const Vector3d other = sight.vertices[2] - sight.vertices[0];
   const Vector3d other_motion = sight.motions[2] - sight.motions[0];
-  return along_normal(sight.closest.area_vector, edge_motion.cross(other) + edge.cross(other_motion),
+  return along_normal(sight.closest.area_vector, cross(edge_motion, other) + cross(edge, other_motion),
                       sight.closest.offset);
 }
 
@@ -118,7 +116,7 @@ std::optional<TouchOfTriangle> first_touch(const Triangle& triangle, double limi
   double time = 0;
   for (int count = 1;; ++count) {
     for (std::size_t k = 0; k < 3; ++k) sight.vertices[k] = paths[k].at(time);
-    sight.closest = closest_point_on_triangle(Vector3d::Zero(), sight.vertices);
+    sight.closest = closest_point_on_triangle(Vector3d{}, sight.vertices);
     const double touching = triangle.reach + tolerance;
     if (sight.closest.squared_distance <= touching * touching) return TouchOfTriangle{time, sight.closest};
     const double elapsed = separated_for(triangle, sight);
@@ -131,10 +129,10 @@ std::optional<TouchOfTriangle> first_touch(const Triangle& triangle, double limi
 }
 
 MovingPair<double> moving_pair(const MovingNode& node, const MovingFace& face) {
-  MovingPair<double> pair{{components(node.start)}, {components(node.displacement)}};
+  MovingPair<double> pair{{node.start}, {node.displacement}};
   for (std::size_t k = 0; k < 4; ++k) {
-    pair.start[k + 1] = components(face.start[k]);
-    pair.displacement[k + 1] = components(face.displacement[k]);
+    pair.start[k + 1] = face.start[k];
+    pair.displacement[k + 1] = face.displacement[k];
   }
   return pair;
 }

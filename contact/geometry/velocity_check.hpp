@@ -27,18 +27,18 @@
 /// fold. Contact is then entered from the side the node starts on. A node that starts within reach is in
 /// contact at time 0.
 
-#include <Eigen/Dense>
 #include <array>
 #include <optional>
 
 #include "contact/geometry/closest_point.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
 /// A node over one step: position at its beginning and displacement until its end, same unit.
 struct MovingNode {
-  Eigen::Vector3d start;
-  Eigen::Vector3d displacement;
+  Vector3d start;
+  Vector3d displacement;
 };
 
 /// A face over one step, vertices counterclockwise seen from outside.
@@ -50,8 +50,8 @@ struct MovingFace {
 struct VelocityContact {
   double time;                    // fraction of the step, in [0, 1]
   std::array<double, 4> weights;  // of the four face vertices at that time: none negative, their sum is 1
-  Eigen::Vector3d normal;  // unit normal of the sub-triangle at that time; zero if the face has no area
-  double distance;         // from the node to the face then: within rounding of `reach`, or less at time 0
+  Vector3d normal;  // unit normal of the sub-triangle at that time; zero if the face has no area
+  double distance;  // from the node to the face then: within rounding of `reach`, or less at time 0
   int side;  // +1: came from the side the normal points to; -1: from behind; 0: in the plane all the while
   int sub_triangle;  // 0..3; 0 for a triangular face
 };

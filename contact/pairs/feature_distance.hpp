@@ -21,20 +21,20 @@ class FewPoints {
  public:
   using Number = double;
 
-  void add(const Vector3<double>& x) { point_[count_++] = x; }
+  void add(const Vector3d& x) { point_[count_++] = x; }
   std::size_t size() const { return count_; }
   bool empty() const { return count_ == 0; }
-  const Vector3<double>& operator[](std::size_t i) const { return point_[i]; }
-  const Vector3<double>* begin() const { return point_.data(); }
-  const Vector3<double>* end() const { return point_.data() + count_; }
+  const Vector3d& operator[](std::size_t i) const { return point_[i]; }
+  const Vector3d* begin() const { return point_.data(); }
+  const Vector3d* end() const { return point_.data() + count_; }
 
-  Vector3<double> mean() const {
-    Vector3<double> sum{0, 0, 0};
-    for (const Vector3<double>& x : *this) sum = sum + x;
+  Vector3d mean() const {
+    Vector3d sum{0, 0, 0};
+    for (const Vector3d& x : *this) sum = sum + x;
     return (1 / static_cast<double>(count_)) * sum;
   }
   /// The point that is farthest along a direction.
-  const Vector3<double>& farthest(const Vector3<double>& direction) const {
+  const Vector3d& farthest(const Vector3d& direction) const {
     std::size_t best = 0;
     double height = dot(direction, point_[0]);
     for (std::size_t i = 1; i < count_; ++i) {
@@ -46,7 +46,7 @@ class FewPoints {
   }
 
  private:
-  std::array<Vector3<double>, 8> point_;
+  std::array<Vector3d, 8> point_;
   std::size_t count_ = 0;
 };
 
@@ -142,7 +142,7 @@ class CommonCorners {
     if (common_.empty()) return distance_bound(first_, second_);
     if (common_.size() == 1) return {distance_bound(away_from(common_[0], {0, 0, 0})).distance, {0, 0, 0}};
     if (common_.size() > 2) return {};
-    const Vector3<double>&p = common_[0], &q = common_[1];
+    const Vector3d &p = common_[0], &q = common_[1];
     const DistanceBound<double> between = distance_bound(away_from(p, q - p));
     const DistanceBound<double> along = distance_bound(with(first_, p), with(second_, q));
     const DistanceBound<double> back = distance_bound(with(first_, q), with(second_, p));
@@ -150,17 +150,17 @@ class CommonCorners {
   }
 
  private:
-  static FewPoints with(FewPoints points, const Vector3<double>& point) {
+  static FewPoints with(FewPoints points, const Vector3d& point) {
     points.add(point);
     return points;
   }
   // From a common corner towards the first, and from the second to it, across an axis.
-  FewPoints away_from(const Vector3<double>& corner, const Vector3<double>& axis) const {
+  FewPoints away_from(const Vector3d& corner, const Vector3d& axis) const {
     FewPoints arms;
     const double inverse = inverse_or_zero(dot(axis, axis));
-    const auto add = [&](const Vector3<double>& arm) { arms.add(arm - (inverse * dot(arm, axis)) * axis); };
-    for (const Vector3<double>& x : first_) add(x - corner);
-    for (const Vector3<double>& x : second_) add(corner - x);
+    const auto add = [&](const Vector3d& arm) { arms.add(arm - (inverse * dot(arm, axis)) * axis); };
+    for (const Vector3d& x : first_) add(x - corner);
+    for (const Vector3d& x : second_) add(corner - x);
     return arms;
   }
 
@@ -186,7 +186,7 @@ double distance_of_pieces(const Points& at, unsigned one_piece) {
 }
 
 /// Of opposite sides of one face.
-inline DistanceBound<double> distance_of_opposite_sides(const std::array<Vector3<double>, 4>& at) {
+inline DistanceBound<double> distance_of_opposite_sides(const std::array<Vector3d, 4>& at) {
   const auto side = [&](std::size_t k, std::size_t l) {
     FewPoints ends;
     ends.add(at[k]);

@@ -103,7 +103,7 @@ double FeaturePairs::scale_of(std::size_t slave, const Scene& scene, const Featu
   double shortest = infinity;
   for (int other : scene.features.ring.of(static_cast<int>(slave))) {
     const double* end = motion.node[index(other)].start;
-    const Vector3<double> edge{end[0] - own[0], end[1] - own[1], end[2] - own[2]};
+    const Vector3d edge{end[0] - own[0], end[1] - own[1], end[2] - own[2]};
     shortest = std::min(shortest, dot(edge, edge));
   }
   return std::min(scene.features.mean_edge, most_of_own_edge * std::sqrt(shortest));
@@ -111,9 +111,8 @@ double FeaturePairs::scale_of(std::size_t slave, const Scene& scene, const Featu
 
 void FeaturePairs::place(std::size_t slave, const Scene& scene, const FeatureMotion& motion) {
   const NodeMotion64& node = motion.node[slave];
-  const Eigen::Vector3d step =
-      motion.displacement(static_cast<int>(slave)) - Eigen::Map<const Eigen::Vector3d>(motion.frame());
-  const double length = step.norm(), scale = scale_of(slave, scene, motion), margin = scene.margin * scale;
+  const Vector3d step = motion.displacement(static_cast<int>(slave)) - vector_at(motion.frame());
+  const double length = norm(step), scale = scale_of(slave, scene, motion), margin = scene.margin * scale;
   const double steps = std::clamp(length > 0 ? way_ahead * scale / length : most_steps_ahead,
                                   least_steps_ahead, most_steps_ahead);
   for (int axis = 0; axis < 3; ++axis) {

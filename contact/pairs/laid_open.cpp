@@ -19,7 +19,7 @@ constexpr std::array<std::array<std::size_t, 2>, 6> segments{
 
 CaptureBox bounds_of(const FaceVertices& at) {
   CaptureBox bounds = empty_box;
-  for (const Eigen::Vector3d& x : at) bounds.include(x);
+  for (const Vector3d& x : at) bounds.include(x);
   return bounds;
 }
 

@@ -2,7 +2,6 @@
 /// One list of pairs of features. What is taken out leaves a vacant place, which the next new pair takes: a
 /// search changes few blocks of the list.
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include "src/base/floating_point.hpp"
 #include "src/base/index.hpp"
 #include "src/base/parallel.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 

@@ -233,10 +233,7 @@ struct OnePair {
 
   Points points(const double* rows) const {
     constexpr std::size_t stride = sizeof(NodeMotion64) / sizeof(double);
-    const auto at = [&](int node) {
-      const double* row = rows + stride * index(node);
-      return Vector3<double>{row[0], row[1], row[2]};
-    };
+    const auto at = [&](int node) { return vector_at(rows + stride * index(node)); };
     const auto& first = kind.first_nodes(a);
     const auto& second = kind.second_nodes(b);
     Points points;
@@ -251,7 +248,7 @@ struct OnePair {
   double ahead() const {
     return of_a(kind.first_ways().ahead) + of_b(kind.second_ways().ahead) + of_frames(frames().ahead);
   }
-  Vector3<double> direction() const {
+  Vector3d direction() const {
     const auto& d = record.direction;
     return {d[0], d[1], d[2]};
   }

@@ -47,7 +47,7 @@ using RoundsAndFaces = ParentPairs<Parents::rounds>;
 /// By the direction that is kept; where none is, no number is less.
 template <class Kind>
 double left_along_direction(const OnePair<Kind>& one, const typename OnePair<Kind>::Points& at, double band) {
-  const Vector3<double> direction = one.direction();
+  const Vector3d direction = one.direction();
   if (dot(direction, direction) < 0.5) return -infinity;
   const double reach = one.record.spacing == Spacing::skins ? 2 * one.kind.features.skin : one.radii();
   return (1 - rounding_of_direction) * height_between(direction, at.first, at.second) - reach - band;

@@ -15,8 +15,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 constexpr std::size_t faces_a_range = 256;
@@ -39,10 +37,10 @@ constexpr double beside_share = 1e-10;
 // less than the terms of which the direction was computed, \param reach than the distances
 bool is_beyond(const MovingNode& way, const FaceVertices& at, const Vector3d& direction, double size,
                double reach) {
-  const double start = direction.dot(way.start - at[0]), end = start + direction.dot(way.displacement);
+  const double start = dot(direction, way.start - at[0]), end = start + dot(direction, way.displacement);
   double lower = 0, upper = 0;
   for (const Vector3d& corner : at) {
-    const double height = direction.dot(corner - at[0]);
+    const double height = dot(direction, corner - at[0]);
     lower = std::min(lower, height);
     upper = std::max(upper, height);
   }
@@ -50,24 +48,26 @@ bool is_beyond(const MovingNode& way, const FaceVertices& at, const Vector3d& di
   return std::min(start, end) > upper + surplus || std::max(start, end) < lower - surplus;
 }
 
+double sum_of_magnitudes(const Vector3d& a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+
 // Whether a plane separates the edge from the face, of those that hold two of their directions (Gottschalk,
 // Lin and Manocha 1996): nearly all that come near each other are told apart so.
 bool is_beside(const MovingNode& way, const FaceVertices& at) {
-  const Vector3d &along = way.displacement, normal = (at[2] - at[0]).cross(at[3] - at[1]);
-  const double length = along.norm(), area = (at[2] - at[0]).norm() * (at[3] - at[1]).norm();
+  const Vector3d &along = way.displacement, normal = cross(at[2] - at[0], at[3] - at[1]);
+  const double length = norm(along), area = norm(at[2] - at[0]) * norm(at[3] - at[1]);
   double reach = 0;
-  for (const Vector3d& corner : at) reach = std::max(reach, (way.start - corner).lpNorm<1>());
-  reach += along.lpNorm<1>();
+  for (const Vector3d& corner : at) reach = std::max(reach, sum_of_magnitudes(way.start - corner));
+  reach += sum_of_magnitudes(along);
   if (is_beyond(way, at, normal, area, reach)) return true;
   std::array<Vector3d, 4> side;
   for (std::size_t k = 0; k < 4; ++k) side[k] = at[(k + 1) % 4] - at[k];
   const auto beyond_side = [&](const Vector3d& one) {
-    const double size = one.norm();
-    return is_beyond(way, at, along.cross(one), length * size, reach) ||
-           is_beyond(way, at, one.cross(normal), size * area, reach);
+    const double size = norm(one);
+    return is_beyond(way, at, cross(along, one), length * size, reach) ||
+           is_beyond(way, at, cross(one, normal), size * area, reach);
   };
   return std::any_of(side.begin(), side.end(), beyond_side) ||
-         is_beyond(way, at, along.cross(normal), length * area, reach);
+         is_beyond(way, at, cross(along, normal), length * area, reach);
 }
 
 // Share of the edge at which it first meets the face.
@@ -79,7 +79,7 @@ std::optional<double> first_meeting(const MovingNode& way, const FaceVertices& a
     MovingFace still;
     for (std::size_t k = 0; k < 4; ++k) {
       still.start[k] = at[corner[t][std::min<std::size_t>(k, 2)]];
-      still.displacement[k] = Vector3d::Zero();
+      still.displacement[k] = Vector3d{};
     }
     const auto touch = velocity_check(way, still, 0);
     if (touch && (!first || touch->time < *first)) first = touch->time;

@@ -6,7 +6,6 @@
 /// piece its two triangles. Left out are pairs that share a node, that are parts of one rigid body, that a
 /// tie joins, or that the deck keeps from touching.
 
-#include <Eigen/Dense>
 #include <optional>
 
 #include "contact/features/features.hpp"
@@ -15,19 +14,19 @@
 #include "contact/surface/surface.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
 struct Piercing {
   int edge = 0;  ///< of the features
   int face = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Vector3d point{};
 };
 
 /// Whether the straight way from one point to another meets a face. \param as_hull of its corners; else of
 /// its two triangles
-bool passes_through(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const FaceVertices& face,
-                    bool as_hull);
+bool passes_through(const Vector3d& from, const Vector3d& to, const FaceVertices& face, bool as_hull);
 
 /// The first by face and edge. \param excluded pairs of nodes and faces that are one piece \param
 /// shells_alone look only at the middle surfaces of shells, where other bodies cross them: they have no

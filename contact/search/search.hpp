@@ -28,7 +28,7 @@ struct CaptureBox {
   double upper[3];
 
   /// Grows to hold a point or another box. What is not a number is left out.
-  BRIO_INLINE void include(const Vector3<double>& x) { include({{x.x, x.y, x.z}, {x.x, x.y, x.z}}); }
+  BRIO_INLINE void include(const Vector3d& x) { include({{x.x, x.y, x.z}, {x.x, x.y, x.z}}); }
   template <class Point>
   BRIO_INLINE void include(const Point& x) {
     for (int axis = 0; axis < 3; ++axis) grow(axis, x[axis], x[axis]);
@@ -62,12 +62,12 @@ inline constexpr CaptureBox empty_box{{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL
 /// the search.
 class SearchNodes {
  public:
-  SearchNodes(std::span<const Vector3<double>> points)
+  SearchNodes(std::span<const Vector3d> points)
       : first_(reinterpret_cast<const double*>(points.data())),
         count_(points.size()),
         stride_(3),
         to_upper_(0) {
-    static_assert(sizeof(Vector3<double>) == 3 * sizeof(double));
+    static_assert(sizeof(Vector3d) == 3 * sizeof(double));
   }
   SearchNodes(std::span<const CaptureBox> ranges)
       : first_(reinterpret_cast<const double*>(ranges.data())),
@@ -76,7 +76,7 @@ class SearchNodes {
         to_upper_(3) {
     static_assert(sizeof(CaptureBox) == 6 * sizeof(double));
   }
-  SearchNodes(const std::vector<Vector3<double>>& points) : SearchNodes(std::span(points)) {}
+  SearchNodes(const std::vector<Vector3d>& points) : SearchNodes(std::span(points)) {}
   SearchNodes(const std::vector<CaptureBox>& ranges) : SearchNodes(std::span(ranges)) {}
 
   std::size_t size() const { return count_; }

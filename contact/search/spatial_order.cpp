@@ -29,7 +29,7 @@ constexpr std::size_t digit(Entry entry, int shift) { return index(entry >> shif
 
 constexpr std::uint32_t key_of(Entry entry) { return static_cast<std::uint32_t>(entry >> 32); }
 
-bool is_number(const Vector3<double>& p) { return !std::isnan(p.x) && !std::isnan(p.y) && !std::isnan(p.z); }
+bool is_number(const Vector3d& p) { return !std::isnan(p.x) && !std::isnan(p.y) && !std::isnan(p.z); }
 
 /// Two zeros after each of ten bits.
 constexpr std::uint32_t spread(std::uint32_t x) {
@@ -59,7 +59,7 @@ struct Cells {
     return static_cast<std::uint32_t>(
         std::min(static_cast<int>((coordinate - origin[axis]) * per_length), last_cell));
   }
-  std::uint32_t key(const Vector3<double>& p) const {
+  std::uint32_t key(const Vector3d& p) const {
     return spread(cell(p.x, 0)) | spread(cell(p.y, 1)) << 1 | spread(cell(p.z, 2)) << 2;
   }
 };
@@ -83,25 +83,25 @@ void radix_sort(Entry* entries, Entry* scratch, std::size_t count) {
 }  // namespace
 
 void lay_centres(const SearchNodes& boxes, const CaptureBox& within, ThreadTeam& team,
-                 std::vector<Vector3<double>>& centres) {
+                 std::vector<Vector3d>& centres) {
   constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   centres.resize(boxes.size());
   team.for_ranges(boxes.size(), smallest_slice, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       const CaptureBox box = boxes.range(b);
-      double centre[3] = {not_a_number, not_a_number, not_a_number};
+      Vector3d centre{not_a_number, not_a_number, not_a_number};
       if (box.holds_anything() && box.overlaps(within))
         for (int axis = 0; axis < 3; ++axis)
           centre[axis] = 0.5 * std::clamp(std::max(box.lower[axis], within.lower[axis]), -farthest_coordinate,
                                           farthest_coordinate) +
                          0.5 * std::clamp(std::min(box.upper[axis], within.upper[axis]), -farthest_coordinate,
                                           farthest_coordinate);
-      centres[b] = {centre[0], centre[1], centre[2]};
+      centres[b] = centre;
     }
   });
 }
 
-void SpatialOrder::sort(std::span<const Vector3<double>> positions, ThreadTeam& team) {
+void SpatialOrder::sort(std::span<const Vector3d> positions, ThreadTeam& team) {
   const std::size_t count = positions.size();
   entries_.resize(count);
   scratch_.resize(count);
@@ -158,7 +158,7 @@ void SpatialOrder::sort_by_key(std::size_t count, ThreadTeam& team) {
   }
 }
 
-void SpatialOrder::refine_crowded_cells(std::span<const Vector3<double>> positions, std::size_t begin,
+void SpatialOrder::refine_crowded_cells(std::span<const Vector3d> positions, std::size_t begin,
                                         std::size_t end) {
   for (std::size_t first = begin; first < end;) {
     std::size_t last = first + 1;
@@ -170,7 +170,7 @@ void SpatialOrder::refine_crowded_cells(std::span<const Vector3<double>> positio
 
 /// Order the positions of one cell by a curve of their own bounds, and so on. It ends: where the bounds have
 /// an extent, their opposite sides fall in different cells.
-void SpatialOrder::refine(std::span<const Vector3<double>> positions, std::size_t begin, std::size_t end) {
+void SpatialOrder::refine(std::span<const Vector3d> positions, std::size_t begin, std::size_t end) {
   CaptureBox bounds = empty_box;
   for (std::size_t i = begin; i < end; ++i)
     bounds.include(positions[static_cast<std::uint32_t>(entries_[i])]);

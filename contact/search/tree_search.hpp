@@ -64,7 +64,7 @@ class NodeTree {
  private:
   void add_level(std::span<const CaptureBox> boxes, ThreadTeam& team);
 
-  std::vector<Vector3<double>> centres_;
+  std::vector<Vector3d> centres_;
   SpatialOrder order_;
   bool holds_points_ = true;
   std::vector<CaptureBox> range_;   ///< of each place
@@ -117,7 +117,7 @@ class TreeSearch {
   CaptureBox bounds_of(std::span<const CaptureBox> boxes, std::size_t begin, std::size_t end) const;
 
   NodeTree tree_;
-  std::vector<Vector3<double>> centres_;
+  std::vector<Vector3d> centres_;
   SpatialOrder box_order_;
   std::vector<PairPiece> pieces_;
   std::vector<NodesNearby> nearby_;

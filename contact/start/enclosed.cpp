@@ -14,8 +14,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// How far behind a face a body is probed, in its edges.
@@ -35,7 +33,7 @@ class Enclosures {
 
   // A point just inside of each closed body, in no other.
   void expect_bodies_apart(bool enclosed_alone) {
-    std::vector<Vector3<double>> probes;
+    std::vector<Vector3d> probes;
     std::vector<CaptureBox> boxes;
     std::vector<int> bodies;
     for (int body = 0; body < surface_.body_count; ++body) {
@@ -43,7 +41,7 @@ class Enclosures {
       const Vector3d probe = probe_of(body);
       if (winding(body, probe) <= 0.5) continue;  // thinner than that
       bodies.push_back(body);
-      probes.push_back({probe[0], probe[1], probe[2]});
+      probes.push_back(probe);
       boxes.push_back(box_of(body));
     }
     ThreadTeam team(1);
@@ -71,9 +69,9 @@ class Enclosures {
   Vector3d probe_of(int body) const {
     const int f = faces_of(body).front();
     const FaceVertices v = vertices(nodes_, face(f));
-    const Vector3d normal = (v[2] - v[0]).cross(v[3] - v[1]);
+    const Vector3d normal = cross(v[2] - v[0], v[3] - v[1]);
     const Vector3d middle = 0.25 * (v[0] + v[1] + v[2] + v[3]);
-    return middle - probe_share * shortest_edge(nodes_, face(f)) * normal.normalized();
+    return middle - probe_share * shortest_edge(nodes_, face(f)) * normalized(normal);
   }
 
   CaptureBox box_of(int body) const {

@@ -19,8 +19,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// Overlaps are searched to a depth of this fraction of an edge, or to the limit.
@@ -66,7 +64,7 @@ class Displacements {
 
  private:
   Nodes& nodes_;
-  std::vector<std::array<double, 3>> kept_;
+  std::vector<Vector3d> kept_;
 };
 
 class GapMaker {
@@ -199,7 +197,7 @@ class GapMaker {
   void expect_within_limit() const {
     const SidedPair* deepest = nullptr;
     for (const SidedPair& pair : found_)
-      if (pair.contact.normal.isZero(0))
+      if (is_zero(pair.contact.normal))
         refuse(pair, "at the same place, so that no direction separates them");
     for (const SidedPair& pair : found_)
       if (overlap(pair) > scene_.options.initial_overlap_limit * pair.scale &&
@@ -266,10 +264,10 @@ class GapMaker {
   // Whether no node of either side can move along the normal.
   bool is_fixed(const SidedPair& pair) const {
     const Contact& contact = pair.contact;
-    const Vector3<double> normal{contact.normal[0], contact.normal[1], contact.normal[2]};
+    const Vector3d normal{contact.normal[0], contact.normal[1], contact.normal[2]};
     for (std::size_t k = 0; k < contact.node.size(); ++k) {
       if (contact.weight[k] == 0) continue;
-      const Vector3<double> way = free_directions(contact.node[k]) * normal;
+      const Vector3d way = free_directions(contact.node[k]) * normal;
       if (dot(way, way) > rounding_of_direction * rounding_of_direction) return false;
     }
     return true;
@@ -311,7 +309,7 @@ class GapMaker {
 
   void record_motion() {
     for (std::size_t s = 0; s < start_.size(); ++s) {
-      const double moved = (position(nodes_, surface_.node[s]) - start_[s]).norm();
+      const double moved = norm(position(nodes_, surface_.node[s]) - start_[s]);
       for (std::size_t i = 0; moved > 0 && i < report_.size(); ++i)
         if (const std::string& part = part_name(part_of(static_cast<int>(s)));
             report_[i].node_part == part || report_[i].face_part == part)
@@ -353,7 +351,7 @@ class GapMaker {
     for (std::size_t b = 0; b < members.size(); ++b) {
       const auto s = index(members[b]);
       block_[s] = -1;
-      const Vector3<double>& moved = blocks_[b].velocity;
+      const Vector3d& moved = blocks_[b].velocity;
       double* v = nodes_.record[index(surface_.node[s])].velocity;
       v[0] = moved.x;
       v[1] = moved.y;

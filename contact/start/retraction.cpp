@@ -12,8 +12,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// Faces look against each other where the cosine of their normals is below this.
@@ -37,7 +35,7 @@ class Retraction {
         nodes_(nodes),
         look_(features, surface, nodes, {}),
         set_back_(surface.face.size(), 0.0),
-        normal_(surface.face.size(), Vector3d::Zero()),
+        normal_(surface.face.size(), Vector3d{}),
         box_(index(surface.body_count), empty_box),
         firmness_(index(surface.body_count), Firmness::is_free) {
     for (std::size_t s = 0; s < surface.slaves(); ++s) {
@@ -72,7 +70,7 @@ class Retraction {
       const Face& one = surface_.face[f];
       if (!one.alive()) continue;
       const FaceVertices at = look_.corners(one);
-      normal_[f] = unit_or((at[2] - at[0]).cross(at[3] - at[1]), Vector3d::Zero());
+      normal_[f] = unit_or(cross(at[2] - at[0], at[3] - at[1]), Vector3d{});
       CaptureBox& box = box_[index(one.body)];
       for (const Vector3d& corner : at) box.include(corner);
     }
@@ -93,7 +91,7 @@ class Retraction {
     if (!is_outside(surface_, nodes_, f, closest)) distance = -distance;
     bool opposed = false;
     for (int own : faces) {
-      if (normal(own).dot(normal(f)) >= opposed_cosine) continue;
+      if (dot(normal(own), normal(f)) >= opposed_cosine) continue;
       set_back(own, other.body, distance);
       opposed = true;
     }
@@ -116,7 +114,7 @@ class Retraction {
     bool opposed = false;
     for (int f : a.face)
       for (int g : b.face) {
-        if (f < 0 || g < 0 || normal(f).dot(normal(g)) >= opposed_cosine) continue;
+        if (f < 0 || g < 0 || dot(normal(f), normal(g)) >= opposed_cosine) continue;
         set_back(f, b.body, distance);
         set_back(g, a.body, distance);
         opposed = true;
@@ -197,7 +195,7 @@ class Retraction {
         if (neighbor < 0 || !face(neighbor).alive()) continue;
         double& known = set_back_[index(neighbor)];
         if (known >= set_back_[index(f)]) continue;
-        if (normal(f).dot(normal(neighbor)) < coplanar_cosine) continue;
+        if (dot(normal(f), normal(neighbor)) < coplanar_cosine) continue;
         known = set_back_[index(f)];
         open.push_back(neighbor);
       }
@@ -207,11 +205,11 @@ class Retraction {
   const Vector3d& normal(int f) const { return normal_[index(f)]; }
 
   void move() {
-    std::vector<Vector3d> displacement(surface_.slaves(), Vector3d::Zero());
+    std::vector<Vector3d> displacement(surface_.slaves(), Vector3d{});
     for (std::size_t s = 0; s < displacement.size(); ++s)
       if (!is_tied(static_cast<int>(s))) displacement[s] = inward(static_cast<int>(s));
     for (std::size_t s = 0; s < displacement.size(); ++s)
-      for (int axis = 0; axis < 3 && !displacement[s].isZero(0); ++axis)
+      for (int axis = 0; axis < 3 && !is_zero(displacement[s]); ++axis)
         nodes_.record[index(surface_.node[s])].position[axis] += displacement[s][axis];
   }
 
@@ -231,7 +229,7 @@ class Retraction {
     const Vector3d way = normals.mean();
     double least = 1;
     for (int f : surface_.faces_of.of(s))
-      if (set_back_[index(f)] > 0) least = std::min(least, normal(f).dot(way));
+      if (set_back_[index(f)] > 0) least = std::min(least, dot(normal(f), way));
     return -most / std::max(least, 1 / most_miter) * way;
   }
 

@@ -7,8 +7,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// Edges that are more parallel meet with their ends.
@@ -60,15 +58,15 @@ class SidedEdgePairs {
                     sb[0] + closest.parameters[1] * (sb[1] - sb[0])};
     if (distance <= coincident_) {
       const Vector3d way = way_between(a, b, feet, closest.normal);
-      if (!way.isZero(0)) add(pair, feet, way, way.dot(closest.offset), false);
-      if (way.isZero(0) && !(a.of_face() && b.of_face()) && is_spaced(pair) && !one_piece(a, b))
+      if (!is_zero(way)) add(pair, feet, way, dot(way, closest.offset), false);
+      if (is_zero(way) && !(a.of_face() && b.of_face()) && is_spaced(pair) && !one_piece(a, b))
         add_without_side(ea, eb, reach);
       return;
     }
     const Vector3d normal = closest.offset / distance;
     if (!solids || are_outside(a, b, normal)) {
       add(pair, feet, normal, distance, true);
-    } else if (cross(sa, sb) && is_behind(b, closest.offset) && is_behind(a, -closest.offset)) {
+    } else if (are_crossed(sa, sb) && is_behind(b, closest.offset) && is_behind(a, -closest.offset)) {
       add(pair, feet, -normal, -distance, false);
     }
   }
@@ -80,11 +78,11 @@ class SidedEdgePairs {
 
   // Sum of the outward normals of the faces at an edge.
   Vector3d normal_of(const EdgeFeature& edge) const {
-    Vector3d sum = Vector3d::Zero();
+    Vector3d sum{};
     for (int f : edge.face) {
       if (f < 0) continue;
       const FaceVertices at = look_.corners(surface_.face[index(f)]);
-      sum += (at[2] - at[0]).cross(at[3] - at[1]).normalized();
+      sum += normalized(cross(at[2] - at[0], at[3] - at[1]));
     }
     return sum;
   }
@@ -93,15 +91,15 @@ class SidedEdgePairs {
     return std::all_of(edge.face.begin(), edge.face.end(), [&](int f) {
       if (f < 0) return true;
       const FaceVertices at = look_.corners(surface_.face[index(f)]);
-      return (at[2] - at[0]).cross(at[3] - at[1]).normalized().dot(offset) < -coincident_;
+      return dot(normalized(cross(at[2] - at[0], at[3] - at[1])), offset) < -coincident_;
     });
   }
-  static bool cross(const Segment& a, const Segment& b) {
-    const Vector3d along_a = (a[1] - a[0]).normalized(), along_b = (b[1] - b[0]).normalized();
-    return along_a.cross(along_b).norm() > crossing_sine;
+  static bool are_crossed(const Segment& a, const Segment& b) {
+    const Vector3d along_a = normalized(a[1] - a[0]), along_b = normalized(b[1] - b[0]);
+    return norm(cross(along_a, along_b)) > crossing_sine;
   }
   bool are_outside(const EdgeFeature& a, const EdgeFeature& b, const Vector3d& from_b) const {
-    return from_b.dot(normal_of(b)) >= 0 || from_b.dot(normal_of(a)) <= 0;
+    return dot(from_b, normal_of(b)) >= 0 || dot(from_b, normal_of(a)) <= 0;
   }
 
   // Of edges that coincide: the mean of the directions along which both are apart, among the normals of
@@ -117,14 +115,14 @@ class SidedEdgePairs {
         if (f < 0) continue;
         const Face& face = surface_.face[index(f)];
         const FaceVertices at = look_.corners(face);
-        const Vector3d normal = sign * (at[2] - at[0]).cross(at[3] - at[1]).normalized();
+        const Vector3d normal = sign * normalized(cross(at[2] - at[0], at[3] - at[1]));
         consider(normal);
         if (face.shell) consider(-normal);
       }
-    const Vector3d along = unit_or(across, Vector3d::Zero());
-    if (!along.isZero(0) && ways.mean().isZero(0)) {
+    const Vector3d along = unit_or(across, Vector3d{});
+    if (!is_zero(along) && is_zero(ways.mean())) {
       consider(along);
-      if (ways.mean().isZero(0)) consider(-along);
+      if (is_zero(ways.mean())) consider(-along);
     }
     return ways.mean();
   }
@@ -134,7 +132,7 @@ class SidedEdgePairs {
     const auto is_behind = [&](int slave) {
       if (slave < 0) return false;
       const Vector3d arm = look_.at(slave) - foot;
-      return arm.dot(way) < -SidedLook::behind_sine * arm.norm();
+      return dot(arm, way) < -SidedLook::behind_sine * norm(arm);
     };
     return !is_behind(edge.node[0]) && !is_behind(edge.node[1]) &&
            std::none_of(edge.wing.begin(), edge.wing.end(), is_behind);

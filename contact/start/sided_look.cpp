@@ -4,13 +4,11 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 void Directions::add(const Vector3d& direction) {
   const bool is_known = std::any_of(known_.begin(), known_.end(), [&](const Vector3d& known) {
-    return known.dot(direction) > same_cosine;
+    return dot(known, direction) > same_cosine;
   });
-  if (is_known || !(direction.squaredNorm() > 0.5)) return;
+  if (is_known || !(squared_norm(direction) > 0.5)) return;
   known_.push_back(direction);
   sum_ += direction;
 }
@@ -49,13 +47,13 @@ bool SidedLook::is_before(int slave, const Vector3d& normal) const {
   const auto ring = features.ring.of(slave);
   return std::all_of(ring.begin(), ring.end(), [&](int neighbour) {
     const Vector3d arm = at(neighbour) - x;
-    return arm.dot(normal) >= -behind_sine * arm.norm();
+    return dot(arm, normal) >= -behind_sine * norm(arm);
   });
 }
 
 Vector3d SidedLook::side_of(int slave, const Face& face, const Vector3d& normal) const {
   if (is_before(slave, normal)) return normal;
-  return face.shell && is_before(slave, -normal) ? Vector3d(-normal) : Vector3d::Zero();
+  return face.shell && is_before(slave, -normal) ? Vector3d(-normal) : Vector3d{};
 }
 
 bool SidedLook::is_minimum(int f, const std::array<double, 4>& weights, const Vector3d& foot,

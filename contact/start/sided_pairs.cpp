@@ -11,8 +11,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// Closest points that are this much farther than the closest, over the smallest edge, are as close.
@@ -98,14 +96,14 @@ class SidedNodePairs {
     for (const Near& one : near) {
       if (std::sqrt(one.point.squared_distance) > depth + equally_near * features_.smallest_edge) continue;
       if (!coincides) {
-        out.add(-one.point.separation.normalized());
+        out.add(-normalized(one.point.separation));
       } else if (look_.is_before(s, one.point.normal)) {
         out.add(one.point.normal);
       }
     }
     Vector3d way = out.mean();
-    if (way.isZero(0) && coincides) way = between_surfaces(s, face_of(closest->pair), closest->point);
-    if (way.isZero(0)) return;
+    if (is_zero(way) && coincides) way = between_surfaces(s, face_of(closest->pair), closest->point);
+    if (is_zero(way)) return;
     for (const Near& one : near) look_from_outside(one.pair, s, x, way, coincides ? 0 : depth);
   }
 
@@ -113,8 +111,8 @@ class SidedNodePairs {
   Vector3d between_surfaces(int s, int f, const ClosestPoint& point) const {
     const Vector3d theirs = pseudo_normal(surface_, look_.nodes, f, point);
     const Vector3d own = vertex_normal(surface_, look_.nodes, s);
-    const Vector3d way = unit_or(theirs - own, Vector3d::Zero());
-    return way.dot(theirs) > 0.3 ? way : Vector3d::Zero();
+    const Vector3d way = unit_or(theirs - own, Vector3d{});
+    return dot(way, theirs) > 0.3 ? way : Vector3d{};
   }
 
   void look_from_outside(int pair, int s, const Vector3d& x, const Vector3d& way, double depth) {
@@ -124,9 +122,9 @@ class SidedNodePairs {
     for (int doubling = 0; doubling < most_doublings; ++doubling, beyond *= 2) {
       const HullPoint seen = closest_on_face(x + beyond * way, at, is_spaced(pair));
       if (!(seen.squared_distance > 0)) continue;
-      const Vector3d normal = seen.offset.normalized();
+      const Vector3d normal = normalized(seen.offset);
       const Vector3d foot = x + beyond * way - seen.offset;
-      add(pair, s, seen, foot, normal, normal.dot(x - foot), false);
+      add(pair, s, seen, foot, normal, dot(normal, x - foot), false);
       return;
     }
   }
@@ -139,15 +137,15 @@ class SidedNodePairs {
     const HullPoint seen = closest_on_face(x, at, is_spaced(pair));
     const double distance = std::sqrt(seen.squared_distance);
     if (distance > reach + band_) return;
-    const Vector3d across = (at[2] - at[0]).cross(at[3] - at[1]);
+    const Vector3d across = cross(at[2] - at[0], at[3] - at[1]);
     const bool own = face(f).body == surface_.body[index(s)];
     if (distance <= coincident_) {
-      const Vector3d way = look_.side_of(s, face(f), across.normalized());
-      if (!way.isZero(0)) look_from_outside(pair, s, x, way, 0);
+      const Vector3d way = look_.side_of(s, face(f), normalized(across));
+      if (!is_zero(way)) look_from_outside(pair, s, x, way, 0);
       return;
     }
     // The inner side of the own body is no surface.
-    if (own && !face(f).shell && seen.offset.dot(across) < 0) return;
+    if (own && !face(f).shell && dot(seen.offset, across) < 0) return;
     add(pair, s, seen, x - seen.offset, seen.offset / distance, distance, true);
   }
 

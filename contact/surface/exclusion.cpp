@@ -11,8 +11,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 // As built, faces of the same hexahedron stand side by side in the surface.
@@ -46,7 +44,7 @@ bool is_within(const Reference& reference, const Vector3d& from, const Face& fac
   FaceVertices vertices;
   for (std::size_t k = 0; k < vertices.size(); ++k) {
     vertices[k] = reference[face.node[k]];
-    if ((vertices[k] - from).squaredNorm() < square) return true;
+    if (squared_norm(vertices[k] - from) < square) return true;
   }
   return closest_point_on_quad(from, vertices).squared_distance < square;
 }
@@ -160,7 +158,7 @@ void ErodingExclusion::add_around_tear(const Lists& excluded, const Surface& sur
     if (surface.thickness[index(f)] == 0) continue;
     double size = 0;
     for (int a : dead.node)
-      for (int b : dead.node) size = std::max(size, (reference[a] - reference[b]).norm());
+      for (int b : dead.node) size = std::max(size, norm(reference[a] - reference[b]));
     for (int node : dead.node) {
       const int from = surface.slave(node);
       if (from < 0) continue;

@@ -1,12 +1,12 @@
 #pragma once
 /// Pairs that are excluded from contact because they are one piece.
 
-#include <Eigen/Dense>
 #include <vector>
 
 #include "contact/surface/surface.hpp"
 #include "contact/surface/surface_topology.hpp"
 #include "src/base/nodes.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -57,7 +57,7 @@ class ErodingExclusion {
   void mend_slave(Lists& excluded, const Surface& surface, const SurfaceTopology& topology, int slave);
   void add_around_tear(const Lists& excluded, const Surface& surface, const SurfaceChange& change);
 
-  std::vector<Eigen::Vector3d> reference_;  ///< of each global node; empty where there are no shells
+  std::vector<Vector3d> reference_;  ///< of each global node; empty where there are no shells
   double longest_fold_ = 0;
   ShellWalk walk_;
   std::vector<int> affected_, found_, reached_, kept_;

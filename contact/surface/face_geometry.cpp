@@ -8,13 +8,13 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
-Vector3d unit(const Vector3d& vector) { return unit_or(vector, Vector3d::Zero()); }
+Vector3d unit(const Vector3d& vector) { return unit_or(vector, Vector3d{}); }
 
-double angle_between(const Vector3d& a, const Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double angle_between(const Vector3d& a, const Vector3d& b) {
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
 
 Vector3d centroid(const FaceVertices& v) {
   return v[0] + 0.25 * ((v[1] - v[0]) + (v[2] - v[0]) + (v[3] - v[0]));
@@ -25,13 +25,13 @@ Vector3d corner_share(const FaceVertices& v, std::size_t corner) {
   if (is_triangle(v)) {
     const Vector3d to_next = v[(corner + 1) % 3] - v[corner];
     const Vector3d to_last = v[(corner + 2) % 3] - v[corner];
-    return angle_between(to_next, to_last) * unit(to_next.cross(to_last));
+    return angle_between(to_next, to_last) * unit(cross(to_next, to_last));
   }
   const Vector3d to_middle = centroid(v) - v[corner];
   const Vector3d to_next = v[(corner + 1) % 4] - v[corner];
   const Vector3d to_last = v[(corner + 3) % 4] - v[corner];
-  return angle_between(to_next, to_middle) * unit(to_next.cross(to_middle)) +
-         angle_between(to_middle, to_last) * unit(to_middle.cross(to_last));
+  return angle_between(to_next, to_middle) * unit(cross(to_next, to_middle)) +
+         angle_between(to_middle, to_last) * unit(cross(to_middle, to_last));
 }
 
 Vector3d edge_normal(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest) {
@@ -61,7 +61,7 @@ Vector3d sub_triangle_area(const FaceVertices& v, int k) {
 }
 
 Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave) {
-  Vector3d sum = Vector3d::Zero();
+  Vector3d sum{};
   const int node = surface.node[index(slave)];
   for (int f : surface.faces_of.of(slave)) {
     const Face& face = surface.face[index(f)];
@@ -69,18 +69,18 @@ Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave) {
     for (std::size_t k = 0; k < index(face.corners()); ++k)
       if (face.node[k] == node) sum += corner_share(vertices(nodes, face), k);
   }
-  return unit_or(sum, Vector3d::Zero());
+  return unit_or(sum, Vector3d{});
 }
 
 Vector3d fan_normal(const Surface& surface, const Nodes& nodes, int slave, int face) {
-  Vector3d sum = Vector3d::Zero();
+  Vector3d sum{};
   const int node = surface.node[index(slave)];
   for_fan(surface, slave, face, [&](int f) {
     const Face& own = surface.face[index(f)];
     for (std::size_t k = 0; k < index(own.corners()); ++k)
       if (own.node[k] == node) sum += corner_share(vertices(nodes, own), k);
   });
-  return unit_or(sum, Vector3d::Zero());
+  return unit_or(sum, Vector3d{});
 }
 
 bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const Vector3d& direction,
@@ -90,7 +90,7 @@ bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const 
     const Face& face = surface.face[index(f)];
     if (face.shell) continue;
     for (std::size_t k = 0; k < index(face.corners()); ++k)
-      if (face.node[k] == node && unit(corner_share(vertices(nodes, face), k)).dot(direction) < limit)
+      if (face.node[k] == node && dot(unit(corner_share(vertices(nodes, face), k)), direction) < limit)
         return true;
   }
   return false;
@@ -120,7 +120,7 @@ bool is_outside(const Surface& surface, const Nodes& nodes, int face, const Clos
         const bool touches =
             triangle || around.node[index(k)] == node || around.node[index((k + 1) % 4)] == node;
         if (!touches) continue;
-        (sub_triangle_area(v, k).dot(closest.separation) < 0 ? below_some : above_some) = true;
+        (dot(sub_triangle_area(v, k), closest.separation) < 0 ? below_some : above_some) = true;
       }
     };
     const int slave = surface.slave(node);
@@ -131,7 +131,7 @@ bool is_outside(const Surface& surface, const Nodes& nodes, int face, const Clos
     }
     if (above_some != below_some) return above_some;
   }
-  return closest.separation.dot(pseudo_normal(surface, nodes, face, closest)) >= 0;
+  return dot(closest.separation, pseudo_normal(surface, nodes, face, closest)) >= 0;
 }
 
 double shortest_edge(const Nodes& nodes, const Face& face) {
@@ -139,7 +139,7 @@ double shortest_edge(const Nodes& nodes, const Face& face) {
   for (int k = 0; k < face.corners(); ++k) {
     const Vector3d edge =
         position(nodes, face.node[index((k + 1) % face.corners())]) - position(nodes, face.node[index(k)]);
-    shortest = std::min(shortest, edge.norm());
+    shortest = std::min(shortest, norm(edge));
   }
   return shortest;
 }

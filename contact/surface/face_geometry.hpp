@@ -1,50 +1,40 @@
 #pragma once
 /// Positions of faces, and the normals that need the neighbours of a face.
 
-#include <Eigen/Dense>
-
 #include "contact/geometry/closest_point.hpp"
 #include "contact/surface/surface.hpp"
 #include "src/base/index.hpp"
 #include "src/base/nodes.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
-inline Eigen::Vector3d position(const Nodes& nodes, int global_node) {
-  const double* x = nodes.record[index(global_node)].position;
-  return {x[0], x[1], x[2]};
-}
-inline Eigen::Vector3d velocity(const Nodes& nodes, int global_node) {
-  const double* v = nodes.record[index(global_node)].velocity;
-  return {v[0], v[1], v[2]};
-}
 inline FaceVertices vertices(const Nodes& nodes, const Face& face) {
   return {position(nodes, face.node[0]), position(nodes, face.node[1]), position(nodes, face.node[2]),
           position(nodes, face.node[3])};
 }
 
 /// Normal of the sub-triangle of a face that holds the edge from corner k to the next, not normalised.
-Eigen::Vector3d sub_triangle_area(const FaceVertices& vertices, int k);
+Vector3d sub_triangle_area(const FaceVertices& vertices, int k);
 
 /// Normals of a closed surface that tell inside from outside at any feature: of the face, the mean of both
 /// faces at an edge, angle-weighted at a vertex (Baerentzen and Aanaes 2005). Of unit length; zero without
 /// any area.
-Eigen::Vector3d pseudo_normal(const Surface& surface, const Nodes& nodes, int face,
-                              const ClosestPoint& closest);
+Vector3d pseudo_normal(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest);
 
 /// Whether the node is not inside the closed surface, as its pseudo-normal says at the closest point; the
 /// normals around a vertex are weighed only where they disagree.
 bool is_outside(const Surface& surface, const Nodes& nodes, int face, const ClosestPoint& closest);
 
 /// Angle-weighted normal of the hexahedron sides around a slave node.
-Eigen::Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave);
+Vector3d vertex_normal(const Surface& surface, const Nodes& nodes, int slave);
 /// The same of one fan of them.
-Eigen::Vector3d fan_normal(const Surface& surface, const Nodes& nodes, int slave, int face);
+Vector3d fan_normal(const Surface& surface, const Nodes& nodes, int slave, int face);
 
 /// Whether any of the hexahedron sides around a slave node looks against a unit vector there: its normal
 /// times the vector is below a limit. Their mean would not tell: that of a rim sees neither of the surfaces
 /// that meet in it.
-bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const Eigen::Vector3d& direction,
+bool looks_against(const Surface& surface, const Nodes& nodes, int slave, const Vector3d& direction,
                    double limit);
 
 /// Shortest side of a face.

@@ -5,8 +5,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 constexpr int most_iterations = 50;
@@ -35,7 +33,7 @@ Vector3d combine(const std::array<double, 4>& weight, const FaceVertices& face) 
 }
 
 Vector3d normal_of(const Vector3d& along, const Vector3d& across) {
-  return unit_or(along.cross(across), Vector3d::Zero());
+  return unit_or(cross(along, across), Vector3d{});
 }
 
 bool is_inside(double u, double v, bool triangle) {
@@ -49,8 +47,7 @@ bool is_inside(double u, double v, bool triangle) {
 // Newton's method for (node - x(u, v)) . x_u = (node - x(u, v)) . x_v = 0; for a triangle it is one step.
 std::optional<Tie> project(const Vector3d& node, const FaceVertices& face) {
   const bool triangle = is_triangle(face);
-  const Vector3d twist =
-      triangle ? Vector3d(Vector3d::Zero()) : Vector3d((face[0] - face[1]) + (face[2] - face[3]));  // x_uv
+  const Vector3d twist = triangle ? Vector3d{} : (face[0] - face[1]) + (face[2] - face[3]);  // x_uv
   double u = triangle ? 1.0 / 3 : 0.5;
   double v = u;
   Tie tie;
@@ -60,14 +57,15 @@ std::optional<Tie> project(const Vector3d& node, const FaceVertices& face) {
     const Vector3d h = combine(tie.across, face);
     const Vector3d away = (node - face[0]) - combine(tie.weight, face);
     // Far from a warped face the second derivative would make the system singular: left out there.
-    const double twisted = g.cross(h).squaredNorm() > 4 * std::pow(away.dot(twist), 2) ? away.dot(twist) : 0;
-    const double gg = g.dot(g);
-    const double hh = h.dot(h);
-    const double gh = g.dot(h) - twisted;
+    const double twisted =
+        squared_norm(cross(g, h)) > 4 * std::pow(dot(away, twist), 2) ? dot(away, twist) : 0;
+    const double gg = dot(g, g);
+    const double hh = dot(h, h);
+    const double gh = dot(g, h) - twisted;
     const double determinant = gg * hh - gh * gh;
     if (!(determinant > 0)) return {};
-    const double du = (hh * away.dot(g) - gh * away.dot(h)) / determinant;
-    const double dv = (gg * away.dot(h) - gh * away.dot(g)) / determinant;
+    const double du = (hh * dot(away, g) - gh * dot(away, h)) / determinant;
+    const double dv = (gg * dot(away, h) - gh * dot(away, g)) / determinant;
     u += du;
     v += dv;
     if (!(std::abs(u) < far_outside && std::abs(v) < far_outside)) return {};
@@ -77,9 +75,9 @@ std::optional<Tie> project(const Vector3d& node, const FaceVertices& face) {
   if (!is_inside(u, v, triangle)) return {};
   set_weights(tie, u, v, triangle);
   const Vector3d away = (node - face[0]) - combine(tie.weight, face);
-  tie.gap = away.dot(normal_at(tie, face));
-  const double size = std::max(combine(tie.along, face).norm(), combine(tie.across, face).norm());
-  if (std::abs(tie.gap) < rounding_share * (size + face[0].norm())) tie.gap = 0;
+  tie.gap = dot(away, normal_at(tie, face));
+  const double size = std::max(norm(combine(tie.along, face)), norm(combine(tie.across, face)));
+  if (std::abs(tie.gap) < rounding_share * (size + norm(face[0]))) tie.gap = 0;
   return tie;
 }
 
@@ -91,11 +89,11 @@ Vector3d normal_at(const Tie& tie, const FaceVertices& face) {
 Vector3d normal_rate(const Tie& tie, const FaceVertices& face, const FaceVertices& velocity) {
   const Vector3d g = combine(tie.along, face);
   const Vector3d h = combine(tie.across, face);
-  const Vector3d area = g.cross(h);
-  const double size = area.norm();
+  const Vector3d area = cross(g, h);
+  const double size = norm(area);
   const Vector3d normal = area / size;
-  const Vector3d rate = combine(tie.along, velocity).cross(h) + g.cross(combine(tie.across, velocity));
-  return (rate - normal.dot(rate) * normal) / size;
+  const Vector3d rate = cross(combine(tie.along, velocity), h) + cross(g, combine(tie.across, velocity));
+  return (rate - dot(normal, rate) * normal) / size;
 }
 
 Vector3d point_on(const Tie& tie, const FaceVertices& face) { return face[0] + combine(tie.weight, face); }
@@ -113,12 +111,12 @@ std::array<Vector3d, 4> spread(const Tie& tie, const FaceVertices& face, const V
   if (tie.turning || tie.gap == 0) return share;
   const Vector3d g = combine(tie.along, face);
   const Vector3d h = combine(tie.across, face);
-  const Vector3d area = g.cross(h);
-  const double size = area.norm();
+  const Vector3d area = cross(g, h);
+  const double size = norm(area);
   const Vector3d normal = area / size;
-  const Vector3d in_plane = (tie.gap / size) * (force - normal.dot(force) * normal);
-  const Vector3d by_along = h.cross(in_plane);
-  const Vector3d by_across = in_plane.cross(g);
+  const Vector3d in_plane = (tie.gap / size) * (force - dot(normal, force) * normal);
+  const Vector3d by_along = cross(h, in_plane);
+  const Vector3d by_across = cross(in_plane, g);
   for (std::size_t k = 0; k < 4; ++k) share[k] += tie.along[k] * by_along + tie.across[k] * by_across;
   return share;
 }
@@ -129,20 +127,20 @@ std::array<double, 4> largest_share(const Tie& tie, const FaceVertices& face) {
   if (tie.turning || tie.gap == 0) return share;
   const Vector3d g = combine(tie.along, face);
   const Vector3d h = combine(tie.across, face);
-  const double tilt = std::abs(tie.gap) / g.cross(h).norm();
+  const double tilt = std::abs(tie.gap) / norm(cross(g, h));
   for (std::size_t k = 0; k < 4; ++k)
-    share[k] += tilt * (std::abs(tie.along[k]) * h.norm() + std::abs(tie.across[k]) * g.norm());
+    share[k] += tilt * (std::abs(tie.along[k]) * norm(h) + std::abs(tie.across[k]) * norm(g));
   return share;
 }
 
 // Rodrigues' formula, with factors that are regular for small angles.
 Vector3d turned_by(const Vector3d& rotation, const Vector3d& vector) {
-  const double angle = rotation.norm();
+  const double angle = norm(rotation);
   const double half = std::sin(0.5 * angle);
   const double first = angle > 0 ? std::sin(angle) / angle : 1;
   const double second = angle > 0 ? 2 * half * half / (angle * angle) : 0.5;
-  const Vector3d turn = rotation.cross(vector);
-  return vector + first * turn + second * rotation.cross(turn);
+  const Vector3d turn = cross(rotation, vector);
+  return vector + first * turn + second * cross(rotation, turn);
 }
 
 }  // namespace brio

@@ -11,11 +11,11 @@
 /// power is the same; and since a rigid motion of all corners moves the node rigidly, force and moment are
 /// the same too.
 
-#include <Eigen/Dense>
 #include <array>
 #include <optional>
 
 #include "contact/geometry/closest_point.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -25,10 +25,10 @@ struct Tie {
   std::array<double, 4> weight{};           ///< their sum is 1
   std::array<double, 4> along{}, across{};  ///< derivatives of the weights by the coordinates in the face
   double gap = 0;                           ///< along the normal; 0 where there is an arm
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();  ///< from the point to the node; 0 where there is a gap
-  bool turning = false;                           ///< constrained to the rotations of the corners as well
+  Vector3d arm{};                           ///< from the point to the node; 0 where there is a gap
+  bool turning = false;                     ///< constrained to the rotations of the corners as well
 
-  bool has_arm() const { return turning && !arm.isZero(0); }
+  bool has_arm() const { return turning && !is_zero(arm); }
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
@@ -43,28 +43,28 @@ inline constexpr double beyond_edge = 0.05;
 
 /// Weights, derivatives and gap of the point of a face whose normal passes through a node.
 /// \returns nothing where that point lies outside of the face.
-std::optional<Tie> project(const Eigen::Vector3d& node, const FaceVertices& face);
+std::optional<Tie> project(const Vector3d& node, const FaceVertices& face);
 
 /// Unit normal of the face at the point.
-Eigen::Vector3d normal_at(const Tie& tie, const FaceVertices& face);
+Vector3d normal_at(const Tie& tie, const FaceVertices& face);
 
 /// Rate of the normal by the velocities of the corners.
-Eigen::Vector3d normal_rate(const Tie& tie, const FaceVertices& face, const FaceVertices& velocity);
+Vector3d normal_rate(const Tie& tie, const FaceVertices& face, const FaceVertices& velocity);
 
 /// The point of the face.
-Eigen::Vector3d point_on(const Tie& tie, const FaceVertices& face);
+Vector3d point_on(const Tie& tie, const FaceVertices& face);
 
 /// Position of the tied node.
-Eigen::Vector3d tied_position(const Tie& tie, const FaceVertices& face);
+Vector3d tied_position(const Tie& tie, const FaceVertices& face);
 
 /// Forces on the corners with the power of a force on the node.
 /// \pre not turning: an arm adds a moment on the corners, arm x force times each weight
-std::array<Eigen::Vector3d, 4> spread(const Tie& tie, const FaceVertices& face, const Eigen::Vector3d& force);
+std::array<Vector3d, 4> spread(const Tie& tie, const FaceVertices& face, const Vector3d& force);
 
 /// Bounds of the speed of the node for a unit velocity of each corner.
 std::array<double, 4> largest_share(const Tie& tie, const FaceVertices& face);
 
 /// A vector turned by a rotation vector.
-Eigen::Vector3d turned_by(const Eigen::Vector3d& rotation, const Eigen::Vector3d& vector);
+Vector3d turned_by(const Vector3d& rotation, const Vector3d& vector);
 
 }  // namespace brio

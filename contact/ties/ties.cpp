@@ -10,13 +10,11 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 using Rows = const AlignedBuffer<NodeVector>&;
 
-Vector3d row(Rows rows, int node) { return Vector3d(rows[index(node)].component); }
+Vector3d row(Rows rows, int node) { return vector_at(rows[index(node)].component); }
 
 void add(AlignedBuffer<NodeVector>& rows, int node, const Vector3d& value) {
   double* sum = rows[index(node)].component;
@@ -28,7 +26,7 @@ void set_components(double* row, const Vector3d& value) {
 }
 
 Vector3d mean_angular_velocity(const Tie& tie, const Nodes& nodes) {
-  Vector3d sum = Vector3d::Zero();
+  Vector3d sum{};
   for (std::size_t k = 0; k < 4; ++k) sum += tie.weight[k] * row(nodes.angular_velocity, tie.corner[k]);
   return sum;
 }
@@ -57,7 +55,7 @@ void move_mass(TiedNode& tied, Nodes& nodes) {
   tied.mass = nodes.mass[node];
   nodes.mass[node] = 0;
   if (tie.turning) {
-    tied.inertia = nodes.rotational_inertia[node] + tied.mass * tie.arm.squaredNorm();
+    tied.inertia = nodes.rotational_inertia[node] + tied.mass * squared_norm(tie.arm);
     nodes.rotational_inertia[node] = 0;
   }
   set_inverses(nodes, tie.node);
@@ -89,7 +87,7 @@ double largest_energy_ratio(Ties& ties, const Nodes& nodes) {
     const double mass = std::exchange(ties.bound[at(tie.node)], 0);
     for (std::size_t k = 0; k < 4; ++k) {
       ties.bound[at(tie.corner[k])] += sum * share[k] * mass;
-      ties.coupling[at(tie.corner[k])] += share[k] * mass * tie.arm.norm();
+      ties.coupling[at(tie.corner[k])] += share[k] * mass * norm(tie.arm);
     }
   }
   double largest = 1;
@@ -149,13 +147,13 @@ NodeMotion motion_of(std::span<const int> concerned, const Nodes& nodes) {
     const auto node = index(entry);
     const Vector3d v = brio::velocity(nodes, entry);
     const Vector3d linear = nodes.mass[node] * v;
-    sum.energy += 0.5 * v.dot(linear);
+    sum.energy += 0.5 * dot(v, linear);
     sum.linear += linear;
-    sum.angular += position(nodes, entry).cross(linear);
+    sum.angular += cross(position(nodes, entry), linear);
     if (!nodes.has_rotations()) continue;
     const Vector3d rate = row(nodes.angular_velocity, entry);
     const Vector3d spin = nodes.rotational_inertia[node] * rate;
-    sum.energy += 0.5 * rate.dot(spin);
+    sum.energy += 0.5 * dot(rate, spin);
     sum.angular += spin;
   }
   return sum;
@@ -216,10 +214,10 @@ namespace {
 bool exceeds(const TiedNode& tied, const TiedParts& parts, const Vector3d& force, const Nodes& nodes) {
   const Tie& tie = tied.tie;
   const Vector3d normal = normal_at(tie, corners_of(tie, nodes));
-  const double side = tie.turning ? tie.arm.dot(normal) : tie.gap;
-  const double along = normal.dot(force);
+  const double side = tie.turning ? dot(tie.arm, normal) : tie.gap;
+  const double along = dot(normal, force);
   const double tension = side < 0 ? -along : side == 0 && tie.turning ? std::abs(along) : along;
-  const double shear = (force - along * normal).norm();
+  const double shear = norm(force - along * normal);
   return std::pow(std::max(tension, 0.0) / parts.normal_force, 2) + std::pow(shear / parts.shear_force, 2) >=
          1;
 }
@@ -250,18 +248,18 @@ void gather_forces(const Ties& ties, Nodes& nodes) {
     }
     for (std::size_t k = 0; k < 4; ++k) add(nodes.force, tie.corner[k], tie.weight[k] * force);
     if (!tie.turning) continue;
-    const Vector3d moment = row(nodes.moment, tie.node) + tie.arm.cross(force);
+    const Vector3d moment = row(nodes.moment, tie.node) + cross(tie.arm, force);
     for (std::size_t k = 0; k < 4; ++k) add(nodes.moment, tie.corner[k], tie.weight[k] * moment);
   }
 }
 
 Vector3d tied_velocity(const Tie& tie, const Nodes& nodes, double step) {
-  Vector3d velocity = Vector3d::Zero();
+  Vector3d velocity{};
   for (std::size_t k = 0; k < 4; ++k) velocity += tie.weight[k] * brio::velocity(nodes, tie.corner[k]);
   if (tie.turning) {
     const Vector3d rate = mean_angular_velocity(tie, nodes);
     if (!tie.has_arm()) return velocity;
-    if (step == 0) return velocity + rate.cross(tie.arm);
+    if (step == 0) return velocity + cross(rate, tie.arm);
     return velocity + (turned_by(step * rate, tie.arm) - tie.arm) / step;
   }
   if (tie.gap == 0) return velocity;

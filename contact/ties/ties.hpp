@@ -23,14 +23,13 @@ namespace brio {
 
 struct TiedNode {
   Tie tie;
-  double mass = 0;        ///< carried by the corners
-  double inertia = 0;     ///< rotational, likewise; of nodes with the rotation of their face
-  int face_part = 0;      ///< of the deck
-  int element = 0;        ///< of that part's mesh, with the main face
-  int connection = 0;     ///< index in Ties::found
-  bool released = false;  ///< to be released
-  Eigen::Vector3d last_velocity =
-      Eigen::Vector3d::Zero();  ///< at the half step before, where the tie can fail
+  double mass = 0;                      ///< carried by the corners
+  double inertia = 0;                   ///< rotational, likewise; of nodes with the rotation of their face
+  int face_part = 0;                    ///< of the deck
+  int element = 0;                      ///< of that part's mesh, with the main face
+  int connection = 0;                   ///< index in Ties::found
+  bool released = false;                ///< to be released
+  Vector3d last_velocity = Vector3d{};  ///< at the half step before, where the tie can fail
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
@@ -62,7 +61,7 @@ struct Ties {
   std::vector<int> concerned;                 ///< tied nodes and corners, ascending
   std::vector<double> own_mass, own_inertia;  ///< of these, without ties
   std::vector<double> bound, coupling;        ///< working space, of these
-  std::vector<Eigen::Vector3d> wall_impulse,
+  std::vector<Vector3d> wall_impulse,
       wall_friction;          ///< impulses of a wall on each tied node in this step
   double step_share = 1;      ///< ratio to the stable time step of the elements
   std::int64_t released = 0;  ///< nodes, since the start
@@ -92,8 +91,8 @@ void condense(Ties& ties, Nodes& nodes);
 /// Kinetic energy and momentum, about the origin.
 struct NodeMotion {
   double energy = 0;
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+  Vector3d linear{};
+  Vector3d angular{};
 };
 
 /// Release the marked nodes: they get their mass back from the corners and keep their velocity.
@@ -102,7 +101,7 @@ NodeMotion release(Ties& ties, Nodes& nodes);
 
 /// Force of a tied node on its face: what acts on the node, less its inertia in the last time step.
 /// \param mean_step time in which its velocity changed from the last one; 0: it did not
-Eigen::Vector3d force_on_face(const TiedNode& tied, double mean_step, const Nodes& nodes);
+Vector3d force_on_face(const TiedNode& tied, double mean_step, const Nodes& nodes);
 
 /// Mark ties whose force reaches that of their connection. \param step the last time step; 0: there was none
 /// \returns their number
@@ -112,7 +111,7 @@ std::int64_t mark_failed(Ties& ties, double step, const Nodes& nodes);
 void gather_forces(const Ties& ties, Nodes& nodes);
 
 /// Velocity of one tied node from those of its corners.
-Eigen::Vector3d tied_velocity(const Tie& tie, const Nodes& nodes, double step);
+Vector3d tied_velocity(const Tie& tie, const Nodes& nodes, double step);
 
 /// Velocities of tied nodes, such that they are at their position after the step.
 void carry_velocities(const Ties& ties, Nodes& nodes, double step);

@@ -9,6 +9,7 @@
 #include "elements/base/element_kind.hpp"
 #include "elements/beam/beam_section.hpp"
 #include "src/base/fields.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -41,7 +42,7 @@ struct Beam2 {
 
   BeamSection section;
   BeamFormulation formulation = BeamFormulation::beam;
-  std::optional<std::array<double, 3>> orientation;
+  std::optional<Vector3d> orientation;
   std::optional<double> shear_factor;
   std::optional<double> contact_radius;
   double linear_bulk_viscosity = 0.06;

@@ -142,15 +142,15 @@ struct Beam2Kernel : Beam2 {
       out.section_moment[1] += fibres->area * fibre.z * share.xx;
       out.section_moment[2] -= fibres->area * fibre.y * share.xx;
     }
-    const Vector3<double> chord = chord_of(motion);
+    const Vector3d chord = chord_of(motion);
     const double length = std::sqrt(dot(chord, chord));
     out.section_force[0] = fibres->area * header.length / length * mean.xx;
-    Vector3<double> x = (1 / length) * chord;
-    Vector3<double> shear{};
+    Vector3d x = (1 / length) * chord;
+    Vector3d shear{};
     if (bends()) {
       const Quaternion<double> middle = middle_of(header.triad[0], header.triad[1]);
-      x = rotated(middle, Vector3<double>{1, 0, 0});
-      shear = rotated(middle, Vector3<double>{0, mean.xy, mean.xz});
+      x = rotated(middle, Vector3d{1, 0, 0});
+      shear = rotated(middle, Vector3d{0, mean.xy, mean.xz});
       out.twist = header.strain.bend.x / header.length;
     }
     out.stress = {mean.xx * x.x * x.x + 2 * x.x * shear.x,

@@ -5,29 +5,6 @@
 
 namespace brio {
 
-template <class T>
-BRIO_INLINE Vector3<T> vector_part(const Quaternion<T>& q) {
-  return {q.x, q.y, q.z};
-}
-template <class T>
-BRIO_INLINE T squared_length(const Quaternion<T>& q) {
-  return square(q.w) + square(q.x) + square(q.y) + square(q.z);
-}
-template <class T>
-BRIO_INLINE Quaternion<T> scaled(const T& scale, const Quaternion<T>& q) {
-  return {scale * q.w, scale * q.x, scale * q.y, scale * q.z};
-}
-template <class T>
-BRIO_INLINE Quaternion<T> conjugate(const Quaternion<T>& q) {
-  return {q.w, -q.x, -q.y, -q.z};
-}
-template <class T>
-BRIO_INLINE Vector3<T> rotated(const Quaternion<T>& q, const Vector3<T>& d) {
-  const Vector3<T> v = vector_part(q);
-  const Vector3<T> twice = T(2.0) * cross(v, d);
-  return d + q.w * twice + cross(v, twice);
-}
-
 /// Largest square of half a turn within which the series of `turned` hold: a step does not turn a node by
 /// more than three radians.
 inline constexpr double largest_half_turn_square = 2.25;

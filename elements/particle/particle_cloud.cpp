@@ -13,7 +13,7 @@ namespace brio {
 
 namespace {
 
-Vector3<double> pair_vector(const Nodes& nodes, int from, int to) {
+Vector3d pair_vector(const Nodes& nodes, int from, int to) {
   const double* a = nodes.record[index(from)].position;
   const double* b = nodes.record[index(to)].position;
   return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
@@ -105,7 +105,7 @@ ParticleCloud make_particle_cloud(int first_node, std::span<const double> volume
     for (std::size_t i = begin; i < end; ++i) {
       std::size_t next = cloud.first[i];
       for (const int j : search.of(i)) {
-        const Vector3<double> x = pair_vector(nodes, first_node + static_cast<int>(i), first_node + j);
+        const Vector3d x = pair_vector(nodes, first_node + static_cast<int>(i), first_node + j);
         const double length = smoothing * 0.5 * (cloud.spacing[i] + cloud.spacing[index(j)]);
         const double s = volume[i] * volume[index(j)] * kernel_weight(dot(x, x), length);
         if (!(s > 0)) continue;

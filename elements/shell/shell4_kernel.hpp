@@ -189,13 +189,13 @@ struct Shell4Kernel : Shell4 {
 
   static BRIO_INLINE SymmetricTensor<double> on_global_axes(const ShellGeometry<double>& g,
                                                             const ShellTensor<double>& a) {
-    const Vector3<double> on_axis[2] = {a.xx * g.axis[0] + a.xy * g.axis[1] + a.xz * g.normal,
-                                        a.xy * g.axis[0] + a.yy * g.axis[1] + a.yz * g.normal},
-                          on_normal = a.xz * g.axis[0] + a.yz * g.axis[1];
-    const auto entry = [&](double Vector3<double>::*i, double Vector3<double>::*j) {
+    const Vector3d on_axis[2] = {a.xx * g.axis[0] + a.xy * g.axis[1] + a.xz * g.normal,
+                                 a.xy * g.axis[0] + a.yy * g.axis[1] + a.yz * g.normal},
+                   on_normal = a.xz * g.axis[0] + a.yz * g.axis[1];
+    const auto entry = [&](double Vector3d::*i, double Vector3d::*j) {
       return on_axis[0].*i * g.axis[0].*j + on_axis[1].*i * g.axis[1].*j + on_normal.*i * g.normal.*j;
     };
-    using V = Vector3<double>;
+    using V = Vector3d;
     return {entry(&V::x, &V::x), entry(&V::y, &V::y), entry(&V::z, &V::z),
             entry(&V::x, &V::y), entry(&V::y, &V::z), entry(&V::x, &V::z)};
   }

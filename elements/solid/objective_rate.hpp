@@ -50,18 +50,6 @@ BRIO_INLINE Vector3<T> spin_vector(const Tensor<T>& n) {
   return {0.5 * (n.m[2][1] - n.m[1][2]), 0.5 * (n.m[0][2] - n.m[2][0]), 0.5 * (n.m[1][0] - n.m[0][1])};
 }
 
-/// Rotation matrix of a quaternion of any length. \param twice_inverse_square 2 / |q|^2.
-template <class T>
-BRIO_INLINE Tensor<T> rotation_matrix(const Quaternion<T>& q, T twice_inverse_square) {
-  const T sx = twice_inverse_square * q.x, sy = twice_inverse_square * q.y, sz = twice_inverse_square * q.z;
-  const T xx = sx * q.x, yy = sy * q.y, zz = sz * q.z, xy = sx * q.y, yz = sy * q.z, xz = sx * q.z;
-  const T wx = sx * q.w, wy = sy * q.w, wz = sz * q.w;
-  const T one(1.0);
-  return {{{one - (yy + zz), xy - wz, xz + wy},
-           {xy + wz, one - (xx + zz), yz - wx},
-           {xz - wy, yz + wx, one - (xx + yy)}}};
-}
-
 /// r s r^T: from axes turned by r to the fixed ones.
 template <class T>
 BRIO_INLINE SymmetricTensor<T> turned(const Tensor<T>& r, const SymmetricTensor<T>& s) {

@@ -18,6 +18,7 @@
 #include "io/yaml/closest_word.hpp"
 #include "io/yaml/fault_list.hpp"
 #include "io/yaml/yaml_source.hpp"
+#include "src/base/tensor.hpp"
 #include "src/deck/deck.hpp"
 
 namespace brio {
@@ -171,6 +172,12 @@ void read_value(const YamlNode& node, const Slot& slot, std::array<T, N>& values
     refuse(node, slot, "a list of " + std::to_string(N) + " " + noun + (range.empty() ? "" : " " + range));
   }
   for (std::size_t i = 0; i < N; ++i) read_value(*node.items[i], slot, values[i]);
+}
+
+inline void read_value(const YamlNode& node, const Slot& slot, Vector3d& vector) {
+  std::array<double, 3> components{vector.x, vector.y, vector.z};
+  read_value(node, slot, components);
+  vector = vector_at(components.data());
 }
 
 /// A map of names, or a list. Faults of one entry leave the others to be read.

@@ -142,7 +142,7 @@ Mesh mesh_of(const LineMesh& line) {
   mesh.nodes_per_element = 2;
   for (int k = 0; k <= line.elements; ++k) {
     const double share = static_cast<double>(k) / line.elements;
-    std::array<double, 3>& point = mesh.position.emplace_back();
+    Vector3d& point = mesh.position.emplace_back();
     for (std::size_t i = 0; i < 3; ++i) point[i] = line.start[i] * (1 - share) + line.end[i] * share;
     if (k < line.elements) mesh.connectivity.insert(mesh.connectivity.end(), {k, k + 1});
   }
@@ -166,9 +166,9 @@ std::array<double, 2> cosine_and_sine(double degrees) {
 }
 
 /// Rodrigues' formula.
-Vector rotate(const Rotation& rotation, const Vector& p) {
+Vector3d rotate(const Rotation& rotation, const Vector3d& p) {
   const double length = std::hypot(rotation.axis[0], rotation.axis[1], rotation.axis[2]);
-  const Vector k{rotation.axis[0] / length, rotation.axis[1] / length, rotation.axis[2] / length};
+  const Vector3d k{rotation.axis[0] / length, rotation.axis[1] / length, rotation.axis[2] / length};
   const auto [c, s] = cosine_and_sine(rotation.degrees);
   const double along = (k[0] * p[0] + k[1] * p[1] + k[2] * p[2]) * (1 - c);
   return {c * p[0] + s * (k[1] * p[2] - k[2] * p[1]) + along * k[0],
@@ -209,8 +209,8 @@ Names node_names(const MeshFromFile& source) {
 
 }  // namespace
 
-Vector place(const Placement& placement, const Vector& point) {
-  Vector p = placement.rotate ? rotate(*placement.rotate, point) : point;
+Vector3d place(const Placement& placement, const Vector3d& point) {
+  Vector3d p = placement.rotate ? rotate(*placement.rotate, point) : point;
   for (std::size_t i = 0; i < 3; ++i) p[i] += placement.translate[i];
   return p;
 }

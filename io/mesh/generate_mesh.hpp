@@ -23,6 +23,6 @@ std::vector<std::string_view> node_set_names(const MeshSource& source);
 std::vector<std::string_view> side_set_names(const MeshSource& source);
 
 /// Where a placement puts a point: first turned, then moved. Quarter turns are exact.
-Vector place(const Placement& placement, const Vector& point);
+Vector3d place(const Placement& placement, const Vector3d& point);
 
 }  // namespace brio

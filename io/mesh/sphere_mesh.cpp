@@ -13,7 +13,7 @@ namespace brio {
 
 namespace {
 
-using Point3 = std::array<double, 3>;
+using Point3 = Vector3d;
 using Place3 = std::array<int, 3>;  // of the grid on a cube with m elements an edge
 
 /// Share of the radius at which the corners of the core lie, by the share of the elements that are layers.

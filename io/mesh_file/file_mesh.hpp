@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -63,7 +64,7 @@ struct FileBlock {
 /// Nodes and elements by their place in the file, from 0; `..._id` are their numbers there.
 struct FileMesh {
   std::string file;
-  std::vector<std::array<double, 3>> position;
+  std::vector<Vector3d> position;
   std::vector<std::int64_t> node_id;
   std::vector<unsigned char> shape;     ///< ElementShape, or ElementShape::refused + a place in refused_kinds
   std::vector<std::uint32_t> first{0};  ///< element e has node[first[e]] to node[first[e + 1])

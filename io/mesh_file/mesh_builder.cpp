@@ -31,7 +31,7 @@ void MeshBuilder::reserve(std::size_t nodes, std::size_t elements, std::size_t e
   element_node_.reserve(element_nodes);
 }
 
-void MeshBuilder::add_node(std::int64_t id, const std::array<double, 3>& position, std::uint32_t line) {
+void MeshBuilder::add_node(std::int64_t id, const Vector3d& position, std::uint32_t line) {
   for (const double x : position)
     if (!std::isfinite(x))
       fail(line, "a coordinate of node " + std::to_string(id) + " is not a finite number");

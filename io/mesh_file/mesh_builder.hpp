@@ -10,6 +10,7 @@
 
 #include "io/mesh_file/file_mesh.hpp"
 #include "io/mesh_file/mesh_file_error.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -20,7 +21,7 @@ class MeshBuilder {
   explicit MeshBuilder(std::string file);
 
   /// \param line of the file; 0: it has none. \throws MeshFileError for a coordinate that is not finite
-  void add_node(std::int64_t id, const std::array<double, 3>& position, std::uint32_t line);
+  void add_node(std::int64_t id, const Vector3d& position, std::uint32_t line);
   /// \return its place
   int add_element(ElementShape shape, std::int64_t id, std::span<const std::int64_t> nodes,
                   std::uint32_t line);

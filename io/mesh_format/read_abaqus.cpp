@@ -150,7 +150,7 @@ class AbaqusReader {
         fail("a node has " + std::to_string(fields_.size()) +
              " numbers; expected are its number and x, y, z");
       const std::int64_t id = integer(fields_[0], "the number of a node");
-      std::array<double, 3> position{};
+      Vector3d position{};
       for (std::size_t i = 1; i < std::min<std::size_t>(fields_.size(), 4); ++i) {
         const auto number = fields_[i].empty() ? 0.0 : fortran_number_in(fields_[i]);
         if (!number) fail(in_quotes(fields_[i]) + " is not a coordinate; a number is expected");

@@ -191,7 +191,7 @@ class GmshReader {
     tags_.clear();
     for (std::int64_t i = 0; i < count; ++i) tags_.push_back(in_.count("the tag of a node"));
     for (const std::int64_t tag : tags_) {
-      std::array<double, 3> position{};
+      Vector3d position{};
       for (double& x : position) x = in_.real("a coordinate");
       for (int k = 0; k < further; ++k) in_.real("a parametric coordinate");
       mesh_.add_node(tag, position, in_.line());

@@ -149,7 +149,7 @@ class DynaReader {
     while (next_card(line)) {
       card_.read(line, node_widths);
       const std::int64_t id = integer(card_[0], "the number of a node");
-      std::array<double, 3> position{};
+      Vector3d position{};
       for (std::size_t k = 0; k < 3; ++k) {
         if (card_[k + 1].empty()) continue;
         const auto number = fortran_number_in(card_[k + 1]);

@@ -53,12 +53,12 @@ class PartStateReader {
     find_points(mesh, number);
     if (takes(StateField::velocity)) read_velocities();
     if (takes(StateField::state)) read_states();
-    if (takes(StateField::stress)) state_.stress = rows<6>(cell_field("stress"), cell_);
+    if (takes(StateField::stress)) state_.stress = rows<std::array<double, 6>>(cell_field("stress"), cell_);
     if (takes(StateField::plastic_strain)) read_plastic_strain();
     if (takes(StateField::positions)) {
       expect_same_shape();
       mesh.reference = std::move(mesh.position);
-      mesh.position = rows<3>(result_.reader().field("position", dump_), point_);
+      mesh.position = rows<Vector3d>(result_.reader().field("position", dump_), point_);
     }
     return std::move(state_);
   }
@@ -230,10 +230,10 @@ class PartStateReader {
         number_of(mesh, element), part_.name, source_.result));
   }
 
-  template <std::size_t components>
-  static std::vector<std::array<double, components>> rows(const ReadField& field,
-                                                          const std::vector<std::size_t>& wanted) {
-    std::vector<std::array<double, components>> result(wanted.size());
+  template <class Row>
+  static std::vector<Row> rows(const ReadField& field, const std::vector<std::size_t>& wanted) {
+    constexpr std::size_t components = Row{}.size();
+    std::vector<Row> result(wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
       std::copy_n(field.values.begin() + static_cast<std::ptrdiff_t>(wanted[i] * components), components,
                   result[i].begin());
@@ -241,10 +241,10 @@ class PartStateReader {
   }
 
   void read_velocities() {
-    state_.velocity = rows<3>(result_.reader().field("velocity", dump_), point_);
+    state_.velocity = rows<Vector3d>(result_.reader().field("velocity", dump_), point_);
     if (!has_rotations(part_.element)) return;
     expect_field("angular_velocity", "output.fields.variables: [default, state]");
-    state_.angular_velocity = rows<3>(result_.reader().field("angular_velocity", dump_), point_);
+    state_.angular_velocity = rows<Vector3d>(result_.reader().field("angular_velocity", dump_), point_);
   }
 
   // How many numbers a row has is known by the block; here they are as the file has them.

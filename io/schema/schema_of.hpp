@@ -13,6 +13,7 @@
 #include "io/deck/condition_words.hpp"
 #include "io/deck/read_fields.hpp"
 #include "src/base/floating_point.hpp"
+#include "src/base/tensor.hpp"
 #include "src/deck/deck.hpp"
 
 namespace brio {
@@ -123,6 +124,8 @@ struct SchemaOf<std::array<T, N>> : WithDefault {
     return {{"type", "array"}, {"items", schema_of<T>(range)}, {"minItems", N}, {"maxItems", N}};
   }
 };
+template <>
+struct SchemaOf<Vector3d> : SchemaOf<std::array<double, 3>> {};
 template <class T>
 struct SchemaOf<std::vector<T>> : WithoutDefault {
   static Schema make(const Range& range) {

@@ -10,9 +10,9 @@
 ///       }
 ///     };
 ///
-/// A member may be double, int, bool, std::string, an enumeration with `named_values`, a std::array or
-/// std::vector of these, a struct with `fields()`, or a std::optional of any of them. The initial value of an
-/// optional member is its default.
+/// A member may be double, int, bool, std::string, a vector, an enumeration with `named_values`, a std::array
+/// or std::vector of these, a struct with `fields()`, or a std::optional of any of them. The initial value of
+/// an optional member is its default.
 
 #include <array>
 #include <limits>

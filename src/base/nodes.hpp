@@ -2,6 +2,7 @@
 /// Nodal state. One 64-byte record a node holds what every kernel reads; forces stand beside it. Rotational
 /// twins are allocated only where shells or beams exist.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -140,5 +141,12 @@ struct Nodes {
     return sum;
   }
 };
+
+inline Vector3d position(const Nodes& nodes, std::integral auto node) {
+  return vector_at(nodes.record[static_cast<std::size_t>(node)].position);
+}
+inline Vector3d velocity(const Nodes& nodes, std::integral auto node) {
+  return vector_at(nodes.record[static_cast<std::size_t>(node)].velocity);
+}
 
 }  // namespace brio

@@ -34,17 +34,9 @@ struct StateError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Eigen's vectors and matrices of fixed size.
+/// Whether the bytes of an object are its value: numbers, enumerations and structs of these.
 template <class T>
-concept FixedSizeMatrix = requires {
-  typename std::integral_constant<int, T::SizeAtCompileTime>;
-}
-&&(T::SizeAtCompileTime > 0);
-
-/// Whether the bytes of an object are its value: numbers, enumerations, structs of these, and matrices.
-template <class T>
-inline constexpr bool is_plain_state =
-    (std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>) || FixedSizeMatrix<T>;
+inline constexpr bool is_plain_state = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
 /// Dispatch shared by both directions. \tparam Direction has `bytes(void*, n)`, `count(n)`, which returns
 /// the number of items, and `is_reader`.
@@ -108,11 +100,15 @@ class StateArchive {
   // An item takes at least a byte of the stream: what claims more is damaged, and allocates nothing.
   template <class T>
   void resize(std::vector<T>& list, std::size_t size) {
-    list.resize(direction().expect(size, is_plain_state<T> ? sizeof(T) : 1));
+    list.resize(direction().expect(size, is_saved_whole<T>() ? sizeof(T) : 1));
+  }
+  template <class T>
+  static constexpr bool is_saved_whole() {
+    return is_plain_state<T> && !requires(T & item, Direction & direction) { item.serialize(direction); };
   }
   template <class T>
   void items(T* first, std::size_t size) {
-    if constexpr (is_plain_state<T> && !requires { first->serialize(direction()); })
+    if constexpr (is_saved_whole<T>())
       direction().bytes(first, size * sizeof(T));
     else
       for (std::size_t i = 0; i < size; ++i) item(first[i]);

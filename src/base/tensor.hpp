@@ -2,18 +2,32 @@
 /// Small vectors and tensors on a number-like `T` (see lanes.hpp). Symmetric tensors are stored in VTK's
 /// order.
 
-#include <array>
+#include <algorithm>
+#include <cmath>
+#include <concepts>
 
 #include "src/base/lanes.hpp"
 
 namespace brio {
 
-/// As decks, results and balances hold a vector.
-using Vector = std::array<double, 3>;
-
 template <class T>
 struct Vector3 {
   T x, y, z;
+  using value_type = T;
+  using iterator = T*;
+  using const_iterator = const T*;
+
+  Vector3& operator=(const Vector3&) & = default;  // not to what a function returned
+
+  BRIO_INLINE T& operator[](std::integral auto i) { return reinterpret_cast<T*>(this)[i]; }
+  BRIO_INLINE const T& operator[](std::integral auto i) const { return reinterpret_cast<const T*>(this)[i]; }
+  BRIO_INLINE T* data() { return &x; }
+  BRIO_INLINE const T* data() const { return &x; }
+  BRIO_INLINE T* begin() { return data(); }
+  BRIO_INLINE T* end() { return data() + 3; }
+  BRIO_INLINE const T* begin() const { return data(); }
+  BRIO_INLINE const T* end() const { return data() + 3; }
+  static constexpr std::size_t size() { return 3; }
 
   friend BRIO_INLINE Vector3 operator+(const Vector3& a, const Vector3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -21,8 +35,20 @@ struct Vector3 {
   friend BRIO_INLINE Vector3 operator-(const Vector3& a, const Vector3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
+  friend BRIO_INLINE Vector3 operator-(const Vector3& a) { return {-a.x, -a.y, -a.z}; }
   friend BRIO_INLINE Vector3 operator*(T s, const Vector3& a) { return {s * a.x, s * a.y, s * a.z}; }
+  friend BRIO_INLINE Vector3 operator*(const Vector3& a, T s) { return {a.x * s, a.y * s, a.z * s}; }
+  friend BRIO_INLINE Vector3 operator/(const Vector3& a, T s) { return {a.x / s, a.y / s, a.z / s}; }
+  BRIO_INLINE Vector3& operator+=(const Vector3& a) { return *this = *this + a; }
+  BRIO_INLINE Vector3& operator-=(const Vector3& a) { return *this = *this - a; }
+  BRIO_INLINE Vector3& operator*=(T s) { return *this = *this * s; }
+  BRIO_INLINE Vector3& operator/=(T s) { return *this = *this / s; }
+  friend constexpr bool operator==(const Vector3&, const Vector3&) = default;
 };
+using Vector3d = Vector3<double>;
+static_assert(sizeof(Vector3d) == 3 * sizeof(double));
+
+BRIO_INLINE Vector3d vector_at(const double* first) { return {first[0], first[1], first[2]}; }
 
 template <class T>
 BRIO_INLINE T dot(const Vector3<T>& a, const Vector3<T>& b) {
@@ -32,6 +58,36 @@ template <class T>
 BRIO_INLINE Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+template <class T>
+BRIO_INLINE T squared_norm(const Vector3<T>& a) {
+  return dot(a, a);
+}
+inline double norm(const Vector3d& a) { return std::sqrt(squared_norm(a)); }
+/// Of unit length; zero stays zero.
+inline Vector3d normalized(const Vector3d& a) {
+  const double squared = squared_norm(a);
+  return squared > 0 ? a / std::sqrt(squared) : a;
+}
+constexpr bool is_zero(const Vector3d& a) { return a == Vector3d{}; }
+/// At right angles to a unit vector.
+inline Vector3d unit_at_right_angles(const Vector3d& a) {
+  return normalized(std::abs(a.x) < std::abs(a.z) ? cross({1, 0, 0}, a) : cross({0, 0, 1}, a));
+}
+inline bool is_finite(const Vector3d& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+inline Vector3d absolute(const Vector3d& a) { return {std::abs(a.x), std::abs(a.y), std::abs(a.z)}; }
+inline Vector3d minimum(const Vector3d& a, const Vector3d& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+inline Vector3d maximum(const Vector3d& a, const Vector3d& b) {
+  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
+inline Vector3d componentwise_product(const Vector3d& a, const Vector3d& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+inline double largest_component(const Vector3d& a) { return std::max(std::max(a.x, a.y), a.z); }
+inline double maximum_norm(const Vector3d& a) { return largest_component(absolute(a)); }
 
 /// xx yy zz xy yz xz; shear entries are tensor components, not engineering strains.
 template <class T>
@@ -79,10 +135,46 @@ template <class T>
 struct Tensor {
   T m[3][3];
 
-  BRIO_INLINE T& operator()(int i, int j) { return m[i][j]; }
-  BRIO_INLINE const T& operator()(int i, int j) const { return m[i][j]; }
+  BRIO_INLINE T& operator()(std::integral auto i, std::integral auto j) { return m[i][j]; }
+  BRIO_INLINE const T& operator()(std::integral auto i, std::integral auto j) const { return m[i][j]; }
+  BRIO_INLINE Vector3<T> row(std::integral auto i) const { return {m[i][0], m[i][1], m[i][2]}; }
+  BRIO_INLINE Vector3<T> column(std::integral auto j) const { return {m[0][j], m[1][j], m[2][j]}; }
+  BRIO_INLINE void set_row(std::integral auto i, const Vector3<T>& a) {
+    for (int j = 0; j < 3; ++j) m[i][j] = a[j];
+  }
+  BRIO_INLINE void set_column(std::integral auto j, const Vector3<T>& a) {
+    for (int i = 0; i < 3; ++i) m[i][j] = a[i];
+  }
+  friend bool operator==(const Tensor&, const Tensor&) = default;
 };
 
+template <class T>
+BRIO_INLINE Tensor<T> operator+(const Tensor<T>& a, const Tensor<T>& b) {
+  Tensor<T> c;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) c.m[i][j] = a.m[i][j] + b.m[i][j];
+  return c;
+}
+template <class T>
+BRIO_INLINE Tensor<T> operator-(const Tensor<T>& a, const Tensor<T>& b) {
+  Tensor<T> c;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) c.m[i][j] = a.m[i][j] - b.m[i][j];
+  return c;
+}
+template <class T>
+BRIO_INLINE Tensor<T>& operator+=(Tensor<T>& a, const Tensor<T>& b) {
+  return a = a + b;
+}
+template <class T>
+BRIO_INLINE Vector3<T> operator*(const Tensor<T>& a, const Vector3<T>& b) {
+  return {dot(a.row(0), b), dot(a.row(1), b), dot(a.row(2), b)};
+}
+/// The transpose of a tensor times a vector.
+template <class T>
+BRIO_INLINE Vector3<T> transposed_times(const Tensor<T>& a, const Vector3<T>& b) {
+  return {dot(a.column(0), b), dot(a.column(1), b), dot(a.column(2), b)};
+}
 template <class T>
 BRIO_INLINE Tensor<T> operator*(const Tensor<T>& a, const Tensor<T>& b) {
   Tensor<T> c;
@@ -114,6 +206,36 @@ BRIO_INLINE Tensor<T> identity() {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) one.m[i][j] = T(i == j ? 1.0 : 0.0);
   return one;
+}
+/// a b^T
+inline Tensor<double> outer_product(const Vector3d& a, const Vector3d& b) {
+  return {{{a.x * b.x, a.x * b.y, a.x * b.z},
+           {a.y * b.x, a.y * b.y, a.y * b.z},
+           {a.z * b.x, a.z * b.y, a.z * b.z}}};
+}
+/// What times b is the cross product of a and b.
+inline Tensor<double> cross_matrix(const Vector3d& a) {
+  return {{{0, -a.z, a.y}, {a.z, 0, -a.x}, {-a.y, a.x, 0}}};
+}
+inline Tensor<double> diagonal(const Vector3d& a) { return {{{a.x, 0, 0}, {0, a.y, 0}, {0, 0, a.z}}}; }
+inline double squared_norm(const Tensor<double>& a) {
+  return squared_norm(a.row(0)) + squared_norm(a.row(1)) + squared_norm(a.row(2));
+}
+/// Of Frobenius.
+inline double norm(const Tensor<double>& a) { return std::sqrt(squared_norm(a)); }
+inline double determinant(const Tensor<double>& a) { return dot(a.row(0), cross(a.row(1), a.row(2))); }
+/// Not of a singular tensor.
+inline Tensor<double> inverse(const Tensor<double>& a) {
+  const double factor = 1 / determinant(a);
+  Tensor<double> result;
+  result.set_column(0, factor * cross(a.row(1), a.row(2)));
+  result.set_column(1, factor * cross(a.row(2), a.row(0)));
+  result.set_column(2, factor * cross(a.row(0), a.row(1)));
+  return result;
+}
+/// Moments of inertia of a unit mass at an arm.
+inline Tensor<double> inertia_of_point(const Vector3d& arm) {
+  return squared_norm(arm) * identity<double>() - outer_product(arm, arm);
 }
 template <class T>
 BRIO_INLINE T trace(const Tensor<T>& a) {

@@ -17,8 +17,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 // One a part, of those that a set of a mesh file reaches into.
@@ -54,7 +52,7 @@ std::vector<PressureLoad> pressures_on(const Pressure& load_entry, const Deck& d
 void turn_to_global(NodalLoad& load, const Deck& deck, const std::string& system, const std::string& place,
                     const Model& model) {
   if (system.empty()) return;
-  const Vector components = load.force;
+  const Vector3d components = load.force;
   if (!load.bodies.empty())
     load.force =
         from_components(axes_everywhere(deck, system, "a moment on a rigid part", place), components);
@@ -102,12 +100,11 @@ NodalLoad moment_on(const NodalMoment& entry, const Deck& deck, std::span<const 
   return load;
 }
 
-Vector radial_velocity(const RadialVelocity& radial, const NodeRecord& record, const std::string& place) {
-  Vector arm{};
-  for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - radial.point[i];
+Vector3d radial_velocity(const RadialVelocity& radial, const NodeRecord& record, const std::string& place) {
+  Vector3d arm = vector_at(record.position) - radial.point;
   const double along = dot(arm, radial.axis) / dot(radial.axis, radial.axis);
-  for (std::size_t i = 0; i < 3; ++i) arm[i] -= along * radial.axis[i];
-  const double distance = std::sqrt(dot(arm, arm));
+  arm -= along * radial.axis;
+  const double distance = norm(arm);
   if (!(distance > 0))
     throw BuildError("a node on the axis of 'radial' in initial_conditions has no radial direction", place);
   for (double& component : arm) component *= radial.speed / distance;
@@ -132,9 +129,13 @@ std::vector<int> in_order_of_numbers(std::vector<int> nodes, const Model& model)
 class NearestPlace {
  public:
   explicit NearestPlace(std::span<const Vector3d> places) : places_(places) {
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& place : places) box.extend(place);
-    box.sizes().maxCoeff(&axis_);
+    Vector3d lower = places.front(), upper = lower;
+    for (const Vector3d& place : places) {
+      lower = minimum(lower, place);
+      upper = maximum(upper, place);
+    }
+    const Vector3d extent = upper - lower;
+    axis_ = std::max_element(extent.begin(), extent.end()) - extent.begin();
     for (std::size_t i = 0; i < places.size(); ++i) order_.emplace_back(places[i][axis_], i);
     std::ranges::sort(order_);
   }
@@ -145,7 +146,7 @@ class NearestPlace {
     const auto look = [&](const std::pair<double, std::size_t>& entry) {
       const double along = entry.first - point[axis_];
       if (along * along > best.first) return false;
-      best = std::min(best, std::pair((places_[entry.second] - point).squaredNorm(), entry.second));
+      best = std::min(best, std::pair(squared_norm(places_[entry.second] - point), entry.second));
       return true;
     };
     for (auto at = middle; at != order_.end() && look(*at);) ++at;
@@ -155,7 +156,7 @@ class NearestPlace {
 
  private:
   std::span<const Vector3d> places_;
-  Eigen::Index axis_ = 0;
+  std::ptrdiff_t axis_ = 0;
   std::vector<std::pair<double, std::size_t>> order_;
 };
 
@@ -189,7 +190,7 @@ class Fastening {
 
   Vector3d place_of(const SpringAnchor& anchor) const {
     if (anchor.node < 0) return anchor.point;
-    return Vector3d(model_.nodes.record[index(anchor.node)].position);
+    return vector_at(model_.nodes.record[index(anchor.node)].position);
   }
 
   /// \return the distance of its ends
@@ -206,12 +207,12 @@ class Fastening {
       const auto& [point, next] = std::pair(spring.table[i - 1], spring.table[i]);
       spring.stiffness = std::max(spring.stiffness, (next[1] - point[1]) / (next[0] - point[0]));
     }
-    const double distance = (place_of(ends[1]) - place_of(ends[0])).norm();
+    const double distance = norm(place_of(ends[1]) - place_of(ends[0]));
     spring.length = wanted.length.value_or(distance);
     if (wanted.strength) spring.strength = share * *wanted.strength;
     if (spring.is_torsional) {
       spring.elongation = wanted.angle.value_or(0);
-      spring.direction = Vector3d(wanted.axis->data()).normalized();
+      spring.direction = normalized(*wanted.axis);
     }
     model_.springs.spring.push_back(std::move(spring));
     return distance;
@@ -261,7 +262,7 @@ class Fastening {
   std::vector<SpringAnchor> anchors_at(const SpringEnd& end, const Spring& spring) {
     if (end.fixed) {
       SpringAnchor anchor;
-      anchor.point = Vector3d(end.point->data());
+      anchor.point = *end.point;
       return {anchor};
     }
     if (end.point)
@@ -297,7 +298,7 @@ class Fastening {
     AnchoredMass& mass = masses[found->second];
     if (anchor.body >= 0 && !is_torsional) {  // a moment has no arm
       const Vector3d centre = model_.rigid.body[index(anchor.body)].centre;
-      mass.arm = std::max(mass.arm, (place_of(anchor) - centre).norm());
+      mass.arm = std::max(mass.arm, norm(place_of(anchor) - centre));
     }
     return found->second;
   }
@@ -346,17 +347,15 @@ void set_initial_velocities(const Deck& deck, std::span<const Mesh> meshes, std:
     for (int entry : nodes) {
       const auto node = index(entry);
       NodeRecord& record = model.nodes.record[node];
-      Vector velocity = condition.velocity;
+      Vector3d velocity = condition.velocity;
       if (condition.spin) {
-        Vector arm{};
-        for (std::size_t i = 0; i < 3; ++i) arm[i] = record.position[i] - condition.spin->point[i];
-        add_to(velocity, cross(condition.spin->angular_velocity, arm));
+        const Vector3d arm = vector_at(record.position) - condition.spin->point;
+        velocity += cross(condition.spin->angular_velocity, arm);
         if (model.nodes.has_rotations() && model.nodes.rotational_inertia[node] > 0)
           for (std::size_t i = 0; i < 3; ++i)
             model.nodes.angular_velocity[node].component[i] = condition.spin->angular_velocity[i];
       }
-      if (condition.radial)
-        add_to(velocity, radial_velocity(*condition.radial, record, condition.where.place));
+      if (condition.radial) velocity += radial_velocity(*condition.radial, record, condition.where.place);
       for (std::size_t i = 0; i < 3; ++i) record.velocity[i] = velocity[i];
     }
   }

@@ -10,8 +10,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 // A body may begin behind a wall by this share of its size: rounding.
@@ -33,20 +31,20 @@ MassProperties mass_of(const Part& part, const Rigid& rigid, const Mesh& mesh, c
     throw BuildError("part '" + part.name + "': " + fault.what(), part.place);
   }
   if (rigid.mass) {
-    properties.inertia *= *rigid.mass / properties.mass;
+    properties.inertia = *rigid.mass / properties.mass * properties.inertia;
     properties.mass = *rigid.mass;
   }
   if (rigid.inertia) {
     const auto& [xx, yy, zz, xy, yz, xz] = *rigid.inertia;
-    properties.inertia << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    properties.inertia = {{{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}}};
   }
-  if (rigid.centre) properties.centre = Vector3d(rigid.centre->data());
+  if (rigid.centre) properties.centre = *rigid.centre;
   return properties;
 }
 
 void measure_arms(const Nodes& nodes, RigidBody& body) {
   body.arm.clear();
-  for (int node : body.node) body.arm.push_back(Vector3d(nodes.record[index(node)].position) - body.centre);
+  for (int node : body.node) body.arm.push_back(vector_at(nodes.record[index(node)].position) - body.centre);
 }
 
 RigidBody make_body(std::size_t p, const Part& part, const Mesh& mesh, const Deck& deck, const Model& model) {
@@ -67,11 +65,6 @@ RigidBody make_body(std::size_t p, const Part& part, const Mesh& mesh, const Dec
   return body;
 }
 
-// About a point at a distance.
-Eigen::Matrix3d inertia_of_point(double mass, const Vector3d& arm) {
-  return mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
-}
-
 bool has_same_motion(const RigidBody& body, const PrescribedNodes& given, std::size_t at) {
   const Curve still{{{0, 0}}};
   bool turns = false;
@@ -81,13 +74,13 @@ bool has_same_motion(const RigidBody& body, const PrescribedNodes& given, std::s
             });
   return (given.turns() || !turns) && std::ranges::any_of(body.given, [&](const PrescribedRigid& one) {
            return one.axis / 3 == given.axis / 3 && one.kind == given.kind && one.curve == given.curve &&
-                  is_along(to_vector(body.axes.row(one.axis % 3).transpose()), given.direction_of(at));
+                  is_along(body.axes.row(one.axis % 3), given.direction_of(at));
          });
 }
 
 double size_of(const RigidBody& body) {
   double size = 0;
-  for (const Vector3d& arm : body.arm) size = std::max(size, arm.norm());
+  for (const Vector3d& arm : body.arm) size = std::max(size, norm(arm));
   return size;
 }
 
@@ -146,7 +139,7 @@ void join_masses(Model& model) {
   for (RigidBody& body : model.rigid.body) {
     if (body.joint.empty()) continue;
     const auto at = [&](std::size_t i) { return index(body.node[i]); };
-    const auto place_of = [&](std::size_t i) { return Vector3d(nodes.record[at(i)].position); };
+    const auto place_of = [&](std::size_t i) { return vector_at(nodes.record[at(i)].position); };
     body.mass = body.own.mass;
     Vector3d moment = body.own.mass * body.own.centre;
     for (const std::size_t i : body.joint) {
@@ -154,12 +147,12 @@ void join_masses(Model& model) {
       moment += nodes.mass[at(i)] * place_of(i);
     }
     body.centre = moment / body.mass;
-    body.inertia = body.own.inertia + inertia_of_point(body.own.mass, body.own.centre - body.centre);
+    body.inertia = body.own.inertia + body.own.mass * inertia_of_point(body.own.centre - body.centre);
     for (const std::size_t i : body.joint) {
-      body.inertia += inertia_of_point(nodes.mass[at(i)], place_of(i) - body.centre);
+      body.inertia += nodes.mass[at(i)] * inertia_of_point(place_of(i) - body.centre);
       nodes.mass[at(i)] = 0;
       if (!nodes.has_rotations()) continue;
-      body.inertia += nodes.rotational_inertia[at(i)] * Eigen::Matrix3d::Identity();
+      body.inertia += nodes.rotational_inertia[at(i)] * identity<double>();
       nodes.rotational_inertia[at(i)] = 0;
     }
     measure_arms(nodes, body);
@@ -243,7 +236,7 @@ std::vector<Vector3d> velocities_of_joints(const Model& model) {
   std::vector<Vector3d> velocities;
   for (const RigidBody& body : model.rigid.body)
     for (const std::size_t i : body.joint)
-      velocities.push_back(Vector3d(model.nodes.record[index(body.node[i])].velocity));
+      velocities.push_back(vector_at(model.nodes.record[index(body.node[i])].velocity));
   return velocities;
 }
 
@@ -252,7 +245,7 @@ void expect_same_velocities(const std::vector<Vector3d>& given, const Model& mod
   std::size_t next = 0;
   for (const RigidBody& body : model.rigid.body)
     for (std::size_t j = 0; j < body.joint.size(); ++j, ++next)
-      if ((given[next] - found[next]).norm() > velocity_share * (given[next].norm() + found[next].norm()))
+      if (norm(given[next] - found[next]) > velocity_share * (norm(given[next]) + norm(found[next])))
         throw BuildError("a node joined to rigid part '" + model.parts[body.part].name +
                          "' starts with another velocity than that part; accepted: equal initial velocities");
 }
@@ -265,16 +258,16 @@ void start_rigid_bodies(const Deck& deck, std::span<const Mesh> meshes, Model& m
   for (const InitialCondition& condition : deck.initial_conditions) {
     std::vector<int> nodes = select_nodes(condition.where, deck, meshes, model);
     for (const std::size_t b : take_rigid(nodes, condition.where, model)) {
-      motion[b].velocity = Vector3d(condition.velocity.data());
+      motion[b].velocity = condition.velocity;
       if (condition.radial)
         throw BuildError(
             "'radial' in initial_conditions names nodes of a rigid part, which moves as a whole; "
             "accepted for it: velocity, spin",
             condition.where.place);
       if (!condition.spin) continue;
-      motion[b].angular_velocity = Vector3d(condition.spin->angular_velocity.data());
-      motion[b].velocity += motion[b].angular_velocity.cross(model.rigid.body[b].centre -
-                                                             Vector3d(condition.spin->point.data()));
+      motion[b].angular_velocity = condition.spin->angular_velocity;
+      motion[b].velocity +=
+          cross(motion[b].angular_velocity, model.rigid.body[b].centre - condition.spin->point);
     }
   }
   for (std::size_t b = 0; b < motion.size(); ++b) {

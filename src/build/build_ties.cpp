@@ -13,8 +13,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 /// What lies beyond an edge counts so many times its distance.
@@ -56,21 +54,21 @@ MainSurface main_surface_of(std::size_t p, const Deck& deck, std::span<const Mes
 
 CandidatePairs find_near(const MainSurface& main_surface, std::span<const int> slaves, double tolerance,
                          const Nodes& nodes) {
-  std::vector<Vector3<double>> points;
-  for (int node : slaves) {
-    const Vector3d x = position(nodes, node);
-    points.push_back({x[0], x[1], x[2]});
-  }
+  std::vector<Vector3d> points;
+  for (int node : slaves) points.push_back(position(nodes, node));
   std::vector<CaptureBox> boxes;
   for (const Face& face : main_surface.surface.face) {
     const FaceVertices corners = vertices(nodes, face);
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& corner : corners) box.extend(corner);
-    const double reach = tolerance + main_surface.half_thickness + 2 * beyond_edge * box.diagonal().norm();
+    Vector3d lower = corners[0], upper = corners[0];
+    for (const Vector3d& corner : corners) {
+      lower = minimum(lower, corner);
+      upper = maximum(upper, corner);
+    }
+    const double reach = tolerance + main_surface.half_thickness + 2 * beyond_edge * norm(upper - lower);
     CaptureBox& grown = boxes.emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
-      grown.lower[axis] = box.min()[axis] - reach;
-      grown.upper[axis] = box.max()[axis] + reach;
+      grown.lower[axis] = lower[axis] - reach;
+      grown.upper[axis] = upper[axis] + reach;
     }
   }
   CandidatePairs pairs;
@@ -92,7 +90,7 @@ struct Found {
 void take_rotations(Tie& tie, const FaceVertices& corners, const Nodes& nodes) {
   tie.turning = true;
   tie.arm = position(nodes, tie.node) - point_on(tie, corners);
-  if (tie.gap == 0) tie.arm.setZero();
+  if (tie.gap == 0) tie.arm = {};
   tie.gap = 0;
 }
 
@@ -111,7 +109,7 @@ std::vector<Found> closest_faces(const MainSurface& main_surface, std::span<cons
       const double distance = std::max(std::abs(tie->gap) - main_surface.half_thickness, 0.0);
       if (!(distance <= tolerance)) continue;
       const double outside = -std::min(*std::min_element(tie->weight.begin(), tie->weight.end()), 0.0);
-      const double rank = distance + beyond_weight * outside * (corners[2] - corners[0]).norm();
+      const double rank = distance + beyond_weight * outside * norm(corners[2] - corners[0]);
       Found& best = closest[index(s)];
       if (best.face >= 0 && !(rank < best.rank)) continue;
       tie->node = node;
@@ -224,14 +222,14 @@ class Tying {
 };
 
 bool has_same_motion(const PrescribedNodes& given, int node, const PrescribedNodes& motion,
-                     const Vector& direction) {
+                     const Vector3d& direction) {
   const auto found = std::lower_bound(given.nodes.begin(), given.nodes.end(), node);
   return given.kind == motion.kind && given.turns() == motion.turns() && given.curve == motion.curve &&
          found != given.nodes.end() && *found == node &&
          is_along(given.direction_of(index(found - given.nodes.begin())), direction);
 }
 
-bool all_corners_follow(const Tie& tie, const PrescribedNodes& motion, const Vector& direction,
+bool all_corners_follow(const Tie& tie, const PrescribedNodes& motion, const Vector3d& direction,
                         std::span<const PrescribedNodes> prescribed) {
   for (std::size_t k = 0; k < 4; ++k) {
     if (std::abs(tie.weight[k]) < held_weight) continue;
@@ -255,7 +253,7 @@ void release_supports(const Ties& ties, Model& model) {
       const auto found = std::lower_bound(given[i].nodes.begin(), given[i].nodes.end(), node);
       if (found == given[i].nodes.end() || *found != node) continue;
       const TiedParts& parts = ties.found[index(tied.connection)];
-      const Vector along = given[i].direction_of(index(found - given[i].nodes.begin()));
+      const Vector3d along = given[i].direction_of(index(found - given[i].nodes.begin()));
       if (!all_corners_follow(tied.tie, given[i], along, given))
         throw BuildError("the motion of a node of '" + parts.nodes + "' " + at(model.nodes, node) +
                              " is prescribed, but not that of the face of '" + parts.surface +
@@ -311,9 +309,9 @@ void start_ties(Model& model) {
   carry_velocities(ties, nodes, 0);
   for (std::size_t i = 0; i < given.size(); ++i) {
     const Tie& tie = ties.node[i].tie;
-    double fastest = given[i].norm();
-    for (int corner : tie.corner) fastest = std::max(fastest, velocity(nodes, corner).norm());
-    if ((given[i] - velocity(nodes, tie.node)).norm() <= same_velocity * fastest) continue;
+    double fastest = norm(given[i]);
+    for (int corner : tie.corner) fastest = std::max(fastest, norm(velocity(nodes, corner)));
+    if (norm(given[i] - velocity(nodes, tie.node)) <= same_velocity * fastest) continue;
     const TiedParts& parts = ties.found[index(ties.node[i].connection)];
     throw BuildError("a node of '" + parts.nodes + "' " + at(nodes, tie.node) +
                          " starts with another velocity than the face of '" + parts.surface +

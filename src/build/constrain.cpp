@@ -16,35 +16,30 @@ namespace {
 /// Of the largest distance of a node from the axis of a cylindrical system: nodes nearer to it lie on it.
 constexpr double on_axis_share = 1e-6;
 
-Vector position_of(const Model& model, std::size_t node) {
-  const double* x = model.nodes.record[node].position;
-  return {x[0], x[1], x[2]};
-}
-
 double on_axis(const CylindricalSystem& system, const Model& model) {
   double farthest = 0;
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
-    farthest = std::max(farthest, distance_from_axis(system, position_of(model, i)));
+    farthest = std::max(farthest, distance_from_axis(system, position(model.nodes, i)));
   return on_axis_share * farthest;
 }
 
-Vector unit_normal(const RigidWall& wall) {
-  const Vector& direction = wall.normal;
+Vector3d unit_normal(const RigidWall& wall) {
+  const Vector3d& direction = wall.normal;
   const double size = std::sqrt(dot(direction, direction));
   if (!(size > 0)) throw BuildError("a rigid wall has a normal without length", wall.place);
   return {direction[0] / size, direction[1] / size, direction[2] / size};
 }
 
-Eigen::Matrix3d rows_of(const SystemAxes& axes) {
-  Eigen::Matrix3d rows;
-  for (int i = 0; i < 3; ++i) rows.row(i) = Eigen::Vector3d(axes[index(i)].data());
+Tensor<double> rows_of(const SystemAxes& axes) {
+  Tensor<double> rows;
+  for (int i = 0; i < 3; ++i) rows.set_row(i, axes[index(i)]);
   return rows;
 }
 
 // One system for all supports of a body: it moves as a whole.
 void constrain_body(const PrescribedMotion& motion, const Deck& deck, int number, const std::string& part,
                     RigidBody& body) {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Tensor<double> axes = identity<double>();
   if (!motion.system.empty())
     axes = rows_of(axes_everywhere(deck, motion.system, "the motion of a rigid part", motion.where.place));
   if (!body.given.empty() && body.axes != axes)
@@ -57,10 +52,10 @@ void constrain_body(const PrescribedMotion& motion, const Deck& deck, int number
     body.given.push_back({motion.kind, component.axis, component.curve, component.place, number});
 }
 
-std::vector<Vector> directions_of(const std::vector<SystemAxes>& axes, std::size_t component,
-                                  const std::vector<int>& nodes, const std::string& system,
-                                  const std::string& place, const Model& model) {
-  std::vector<Vector> directions;
+std::vector<Vector3d> directions_of(const std::vector<SystemAxes>& axes, std::size_t component,
+                                    const std::vector<int>& nodes, const std::string& system,
+                                    const std::string& place, const Model& model) {
+  std::vector<Vector3d> directions;
   for (std::size_t k = 0; k < axes.size(); ++k) {
     directions.push_back(axes[k][component]);
     if (is_zero(directions.back())) refuse_on_axis(model, index(nodes[k]), system, place);
@@ -110,7 +105,7 @@ std::vector<SystemAxes> axes_at_nodes(const Deck& deck, const std::string& name,
   const auto& round = std::get<CylindricalSystem>(system);
   const double least = on_axis(round, model);
   std::vector<SystemAxes> axes;
-  for (const int node : nodes) axes.push_back(axes_at(round, position_of(model, index(node)), least));
+  for (const int node : nodes) axes.push_back(axes_at(round, position(model.nodes, node), least));
   return axes;
 }
 

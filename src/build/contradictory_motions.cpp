@@ -162,12 +162,12 @@ void check_nodes(const Model& model, int axis) {
 /// A skew motion in the span of those before it is the sum of their shares.
 void check_dependent(const Model& model, std::span<const SupportPlace> before, const SupportPlace& place) {
   const PrescribedNodes& given = model.prescribed[place.entry];
-  const Vector& direction = given.direction[place.at];
+  const Vector3d& direction = given.direction[place.at];
   const auto node = index(place.node);
   const double* v =
       given.turns() ? model.nodes.angular_velocity[node].component : model.nodes.record[node].velocity;
   std::vector<Term> terms{{-1, given.kind, &given.curve}};
-  const auto start_of = [&](const Vector& along) { return dot(along, {v[0], v[1], v[2]}); };
+  const auto start_of = [&](const Vector3d& along) { return dot(along, {v[0], v[1], v[2]}); };
   double start = given.kind == MotionKind::acceleration ? -start_of(direction) : 0;
   std::string others;
   for (const SupportPlace& one : before) {
@@ -189,7 +189,7 @@ void check_skew(const Model& model, bool turns) {
   std::size_t first = 0;  // of the node
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i].node != places[first].node) first = i;
-    if (model.prescribed[places[i].entry].dual[places[i].at] == Vector{})
+    if (model.prescribed[places[i].entry].dual[places[i].at] == Vector3d{})
       check_dependent(model, std::span(places).subspan(first, i - first), places[i]);
   }
 }
@@ -202,7 +202,7 @@ void check_body(const Model& model, std::size_t b) {
     const auto first =
         std::find_if(given.begin(), later, [axis](const PrescribedRigid& one) { return one.axis == axis; });
     if (first == later) continue;
-    const double start = motion.axes.row(axis % 3).dot(axis < 3 ? motion.velocity : motion.angular_velocity);
+    const double start = dot(motion.axes.row(axis % 3), axis < 3 ? motion.velocity : motion.angular_velocity);
     const Likeness likeness =
         compare(first->kind, first->curve, later->kind, later->curve, model.control.settings.end);
     if (!holds(likeness, sign_of_start(first->kind) * start))

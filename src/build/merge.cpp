@@ -14,7 +14,7 @@ namespace brio {
 
 namespace {
 
-using Point = std::array<double, 3>;
+using Point = Vector3d;
 
 double squared_distance(const Point& a, const Point& b) {
   double sum = 0;

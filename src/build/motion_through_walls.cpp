@@ -96,7 +96,7 @@ Lowest lowest_change(const RigidWall& wall, Motion motion, double end) {
 }
 
 /// Whether all axes along which the wall would push are prescribed.
-bool cannot_give_way(const Vector& free_normal) {
+bool cannot_give_way(const Vector3d& free_normal) {
   return std::ranges::all_of(free_normal, [](double part) { return std::abs(part) <= along_axis; });
 }
 
@@ -105,9 +105,7 @@ bool passes(double height, const Lowest& lowest) {
 }
 
 double height_of(const RigidWall& wall, const double* position) {
-  double height = 0;
-  for (std::size_t i = 0; i < 3; ++i) height += wall.normal[i] * (position[i] - wall.point[i]);
-  return height;
+  return dot(wall.normal, vector_at(position) - wall.point);
 }
 
 [[noreturn]] void refuse(const std::string& who, const RigidWall& wall, const Motion& motion, double height,
@@ -136,7 +134,7 @@ std::vector<NodeMotions> motions_of_nodes(const Model& model) {
       NodeMotions& motions = motion_of[index(given.nodes[k])];
       if (!given.is_skew()) {
         motions[index(given.axis)] = {static_cast<int>(i), static_cast<int>(k)};
-      } else if (given.dual[k] != Vector{}) {
+      } else if (given.dual[k] != Vector3d{}) {
         *std::ranges::find(motions, none) = {static_cast<int>(i), static_cast<int>(k)};
       }
     }
@@ -195,13 +193,13 @@ bool cannot_turn(const RigidBody& body) {
 void check_body(const Model& model, const WallInRun& wall, std::size_t b) {
   const RigidBody& body = model.rigid.body[b];
   Motion motion;
-  const Eigen::Vector3d normal = body.axes * Eigen::Vector3d(wall.wall.normal.data());
-  Vector free = to_vector(normal);
+  const Vector3d normal = body.axes * wall.wall.normal;
+  Vector3d free = normal;
   for (const PrescribedRigid& given : body.given) {
     if (given.axis >= 3) continue;
     const auto axis = index(given.axis);
     motion[axis] = {normal[given.axis], given.kind, &given.curve, &given.place,
-                    body.axes.row(given.axis).dot(model.rigid.motion[b].velocity)};
+                    dot(body.axes.row(given.axis), model.rigid.motion[b].velocity)};
     free[axis] = 0;
   }
   if (!cannot_give_way(free)) return;

@@ -9,21 +9,17 @@ namespace brio {
 
 namespace {
 
-bool inside(const std::monostate&, const Vector&) { return true; }
-bool inside(const BoxRegion& box, const Vector& x) {
+bool inside(const std::monostate&, const Vector3d&) { return true; }
+bool inside(const BoxRegion& box, const Vector3d& x) {
   for (std::size_t i = 0; i < 3; ++i)
     if (x[i] < box.lower[i] || x[i] > box.upper[i]) return false;
   return true;
 }
-bool inside(const PlaneRegion& plane, const Vector& x) {
-  double height = 0;
-  for (std::size_t i = 0; i < 3; ++i) height += plane.normal[i] * (x[i] - plane.point[i]);
-  return std::abs(height) <= plane.tolerance * std::sqrt(dot(plane.normal, plane.normal));
+bool inside(const PlaneRegion& plane, const Vector3d& x) {
+  return std::abs(dot(plane.normal, x - plane.point)) <= plane.tolerance * norm(plane.normal);
 }
-bool inside(const SphereRegion& sphere, const Vector& x) {
-  double distance = 0;
-  for (std::size_t i = 0; i < 3; ++i) distance += (x[i] - sphere.centre[i]) * (x[i] - sphere.centre[i]);
-  return distance <= sphere.radius * sphere.radius;
+bool inside(const SphereRegion& sphere, const Vector3d& x) {
+  return squared_norm(x - sphere.centre) <= sphere.radius * sphere.radius;
 }
 
 // The part of that name, or those of the mesh file of that name.
@@ -60,7 +56,7 @@ std::vector<int> select_nodes(const NodeSelection& where, const Deck& deck, std:
       if (!where.part.empty() && deck.parts[p].name != where.part) continue;
       for (int node : model.parts[p].node) {
         const double* x = model.nodes.record[index(node)].position;
-        if (std::visit([&](const auto& region) { return inside(region, {x[0], x[1], x[2]}); }, where.region))
+        if (std::visit([&](const auto& region) { return inside(region, vector_at(x)); }, where.region))
           chosen.push_back(node);
       }
     }

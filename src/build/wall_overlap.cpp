@@ -23,9 +23,7 @@ constexpr double least_gain = 1e-18;
 constexpr int most_rounds_of_walls = 200;
 
 double start_height(const RigidWall& wall, const NodeRecord& record) {
-  double height = 0;
-  for (std::size_t i = 0; i < 3; ++i) height += wall.normal[i] * (record.position[i] - wall.point[i]);
-  return height;
+  return dot(wall.normal, vector_at(record.position) - wall.point);
 }
 
 /// How the nodes of a model stand to its walls.
@@ -58,7 +56,7 @@ class WallOverlap {
   std::vector<InitialOverlap> remove(double limit) {
     find_edges();
     std::vector<InitialOverlap> report;
-    std::vector<Vector> start;
+    std::vector<Vector3d> start;
     for (const NodeRecord& record : model_.nodes.record)
       start.push_back({record.position[0], record.position[1], record.position[2]});
     for (std::size_t w = 0; w < model_.walls.size(); ++w) record(w, report);
@@ -113,7 +111,7 @@ class WallOverlap {
     return rounding_of_edge * edge_[i] + rounding_of_position * largest;
   }
 
-  double way(std::size_t i, const Vector& start) const {
+  double way(std::size_t i, const Vector3d& start) const {
     const double* x = model_.nodes.record[i].position;
     return std::hypot(x[0] - start[0], x[1] - start[1], x[2] - start[2]);
   }
@@ -134,12 +132,12 @@ class WallOverlap {
   }
 
   /// \return whether the node was behind the wall by more than rounding.
-  bool move_out(const RigidWall& wall, std::size_t i, double limit, const Vector& start) {
+  bool move_out(const RigidWall& wall, std::size_t i, double limit, const Vector3d& start) {
     NodeRecord& node = model_.nodes.record[i];
     const double depth = -start_height(wall, node);
     if (!(depth > 0)) return false;
     const bool counts = depth > rounding(i);
-    const Vector way_out = model_.nodes.free_translations(i) * wall.normal;
+    const Vector3d way_out = model_.nodes.free_translations(i) * wall.normal;
     const double gain = compliance(model_.nodes.free_translations(i), 1, wall.normal);
     if (gain < least_gain || depth > limit * edge_[i] * std::sqrt(gain)) {  // the way is depth / sqrt(gain)
       if (counts) refuse_move(wall, i, depth, gain, limit);

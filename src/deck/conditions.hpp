@@ -27,23 +27,23 @@ namespace brio {
 struct BoxRegion {
   static constexpr std::string_view name = "box";
   static constexpr std::string_view meaning = "inside a box";
-  Vector lower{};
-  Vector upper{};
+  Vector3d lower{};
+  Vector3d upper{};
   static constexpr auto fields() {
     return field_table(
         required("lower", &BoxRegion::lower, any_number, "corner with the least coordinates"),
         required("upper", &BoxRegion::upper, any_number, "corner with the largest coordinates"));
   }
   constexpr std::string_view fault() const {
-    const bool ordered = lower[0] <= upper[0] && lower[1] <= upper[1] && lower[2] <= upper[2];
+    const bool ordered = lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z;
     return ordered ? "" : "the box is inside out; no component of lower may exceed that of upper";
   }
 };
 struct PlaneRegion {
   static constexpr std::string_view name = "plane";
   static constexpr std::string_view meaning = "near a plane";
-  Vector point{};
-  Vector normal{};
+  Vector3d point{};
+  Vector3d normal{};
   double tolerance = 0;
   static constexpr auto fields() {
     return field_table(
@@ -58,7 +58,7 @@ struct PlaneRegion {
 struct SphereRegion {
   static constexpr std::string_view name = "sphere";
   static constexpr std::string_view meaning = "inside a sphere";
-  Vector centre{};
+  Vector3d centre{};
   double radius = 0;
   static constexpr auto fields() {
     return field_table(required("centre", &SphereRegion::centre, any_number, "centre"),
@@ -96,7 +96,7 @@ struct SpaceTimeCurve : Curve {
   SpaceTimeCurve(Curve curve) : Curve(std::move(curve)) {}  // implicit: the same everywhere
   bool varies_in_space = false;
 
-  double at(const std::array<double, 3>& position, double time) const;
+  double at(const Vector3d& position, double time) const;
 };
 
 /// Names for numbers, known to the expressions of a deck.
@@ -109,8 +109,8 @@ struct Parameters {
 
 /// Spin of a part or set about an axis through a point.
 struct Spin {
-  Vector point{};
-  Vector angular_velocity{};
+  Vector3d point{};
+  Vector3d angular_velocity{};
   static constexpr auto fields() {
     return field_table(
         required("point", &Spin::point, any_number, "a point of the axis"),
@@ -121,8 +121,8 @@ struct Spin {
 /// In a deck `part: can` or `set: can.top`, and `velocity`, `spin` or both.
 /// Velocity away from an axis, the same at any distance.
 struct RadialVelocity {
-  Vector point{};
-  Vector axis{};
+  Vector3d point{};
+  Vector3d axis{};
   double speed = 0;
   static constexpr auto fields() {
     return field_table(required("point", &RadialVelocity::point, any_number, "a point of the axis"),
@@ -137,7 +137,7 @@ struct RadialVelocity {
 
 struct InitialCondition {
   NodeSelection where;
-  Vector velocity{};
+  Vector3d velocity{};
   std::optional<Spin> spin;
   std::optional<RadialVelocity> radial{};
   std::optional<StateSource> from{};
@@ -177,9 +177,9 @@ struct PrescribedMotion {
 struct RigidWall {
   static constexpr std::string_view name = "rigid_wall";
   static constexpr std::string_view meaning = "a plane that nodes cannot pass";
-  Vector point{};
-  Vector normal{};
-  Vector velocity{};
+  Vector3d point{};
+  Vector3d normal{};
+  Vector3d velocity{};
   double friction = 0;
   std::string place{};  ///< in the deck
   std::string label{};  ///< its name in the deck; may be empty
@@ -203,7 +203,7 @@ using BoundaryCondition = std::variant<PrescribedMotion, RigidWall>;
 struct Gravity {
   static constexpr std::string_view name = "gravity";
   static constexpr std::string_view meaning = "acceleration of everything";
-  Vector acceleration{};
+  Vector3d acceleration{};
   Curve factor{{{0, 1}}};
   std::string system{};
   std::string place{};  ///< in the deck
@@ -220,7 +220,7 @@ struct NodalForce {
   static constexpr std::string_view name = "force";
   static constexpr std::string_view meaning = "the same force on every node of a set";
   NodeSelection where;
-  Vector force{};
+  Vector3d force{};
   Curve factor{{{0, 1}}};
   std::string system{};
   static constexpr auto fields() {
@@ -236,7 +236,7 @@ struct NodalMoment {
   static constexpr std::string_view name = "moment";
   static constexpr std::string_view meaning = "the same moment on every node of a set, or on a rigid part";
   NodeSelection where;
-  Vector moment{};
+  Vector3d moment{};
   Curve factor{{{0, 1}}};
   std::string system{};
   static constexpr auto fields() {

@@ -15,7 +15,7 @@ namespace brio {
 struct RectangularSystem {
   static constexpr std::string_view name = "rectangular";
   static constexpr std::string_view meaning = "axes x, y and z, the same everywhere";
-  Vector x{}, y{};
+  Vector3d x{}, y{};
   static constexpr auto fields() {
     return field_table(
         required("x", &RectangularSystem::x, any_number, "direction of its x axis"),
@@ -30,8 +30,8 @@ struct CylindricalSystem {
   static constexpr std::string_view name = "cylindrical";
   static constexpr std::string_view meaning =
       "r away from an axis, z along it, t = z cross r around it, of each node where it is at the start";
-  Vector point{};
-  Vector axis{};
+  Vector3d point{};
+  Vector3d axis{};
   static constexpr auto fields() {
     return field_table(required("point", &CylindricalSystem::point, any_number, "a point of the axis"),
                        required("axis", &CylindricalSystem::axis, any_number, "direction of the axis"));
@@ -44,14 +44,14 @@ struct CylindricalSystem {
 using CoordinateSystem = std::variant<RectangularSystem, CylindricalSystem>;
 
 /// Unit vectors x, y, z, or r, t, z.
-using SystemAxes = std::array<Vector, 3>;
+using SystemAxes = std::array<Vector3d, 3>;
 
 SystemAxes axes_of(const RectangularSystem& system);
 /// \param least distance from the axis below which r and t are 0: there is no such direction
-SystemAxes axes_at(const CylindricalSystem& system, const Vector& position, double least);
-double distance_from_axis(const CylindricalSystem& system, const Vector& position);
+SystemAxes axes_at(const CylindricalSystem& system, const Vector3d& position, double least);
+double distance_from_axis(const CylindricalSystem& system, const Vector3d& position);
 
 /// The vector with these components.
-Vector from_components(const SystemAxes& axes, const Vector& components);
+Vector3d from_components(const SystemAxes& axes, const Vector3d& components);
 
 }  // namespace brio

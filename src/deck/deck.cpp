@@ -46,7 +46,7 @@ std::string_view WedgeMesh::fault() const {
 std::string_view ParticleMesh::fault() const {
   if (box.has_value() + cylinder.has_value() + sphere.has_value() != 1)
     return "the shape is not said once; accepted is one of box, cylinder and sphere";
-  Vector cells{};
+  Vector3d cells{};
   double spacing = 0;
   if (box) cells = box->size, spacing = box->spacing;
   if (cylinder) {
@@ -94,7 +94,7 @@ bool Curve::operator==(const Curve& other) const {
   return expression->text() == other.expression->text() && points == other.points;
 }
 
-double SpaceTimeCurve::at(const std::array<double, 3>& position, double time) const {
+double SpaceTimeCurve::at(const Vector3d& position, double time) const {
   return varies_in_space ? expression->at(time, position) : (*this)(time);
 }
 

@@ -31,7 +31,7 @@ namespace brio {
 
 /// Turn about an axis through the origin.
 struct Rotation {
-  Vector axis{};
+  Vector3d axis{};
   double degrees = 0;
   static constexpr auto fields() {
     return field_table(
@@ -46,7 +46,7 @@ struct Rotation {
 /// First turned, then moved.
 struct Placement {
   std::optional<Rotation> rotate;
-  Vector translate{};
+  Vector3d translate{};
   static constexpr auto fields() {
     return field_table(
         optional("rotate", &Placement::rotate, any_number, "turn before moving"),
@@ -202,7 +202,7 @@ struct FieldOutput {
 /// A node whose motion is written to every row of the history.
 struct Probe {
   std::string name;
-  Vector point{};
+  Vector3d point{};
   std::optional<std::string> part;
   static constexpr auto fields() {
     return field_table(

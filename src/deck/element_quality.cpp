@@ -11,13 +11,6 @@ namespace brio {
 
 namespace {
 
-Corner difference(const Corner& a, const Corner& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Corner vector_product(const Corner& a, const Corner& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double scalar_product(const Corner& a, const Corner& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length_of(const Corner& a) { return std::hypot(a[0], a[1], a[2]); }
-
 using FaceCorners = std::array<Corner, 4>;
 
 FaceCorners face_of(std::span<const Corner> corners, std::size_t side) {
@@ -29,18 +22,18 @@ FaceCorners face_of(std::span<const Corner> corners, std::size_t side) {
 
 /// Degrees between the normals of two triangles; 0 where one has no area.
 double angle_between(const Corner& a, const Corner& b) {
-  const Corner product = vector_product(a, b);
-  return std::atan2(length_of(product), scalar_product(a, b)) * 180 / std::numbers::pi;
+  const Corner product = cross(a, b);
+  return std::atan2(norm(product), dot(a, b)) * 180 / std::numbers::pi;
 }
 
 double warp_of_face(const FaceCorners& face) {
   double largest = 0;
   for (std::size_t first = 0; first < 2; ++first) {
     const Corner& a = face[first];
-    const Corner diagonal = difference(face[first + 2], a);
-    const Corner right = vector_product(difference(face[first + 1], a), diagonal);
-    const Corner left = vector_product(diagonal, difference(face[(first + 3) % 4], a));
-    if (length_of(right) > 0 && length_of(left) > 0) largest = std::max(largest, angle_between(right, left));
+    const Corner diagonal = face[first + 2] - a;
+    const Corner right = cross(face[first + 1] - a, diagonal);
+    const Corner left = cross(diagonal, face[(first + 3) % 4] - a);
+    if (norm(right) > 0 && norm(left) > 0) largest = std::max(largest, angle_between(right, left));
   }
   return largest;
 }
@@ -48,8 +41,8 @@ double warp_of_face(const FaceCorners& face) {
 /// Edge from a corner along its ring of four, to the next corner that is not the same point.
 Corner edge_along(std::span<const Corner> ring, std::size_t corner, std::size_t step) {
   for (std::size_t k = 1; k < 4; ++k) {
-    const Corner edge = difference(ring[(corner + k * step) % 4], ring[corner]);
-    if (length_of(edge) > 0) return edge;
+    const Corner edge = ring[(corner + k * step) % 4] - ring[corner];
+    if (norm(edge) > 0) return edge;
   }
   return {};
 }
@@ -63,23 +56,21 @@ double jacobian_of_hexahedron(std::span<const Corner> corners) {
   for (std::size_t c = 0; c < 8; ++c) {
     const bool upper = c >= 4;
     const auto ring = corners.subspan(upper ? 4 : 0, 4);
-    const Corner up = difference(corners[upper ? c : c + 4], corners[upper ? c - 4 : c]);
+    const Corner up = corners[upper ? c : c + 4] - corners[upper ? c - 4 : c];
     const Corner a = edge_along(ring, c % 4, forward), b = edge_along(ring, c % 4, backward);
-    least = std::min(
-        least, scaled(scalar_product(vector_product(a, b), up), length_of(a) * length_of(b) * length_of(up)));
+    least = std::min(least, scaled(dot(cross(a, b), up), norm(a) * norm(b) * norm(up)));
   }
   return least;
 }
 
 double jacobian_of_shell(std::span<const Corner> corners) {
-  Corner normal = vector_product(difference(corners[2], corners[0]), difference(corners[3], corners[1]));
-  const double size = length_of(normal);
+  Corner normal = cross(corners[2] - corners[0], corners[3] - corners[1]);
+  const double size = norm(normal);
   if (!(size > 0)) return 0;
   double least = 1;
   for (std::size_t c = 0; c < 4; ++c) {
     const Corner a = edge_along(corners, c, forward), b = edge_along(corners, c, backward);
-    least = std::min(
-        least, scaled(scalar_product(vector_product(a, b), normal) / size, length_of(a) * length_of(b)));
+    least = std::min(least, scaled(dot(cross(a, b), normal) / size, norm(a) * norm(b)));
   }
   return least;
 }
@@ -89,8 +80,7 @@ double jacobian_of_shell(std::span<const Corner> corners) {
 std::vector<double> edge_lengths(std::span<const Corner> corners) {
   std::vector<double> lengths;
   const auto add = [&](std::size_t a, std::size_t b) {
-    if (const double length = length_of(difference(corners[a], corners[b])); length > 0)
-      lengths.push_back(length);
+    if (const double length = norm(corners[a] - corners[b]); length > 0) lengths.push_back(length);
   };
   if (corners.size() == 8)
     for (const auto& [a, b] : edges_of_hex) add(index(a), index(b));
@@ -124,11 +114,9 @@ double volume_of_hexahedron(std::span<const Corner, 8> corners) {
   double sum = 0;
   for (std::size_t side = 0; side < 6; ++side) {
     FaceCorners face = face_of(corners, side);
-    for (Corner& corner : face) corner = difference(corner, corners[0]);
+    for (Corner& corner : face) corner = corner - corners[0];
     const auto& [a, b, c, d] = face;
-    const auto triple = [](const Corner& x, const Corner& y, const Corner& z) {
-      return scalar_product(x, vector_product(y, z));
-    };
+    const auto triple = [](const Corner& x, const Corner& y, const Corner& z) { return dot(x, cross(y, z)); };
     sum += triple(a, b, c) + triple(a, c, d) + triple(a, b, d) + triple(b, c, d);
   }
   return sum / 12;

@@ -6,9 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "src/base/tensor.hpp"
+
 namespace brio {
 
-using Corner = std::array<double, 3>;
+using Corner = Vector3d;
 
 /// Corners of the edges of a hexahedron in VTK order, four a direction.
 inline constexpr std::array<std::array<int, 2>, 12> edges_of_hex{

@@ -142,7 +142,7 @@ Expression::Expression(const std::string& text, Parameters parameters, Variables
 
 Expression::~Expression() = default;
 
-double Expression::at(double time, const std::array<double, 3>& position) const {
+double Expression::at(double time, const Vector3d& position) const {
   parsed_->variable = {time, position[0], position[1], position[2]};
   return parsed_->parser.Eval();
 }

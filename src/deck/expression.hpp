@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/base/tensor.hpp"
+
 namespace brio {
 
 /// What is wrong with an expression.
@@ -43,7 +45,7 @@ class Expression {
   Expression& operator=(const Expression&) = delete;
 
   /// Not from several threads at once.
-  double at(double time, const std::array<double, 3>& position = {}) const;
+  double at(double time, const Vector3d& position = {}) const;
 
   const std::string& text() const { return text_; }
   bool uses_time() const;

@@ -27,8 +27,8 @@ struct ContactColumns {
 struct ForceSection {
   std::string name;
   std::string part;
-  Vector point{};
-  Vector normal{};
+  Vector3d point{};
+  Vector3d normal{};
   std::string place{};  ///< in the deck
   static constexpr auto fields() {
     return field_table(
@@ -41,7 +41,8 @@ struct ForceSection {
             "of the plane: what lies ahead of it acts on what lies behind; tension is positive along it"));
   }
   constexpr std::string_view fault() const {
-    return normal == Vector{} ? "the normal has no direction; at least one component must differ from 0" : "";
+    return normal == Vector3d{} ? "the normal has no direction; at least one component must differ from 0"
+                                : "";
   }
 };
 

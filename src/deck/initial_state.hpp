@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/fields.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -63,7 +64,7 @@ struct PartState {
   std::size_t part = 0;
   std::size_t condition = 0;  ///< of the deck
   std::string place{};        ///< in it
-  std::vector<std::array<double, 3>> velocity, angular_velocity;
+  std::vector<Vector3d> velocity, angular_velocity;
   std::vector<double> element;  ///< rows as of elements/element_state.hpp
   std::vector<std::array<double, 6>> stress;
   std::vector<double> plastic_strain;

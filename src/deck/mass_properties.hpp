@@ -1,16 +1,15 @@
 #pragma once
 /// Mass, centre and inertia of a mesh of hexahedra or shells.
 
-#include <Eigen/Dense>
-
+#include "src/base/tensor.hpp"
 #include "src/deck/mesh.hpp"
 
 namespace brio {
 
 struct MassProperties {
   double mass = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, along the axes of the mesh
+  Vector3d centre{};
+  Tensor<double> inertia{};  ///< about the centre, along the axes of the mesh
 };
 
 /// Integrals over the elements as they are drawn: exact for trilinear hexahedra.

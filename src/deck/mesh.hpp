@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -19,9 +20,9 @@ struct ElementSide {
 
 struct Mesh {
   int nodes_per_element = 8;  ///< 8: hexahedra, 4: shells, 2: beams, 1: particles
-  std::vector<std::array<double, 3>> position;
+  std::vector<Vector3d> position;
   /// Where the nodes lie when elements get their masses; empty: at `position`.
-  std::vector<std::array<double, 3>> reference;
+  std::vector<Vector3d> reference;
   std::vector<int> connectivity;                      ///< nodes_per_element entries an element
   std::vector<double> volume;                         ///< of each particle; empty for other elements
   std::map<std::string, std::vector<int>> node_sets;  ///< ascending node indices

@@ -22,14 +22,12 @@ constexpr std::string_view fault_of_size(std::int64_t a, std::int64_t b, std::in
   return fits ? std::string_view{} : "the mesh is too fine; at most 134217728 elements are accepted a part";
 }
 
-constexpr bool is_zero(const Vector& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
-
 /// Hexahedra filling a box centred on the origin. Sets: xmin xmax ymin ymax zmin zmax, bottom (= zmin), top,
 /// all.
 struct BoxMesh {
   static constexpr std::string_view name = "box";
   static constexpr std::string_view meaning = "hexahedra filling a box centred on the origin";
-  Vector size{};
+  Vector3d size{};
   std::array<int, 3> elements{};
   static constexpr auto fields() {
     return field_table(required("size", &BoxMesh::size, positive, "edge lengths along x, y, z"),
@@ -196,8 +194,8 @@ struct HollowSphereMesh {
 struct LineMesh {
   static constexpr std::string_view name = "line";
   static constexpr std::string_view meaning = "beams of equal length on a straight line";
-  Vector start{};
-  Vector end{};
+  Vector3d start{};
+  Vector3d end{};
   int elements = 0;
   static constexpr auto fields() {
     return field_table(required("start", &LineMesh::start, any_number, "one end"),
@@ -212,7 +210,7 @@ struct LineMesh {
 
 /// Sets: xmin xmax ymin ymax zmin zmax (the outermost layers), bottom (= zmin), top, all.
 struct ParticleBox {
-  Vector size{};
+  Vector3d size{};
   double spacing = 0;
   static constexpr auto fields() {
     return field_table(required("size", &ParticleBox::size, positive, "edge lengths along x, y, z"),

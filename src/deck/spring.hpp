@@ -15,7 +15,7 @@ namespace brio {
 
 /// An end of a spring: the node nearest to a point at the start, or the point itself; or each node of a set.
 struct SpringEnd {
-  std::optional<Vector> point{};
+  std::optional<Vector3d> point{};
   std::optional<std::string> part{};
   bool fixed = false;
   std::optional<NodeSelection> set{};
@@ -56,8 +56,8 @@ struct Spring {
   double damping = 0;
   std::optional<double> length{};
   std::optional<double> strength{};
-  std::optional<Vector> axis{};  ///< of a torsional spring
-  Table moment{};                ///< of the angle; empty: linear
+  std::optional<Vector3d> axis{};  ///< of a torsional spring
+  Table moment{};                  ///< of the angle; empty: linear
   std::optional<double> angle{};
   std::optional<SpringPairing> pairing{};
   std::optional<SpringValues> values{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "src/base/gather.hpp"
 #include "src/base/index.hpp"
 #include "src/base/lanes.hpp"
 

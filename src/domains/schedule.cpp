@@ -32,7 +32,7 @@ std::uint64_t spread_bits(std::uint64_t x) {
 }
 
 struct CoordinateRange {
-  std::array<double, 3> lower, upper;
+  Vector3d lower, upper;
   int longest() const {
     int axis = 0;
     for (int i = 1; i < 3; ++i)
@@ -41,7 +41,7 @@ struct CoordinateRange {
   }
 };
 
-CoordinateRange range_of(const std::vector<std::array<double, 3>>& points) {
+CoordinateRange range_of(const std::vector<Vector3d>& points) {
   CoordinateRange extent{points.front(), points.front()};
   for (const auto& p : points)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -51,7 +51,7 @@ CoordinateRange range_of(const std::vector<std::array<double, 3>>& points) {
   return extent;
 }
 
-std::uint64_t morton_code(const std::array<double, 3>& point, const CoordinateRange& extent) {
+std::uint64_t morton_code(const Vector3d& point, const CoordinateRange& extent) {
   double size = 0;
   for (std::size_t i = 0; i < 3; ++i) size = std::max(size, extent.upper[i] - extent.lower[i]);
   std::uint64_t code = 0;
@@ -191,15 +191,15 @@ std::vector<std::size_t> colours_within_domains(std::span<const SweepTask> tasks
 
 }  // namespace
 
-std::vector<int> locality_order(std::span<const std::array<double, 3>> position,
-                                std::span<const int> connectivity, int nodes_per_element) {
+std::vector<int> locality_order(std::span<const Vector3d> position, std::span<const int> connectivity,
+                                int nodes_per_element) {
   const auto corners = index(nodes_per_element);
   const std::size_t count = connectivity.size() / corners;
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
   if (count == 0) return order;
 
-  std::vector<std::array<double, 3>> centre(count, {0, 0, 0});
+  std::vector<Vector3d> centre(count, {0, 0, 0});
   for (std::size_t e = 0; e < count; ++e)
     for (std::size_t corner = 0; corner < corners; ++corner)
       for (std::size_t i = 0; i < 3; ++i)

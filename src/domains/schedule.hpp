@@ -60,8 +60,8 @@ struct SweepSchedule {
 /// Elements sorted so that contiguous chunks are slabs across the longest extent, and neighbours inside a
 /// chunk are neighbours in memory (Morton order): a chunk's nodes fit in cache and few colours are needed.
 /// \return permutation: position in memory -> element of the mesh.
-std::vector<int> locality_order(std::span<const std::array<double, 3>> position,
-                                std::span<const int> connectivity, int nodes_per_element);
+std::vector<int> locality_order(std::span<const Vector3d> position, std::span<const int> connectivity,
+                                int nodes_per_element);
 
 /// Elements below which a domain is not cut.
 inline constexpr std::size_t least_domain_elements = 1024;

@@ -14,14 +14,10 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 /// A force that is as good as parallel to all faces at a node has no area.
 constexpr double least_area_share = 1e-6;
 
-Eigen::Vector3d to_eigen(const Vector3<double>& a) { return {a.x, a.y, a.z}; }
-
 void mean_force(const Model& model, int node, double* out) {
   const ImpulseSums::OfNode* sum = model.impulse_sums.of(node);
-  const Eigen::Vector3d mean = sum == nullptr
-                                   ? Eigen::Vector3d(Eigen::Vector3d::Zero())
-                                   : Eigen::Vector3d((to_eigen(sum->normal) + to_eigen(sum->friction)) /
-                                                     model.impulse_sums.duration());
+  const Vector3d mean =
+      sum == nullptr ? Vector3d{} : (sum->normal + sum->friction) / model.impulse_sums.duration();
   std::copy_n(mean.data(), 3, out);
 }
 
@@ -32,10 +28,10 @@ void mean_pressure(const Model& model, int node, double* out) {
   if (slave < 0 || surface.faces_of.of(slave).empty()) return;
   *out = 0;
   const ImpulseSums::OfNode* sum = model.impulse_sums.of(node);
-  const double impulse = sum == nullptr ? 0 : to_eigen(sum->normal).norm();
+  const double impulse = sum == nullptr ? 0 : norm(sum->normal);
   if (impulse == 0) return;
   double all = 0;
-  const double area = pushed_area(surface, model.nodes, slave, to_eigen(sum->normal) / impulse, all);
+  const double area = pushed_area(surface, model.nodes, slave, sum->normal / impulse, all);
   *out = area > least_area_share * all ? impulse / (model.impulse_sums.duration() * area) : not_a_number;
 }
 
@@ -67,7 +63,7 @@ constexpr PointVariable of_contact[] = {
 const PointVariable& contact_force_variable() { return of_force; }
 std::span<const PointVariable> contact_variables() { return of_contact; }
 
-double pushed_area(const Surface& surface, const Nodes& nodes, int slave, const Eigen::Vector3d& direction,
+double pushed_area(const Surface& surface, const Nodes& nodes, int slave, const Vector3d& direction,
                    double& area) {
   double pushed = 0;
   area = 0;
@@ -76,9 +72,9 @@ double pushed_area(const Surface& surface, const Nodes& nodes, int slave, const 
     if (!face.alive()) continue;
     const FaceVertices x = vertices(nodes, face);
     const bool is_triangle = face.node[2] == face.node[3];
-    const Eigen::Vector3d own = (x[2] - x[0]).cross(x[3] - x[1]) / (2 * (is_triangle ? 3 : 4));
-    const double along = -own.dot(direction);
-    area += own.norm();
+    const Vector3d own = cross(x[2] - x[0], x[3] - x[1]) / (2 * (is_triangle ? 3 : 4));
+    const double along = -dot(own, direction);
+    area += norm(own);
     pushed += face.shell ? std::abs(along) : std::max(along, 0.0);
   }
   return pushed;

@@ -15,7 +15,7 @@ std::span<const PointVariable> contact_variables();
 /// Area of the faces at a node, a quarter of each (a third of a triangle), as seen along a force on the node:
 /// of the faces of solids that the force pushes upon, of shells from either side. \param area of all of them
 /// \param direction unit vector
-double pushed_area(const Surface& surface, const Nodes& nodes, int slave, const Eigen::Vector3d& direction,
+double pushed_area(const Surface& surface, const Nodes& nodes, int slave, const Vector3d& direction,
                    double& area);
 
 }  // namespace brio

@@ -11,7 +11,7 @@ namespace {
 
 void rotation_of_node(const Model& model, int node, double* out) {
   const Quaternion<double>& q = model.rotations[index(node)];
-  const Eigen::Vector3d vector = rotation_vector({q.w, q.x, q.y, q.z});
+  const Vector3d vector = rotation_vector(q);
   std::copy_n(vector.data(), 3, out);
 }
 
@@ -27,12 +27,12 @@ constexpr PointVariable of_rotation{rotation_field,
 }  // namespace
 
 // A quaternion and its opposite are one rotation: the one of the smaller angle is taken.
-Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) {
-  const double sign = rotation.w() < 0 ? -1 : 1;
-  const Eigen::Vector3d axis = sign * rotation.vec();
-  const double sine = axis.norm();
-  const double half_angle = std::atan2(sine, sign * rotation.w());
-  return sine > 0 ? Eigen::Vector3d((2 * half_angle / sine) * axis) : Eigen::Vector3d(2 * axis);
+Vector3d rotation_vector(const Quaternion<double>& rotation) {
+  const double sign = rotation.w < 0 ? -1 : 1;
+  const Vector3d axis = sign * vector_part(rotation);
+  const double sine = norm(axis);
+  const double half_angle = std::atan2(sine, sign * rotation.w);
+  return sine > 0 ? (2 * half_angle / sine) * axis : 2 * axis;
 }
 
 const PointVariable& rotation_variable() { return of_rotation; }

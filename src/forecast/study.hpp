@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/fields.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 
@@ -44,7 +45,7 @@ struct Quantity {
   std::optional<std::string> history, field, summary;
   std::optional<std::string> per;
   std::optional<std::string> part;
-  std::optional<std::array<double, 3>> point;
+  std::optional<Vector3d> point;
   std::optional<Component> component;
   std::optional<Taken> take;
   std::optional<double> time;

@@ -66,7 +66,7 @@ bool boxes_meet(const PartShape& a, const PartShape& b, double margin, double be
 // apart.
 Pairs pairs_near(const Shapes& shapes, double end) {
   struct Swept {
-    Vector lower, upper;
+    Vector3d lower, upper;
     std::size_t part;
   };
   double margin = 0;

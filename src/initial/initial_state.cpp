@@ -13,9 +13,7 @@ namespace {
 
 NodeRecord& record_of(Model& model, int node) { return model.nodes.record[index(node)]; }
 
-void put(const std::array<double, 3>& values, double* place) {
-  std::copy(values.begin(), values.end(), place);
-}
+void put(const Vector3d& values, double* place) { std::copy(values.begin(), values.end(), place); }
 
 double energy_of(const Block& block, const Nodes& nodes, std::size_t element) {
   return block.kernel.sample(block, nodes, element, false).internal_energy;

@@ -26,7 +26,7 @@ class AtReference {
  private:
   struct Place {
     int node;
-    std::array<double, 3> position;
+    Vector3d position;
   };
   Model& model_;
   std::vector<Place> deformed_;

@@ -19,32 +19,21 @@ constexpr std::array<const char*, 3> moment_axes{"_mx", "_my", "_mz"};
 /// Pairs of parts that `all` stands for, at most.
 constexpr std::size_t most_pairs = 200;
 
-Vector position_of(const Nodes& nodes, int node) {
-  const double* x = nodes.record[index(node)].position;
-  return {x[0], x[1], x[2]};
+Vector3d mean_position(std::span<const int> list, const Nodes& nodes) {
+  Vector3d sum{};
+  for (const int node : list) sum += position(nodes, node);
+  return sum / static_cast<double>(list.size());
 }
-
-Vector mean_position(std::span<const int> list, const Nodes& nodes) {
-  Vector sum{};
-  for (const int node : list) add_to(sum, position_of(nodes, node));
-  for (double& component : sum) component /= static_cast<double>(list.size());
-  return sum;
-}
-
-Vector sum_of(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vector difference(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 // Of all forces that stand on the nodes ahead of the plane, about its point as it is now.
 Impulse force_ahead(const SectionSum& section, const Nodes& nodes) {
-  const Vector about = sum_of(mean_position(section.cut, nodes), section.point);
+  const Vector3d about = mean_position(section.cut, nodes) + section.point;
   Impulse sum;
   for (const int entry : section.ahead) {
     const auto node = index(entry);
-    const double* f = nodes.force[node].component;
-    sum.add(difference(position_of(nodes, entry), about), {f[0], f[1], f[2]});
+    sum.add(position(nodes, entry) - about, vector_at(nodes.force[node].component));
     if (!nodes.has_rotations()) continue;
-    const double* m = nodes.moment[node].component;
-    add_to(sum.angular, {m[0], m[1], m[2]});
+    sum.angular += vector_at(nodes.moment[node].component);
   }
   return sum;
 }
@@ -81,7 +70,7 @@ SectionSum make_section(const ForceSection& wanted, const Deck& deck, const Mode
                          "', which is rigid; parts that deform are accepted",
                      wanted.place);
   const auto height = [&](int node) {
-    return dot(wanted.normal, difference(position_of(model.nodes, node), wanted.point));
+    return dot(wanted.normal, position(model.nodes, node) - wanted.point);
   };
   SectionSum section;
   section.name = wanted.name;
@@ -100,7 +89,7 @@ SectionSum make_section(const ForceSection& wanted, const Deck& deck, const Mode
   section.cut.erase(std::unique(section.cut.begin(), section.cut.end()), section.cut.end());
   for (const int node : nodes_connected_to(p, model))
     if (height(node) > 0) section.ahead.push_back(node);
-  section.point = difference(wanted.point, mean_position(section.cut, model.nodes));
+  section.point = wanted.point - mean_position(section.cut, model.nodes);
   return section;
 }
 
@@ -161,9 +150,9 @@ std::vector<std::array<int, 2>> pairs_of(const ContactColumns& wanted, const Dec
 }
 
 // Each component to the condition that prescribes it.
-void add_components(ForceSums& sums, const std::array<int, 3>& condition, const Vector& impulse) {
+void add_components(ForceSums& sums, const std::array<int, 3>& condition, const Vector3d& impulse) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    Vector component{};
+    Vector3d component{};
     component[axis] = impulse[axis];
     sums.add_reaction(condition[axis], component);
   }
@@ -212,31 +201,30 @@ ForceSums make_force_sums(const ForceOutput& wanted, const Deck& deck, const Mod
   return sums;
 }
 
-void ForceSums::add_reaction(int condition, const Vector& impulse) {
+void ForceSums::add_reaction(int condition, const Vector3d& impulse) {
   const int at = condition < 0 ? -1 : reaction_of_condition[index(condition)];
-  if (at >= 0) add_to(reactions[index(at)].impulse, impulse);
+  if (at >= 0) reactions[index(at)].impulse += impulse;
 }
 
-void ForceSums::add_skew_support(int node, const Vector& impulse) {
+void ForceSums::add_skew_support(int node, const Vector3d& impulse) {
   const auto comes_before = [](const SkewShare& share, int other) { return share.node < other; };
   for (auto share = std::lower_bound(skew.begin(), skew.end(), node, comes_before);
        share != skew.end() && share->node == node; ++share) {
-    Vector push = share->direction;
+    Vector3d push = share->direction;
     for (double& component : push) component *= dot(share->dual, impulse);
     add_reaction(share->condition, push);
   }
 }
 
-void ForceSums::add_support_of_body(std::size_t body, const Vector& impulse) {
-  const Eigen::Vector3d along = axes_of_body[body] * Eigen::Vector3d(impulse.data());
+void ForceSums::add_support_of_body(std::size_t body, const Vector3d& impulse) {
+  const Vector3d along = axes_of_body[body] * impulse;
   for (int axis = 0; axis < 3; ++axis)
-    add_reaction(condition_of_body[body][index(axis)],
-                 to_vector(along[axis] * axes_of_body[body].row(axis).transpose()));
+    add_reaction(condition_of_body[body][index(axis)], along[axis] * axes_of_body[body].row(axis));
 }
 
 void ForceSums::add(const ImpulseLog& log) {
   for (const SupportImpulse& support : log.supports) {
-    const Vector impulse = to_vector(support.impulse);
+    const Vector3d impulse = support.impulse;
     if (support.node < 0) {
       add_support_of_body(index(support.body), impulse);
       continue;
@@ -245,8 +233,8 @@ void ForceSums::add(const ImpulseLog& log) {
     add_skew_support(support.node, impulse);
   }
   for (ContactSum& contact : contacts) {
-    add_to(contact.impulse, to_vector(contact.sign * log.impulse[contact.pair]));
-    add_to(contact.friction, to_vector(contact.sign * log.friction[contact.pair]));
+    contact.impulse += contact.sign * log.impulse[contact.pair];
+    contact.friction += contact.sign * log.friction[contact.pair];
   }
 }
 
@@ -259,7 +247,7 @@ void ForceSums::begin_interval() {
 
 std::vector<double> ForceSums::impulses() const {
   std::vector<double> all{duration};
-  const auto add_all = [&](const Vector& vector) { all.insert(all.end(), vector.begin(), vector.end()); };
+  const auto add_all = [&](const Vector3d& vector) { all.insert(all.end(), vector.begin(), vector.end()); };
   for (const ReactionSum& reaction : reactions) add_all(reaction.impulse);
   for (const ContactSum& contact : contacts) {
     add_all(contact.impulse);
@@ -277,7 +265,7 @@ void ForceSums::set_impulses(std::span<const double> saved) {
   if (saved.size() != impulses().size()) return;
   duration = saved[0];
   auto next = saved.begin() + 1;
-  const auto take = [&](Vector& vector) {
+  const auto take = [&](Vector3d& vector) {
     for (double& component : vector) component = *next++;
   };
   for (ReactionSum& reaction : reactions) take(reaction.impulse);
@@ -337,7 +325,7 @@ void begin_step(ForceSums& sums, double step) {
   }
 }
 
-void add_reactions(ForceSums& sums, const PrescribedNodes& given, const Vector& linear) {
+void add_reactions(ForceSums& sums, const PrescribedNodes& given, const Vector3d& linear) {
   if (given.is_skew() && !given.turns())
     for (std::size_t k = 0; k < given.nodes.size(); ++k)
       sums.add_skew_support(given.nodes[k], given.impulse[k]);
@@ -345,8 +333,7 @@ void add_reactions(ForceSums& sums, const PrescribedNodes& given, const Vector& 
 }
 
 void add_reactions(ForceSums& sums, const RigidBodies& bodies) {
-  for (std::size_t b = 0; b < bodies.body.size(); ++b)
-    sums.add_support_of_body(b, to_vector(bodies.body[b].support));
+  for (std::size_t b = 0; b < bodies.body.size(); ++b) sums.add_support_of_body(b, bodies.body[b].support);
 }
 
 }  // namespace brio

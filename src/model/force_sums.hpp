@@ -19,7 +19,7 @@ struct Model;
 /// Reaction of one boundary condition.
 struct ReactionSum {
   std::string name;
-  Vector impulse{};
+  Vector3d impulse{};
 };
 
 /// Internal force through a plane of a part: what its nodes ahead of the plane receive from its elements.
@@ -27,7 +27,7 @@ struct SectionSum {
   std::string name;
   std::vector<int> ahead;  ///< of the part, and of those that share nodes with it
   std::vector<int> cut;    ///< nodes of elements that the plane cuts
-  Vector point{};          ///< from the mean of the cut elements' nodes
+  Vector3d point{};        ///< from the mean of the cut elements' nodes
   Impulse force;           ///< of the present step, on what lies behind the plane
   Impulse impulse;         ///< moments about the point
 };
@@ -37,7 +37,7 @@ struct ContactSum {
   std::string name;
   std::size_t pair = 0;  ///< of the log of contact
   double sign = 1;
-  Vector impulse{}, friction{};
+  Vector3d impulse{}, friction{};
 };
 
 /// Direction along which a boundary condition pushes a node, and by how much of an impulse on it: that times
@@ -45,7 +45,7 @@ struct ContactSum {
 struct SkewShare {
   int node = 0;
   int condition = -1;
-  Vector direction{}, dual{};
+  Vector3d direction{}, dual{};
 };
 
 struct ForceSums {
@@ -56,15 +56,15 @@ struct ForceSums {
   std::vector<int> reaction_of_condition;             ///< by number in the deck; -1: not written
   std::vector<std::array<int, 3>> condition_of_node;  ///< by axis; empty without contact; -1: free
   std::vector<std::array<int, 3>> condition_of_body;  ///< by its own axes
-  std::vector<Eigen::Matrix3d> axes_of_body;
+  std::vector<Tensor<double>> axes_of_body;
   std::vector<SkewShare> skew;  ///< translations, by node
 
   /// \param condition its number in the deck
-  void add_reaction(int condition, const Vector& impulse);
+  void add_reaction(int condition, const Vector3d& impulse);
   /// Of a node with supports along axes of its own.
-  void add_skew_support(int node, const Vector& impulse);
+  void add_skew_support(int node, const Vector3d& impulse);
   /// Components that are not prescribed are 0.
-  void add_support_of_body(std::size_t body, const Vector& impulse);
+  void add_support_of_body(std::size_t body, const Vector3d& impulse);
   /// Reactions and forces of a step of contact.
   void add(const ImpulseLog& log);
   /// Of the row that was written; the next begins.
@@ -93,7 +93,7 @@ void measure_sections(ForceSums& sums, const Nodes& nodes);
 /// Adds the impulses of sections. \param step over which the forces of the present time act
 void begin_step(ForceSums& sums, double step);
 /// Supports of nodes, but those in contact. \param linear their sum
-void add_reactions(ForceSums& sums, const PrescribedNodes& given, const Vector& linear);
+void add_reactions(ForceSums& sums, const PrescribedNodes& given, const Vector3d& linear);
 /// Supports of rigid bodies, but those in contact.
 void add_reactions(ForceSums& sums, const RigidBodies& bodies);
 

@@ -12,22 +12,12 @@ namespace brio {
 
 namespace {
 
-Vector position_of(const Model& model, int node) {
-  const double* x = model.nodes.record[index(node)].position;
-  return {x[0], x[1], x[2]};
-}
-
-double distance(const Vector& a, const Vector& b) {
-  const Vector d{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  return std::sqrt(dot(d, d));
-}
-
 // Sides of sides_of_hex at both ends of each direction.
 constexpr std::array<std::array<int, 2>, 3> ends_of_direction{{{5, 3}, {2, 4}, {0, 1}}};
 
 std::vector<double> edges_of(const Model& model, const std::vector<int>& nodes) {
-  std::vector<Vector> corners;
-  for (const int node : nodes) corners.push_back(position_of(model, node));
+  std::vector<Vector3d> corners;
+  for (const int node : nodes) corners.push_back(position(model.nodes, node));
   return edge_lengths(corners);
 }
 
@@ -42,7 +32,7 @@ double length_along(const Model& model, const std::vector<int>& nodes, std::size
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto& [a, b] = edges_of_hex[4 * direction + k];
-    sum += 0.25 * distance(position_of(model, nodes[index(a)]), position_of(model, nodes[index(b)]));
+    sum += 0.25 * norm(position(model.nodes, nodes[index(a)]) - position(model.nodes, nodes[index(b)]));
   }
   return sum;
 }

@@ -9,8 +9,8 @@
 namespace brio {
 
 struct PartShape {
-  Vector lower{}, upper{};        ///< of its nodes
-  Vector velocity{};              ///< mean of its nodes
+  Vector3d lower{}, upper{};      ///< of its nodes
+  Vector3d velocity{};            ///< mean of its nodes
   double edge = 0;                ///< median of all edges; of particles their spacing
   double largest_aspect = 1;      ///< longest edge of an element over its shortest
   std::size_t long_elements = 0;  ///< whose aspect is above aspect_limit

@@ -7,23 +7,14 @@
 
 namespace brio {
 
-namespace {
-
-Vector position_of(const Nodes& nodes, std::size_t node) {
-  const double* x = nodes.record[node].position;
-  return {x[0], x[1], x[2]};
-}
-
-}  // namespace
-
-std::size_t nearest_node(const Vector& point, const std::optional<std::string>& part, const Deck& deck,
+std::size_t nearest_node(const Vector3d& point, const std::optional<std::string>& part, const Deck& deck,
                          std::span<const PartInModel> parts, const Nodes& nodes) {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   const auto look = [&](const PartInModel& of) {
     for (const int entry : of.node) {
       const auto node = index(entry);
-      Vector distance = position_of(nodes, node);
+      Vector3d distance = position(nodes, node);
       for (std::size_t i = 0; i < 3; ++i) distance[i] -= point[i];
       const double square = dot(distance, distance);
       if (square >= least) continue;
@@ -43,7 +34,7 @@ std::vector<ProbeInRun> place_probes(const Deck& deck, std::span<const PartInMod
   std::vector<ProbeInRun> probes;
   for (const Probe& wanted : deck.output.history.probes) {
     const std::size_t node = nearest_node(wanted.point, wanted.part, deck, parts, nodes);
-    probes.push_back({.name = wanted.name, .node = node, .at_start = position_of(nodes, node)});
+    probes.push_back({.name = wanted.name, .node = node, .at_start = position(nodes, node)});
   }
   return probes;
 }

@@ -15,12 +15,12 @@ namespace brio {
 struct ProbeInRun {
   std::string name;
   std::size_t node = 0;
-  Vector at_start{};  ///< its position
+  Vector3d at_start{};  ///< its position
 };
 
 /// The node nearest to a point, the first of equals. \param part empty: of all parts
 /// \throws BuildError where the part is not there
-std::size_t nearest_node(const Vector& point, const std::optional<std::string>& part, const Deck& deck,
+std::size_t nearest_node(const Vector3d& point, const std::optional<std::string>& part, const Deck& deck,
                          std::span<const PartInModel> parts, const Nodes& nodes);
 
 /// The nodes nearest to the probes. \throws BuildError where a part is not there.

@@ -9,11 +9,6 @@ namespace brio {
 
 namespace {
 
-Vector position_of(const Nodes& nodes, std::size_t node) {
-  const double* x = nodes.record[node].position;
-  return {x[0], x[1], x[2]};
-}
-
 // Duals change no other prescribed component, so that one may be set after the other.
 Reaction prescribe_skew(PrescribedNodes& given, const StepTimes& times, Nodes& nodes) {
   Reaction reaction;
@@ -24,17 +19,17 @@ Reaction prescribe_skew(PrescribedNodes& given, const StepTimes& times, Nodes& n
     const double inertia = given.turns() ? nodes.rotational_inertia[node] : nodes.mass[node];
     const double* before =
         (given.turns() ? nodes.angular_velocity_before : nodes.velocity_before)[node].component;
-    const Vector was{before[0], before[1], before[2]}, is{velocity[0], velocity[1], velocity[2]};
+    const Vector3d was = vector_at(before), is = vector_at(velocity);
     const double change = velocity_given.after(dot(given.direction[k], was)) - dot(given.direction[k], is);
-    Vector& impulse = given.impulse[k];
+    Vector3d& impulse = given.impulse[k];
     for (std::size_t i = 0; i < 3; ++i) {
       velocity[i] += change * given.dual[k][i];
       impulse[i] = inertia * change * given.dual[k][i];
     }
     if (given.turns()) {
-      add_to(reaction.impulse.angular, impulse);
+      reaction.impulse.angular += impulse;
     } else {
-      reaction.impulse.add(position_of(nodes, node), impulse);
+      reaction.impulse.add(position(nodes, node), impulse);
     }
     reaction.before += dot(impulse, was);
   }
@@ -52,12 +47,12 @@ double work_after(const PrescribedNodes& given, const Nodes& nodes) {
     const auto node = index(given.nodes[k]);
     const double* velocity =
         given.turns() ? nodes.angular_velocity[node].component : nodes.record[node].velocity;
-    sum += dot(given.impulse[k], {velocity[0], velocity[1], velocity[2]});
+    sum += dot(given.impulse[k], vector_at(velocity));
   }
   return sum;
 }
 
-double compliance(const SymmetricTensor<double>& free, double inverse, const Vector& impulse) {
+double compliance(const SymmetricTensor<double>& free, double inverse, const Vector3d& impulse) {
   const double share = dot(impulse, free * impulse);
   return share > rounding_of_free_share * dot(impulse, impulse) ? inverse * share : 0;
 }
@@ -89,13 +84,13 @@ Reaction prescribe(PrescribedNodes& given, const StepTimes& times, Nodes& nodes)
     const double before =
         (turns ? nodes.angular_velocity_before : nodes.velocity_before)[node].component[axis];
     const double after = velocity_given.after(before);
-    Vector impulse{};
+    Vector3d impulse{};
     impulse[axis] = inertia * (after - velocity);
     velocity = after;
     if (turns) {
-      add_to(reaction.impulse.angular, impulse);
+      reaction.impulse.angular += impulse;
     } else {
-      reaction.impulse.add(position_of(nodes, node), impulse);
+      reaction.impulse.add(position(nodes, node), impulse);
     }
     reaction.before += impulse[axis] * before;
     reaction.after += impulse[axis] * after;
@@ -120,7 +115,7 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, Nodes& node
     const double yielding = compliance(free, record.inverse_mass, wall.normal);
     if (yielding <= 0) continue;
     const double normal_impulse = -height / times.next / yielding;
-    Vector normal{}, tangential{}, sliding{};
+    Vector3d normal{}, tangential{}, sliding{};
     double along = 0;
     for (std::size_t i = 0; i < 3; ++i) along += wall.normal[i] * (record.velocity[i] - wall.velocity[i]);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -133,7 +128,7 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, Nodes& node
       const double size = std::min(stick, wall.friction * normal_impulse);
       for (std::size_t i = 0; i < 3; ++i) tangential[i] = -size * sliding[i] / speed;
     }
-    const Vector position = position_of(nodes, node);
+    const Vector3d x = position(nodes, node);
     normal = free * normal;
     tangential = free * tangential;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -145,8 +140,8 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, Nodes& node
       reaction.friction.before += tangential[i] * before;
       reaction.friction.after += tangential[i] * after;
     }
-    reaction.normal.impulse.add(position, normal);
-    reaction.friction.impulse.add(position, tangential);
+    reaction.normal.impulse.add(x, normal);
+    reaction.friction.impulse.add(x, tangential);
   }
   return reaction;
 }

@@ -10,12 +10,6 @@
 
 namespace brio {
 
-inline Vector to_vector(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-inline Vector operator*(const SymmetricTensor<double>& a, const Vector& v) {
-  const Vector3<double> product = a * Vector3<double>{v[0], v[1], v[2]};
-  return {product.x, product.y, product.z};
-}
-
 /// One component of motion of a list of nodes.
 struct PrescribedNodes {
   std::vector<int> nodes;
@@ -27,15 +21,15 @@ struct PrescribedNodes {
   /// Of each node, where its supports are not all along the global axes, else empty: the unit vector along
   /// which the component is, and the change of velocity that changes it by one and no other that is
   /// prescribed (skew_supports.hpp).
-  std::vector<Vector> direction{}, dual{};
-  std::vector<Vector> impulse{};  ///< on each node in this step; likewise
+  std::vector<Vector3d> direction{}, dual{};
+  std::vector<Vector3d> impulse{};  ///< on each node in this step; likewise
 
   bool turns() const { return axis >= 3; }
   bool is_skew() const { return !direction.empty(); }
   /// Of the node at a place of the list, or of all.
-  Vector direction_of(std::size_t at) const {
+  Vector3d direction_of(std::size_t at) const {
     if (is_skew()) return direction[at];
-    Vector unit{};
+    Vector3d unit{};
     unit[index(axis % 3)] = 1;
     return unit;
   }
@@ -77,7 +71,7 @@ double work_after(const PrescribedNodes& given, const Nodes& nodes);
 
 /// J.v of a unit of the impulse J on a node, or a moment, of which supports leave a share: 0 where that is
 /// rounding. \param free directions \param inverse mass or inertia
-double compliance(const SymmetricTensor<double>& free, double inverse, const Vector& impulse);
+double compliance(const SymmetricTensor<double>& free, double inverse, const Vector3d& impulse);
 
 /// A rigid wall: nodes that would be behind it at the end of the time step are stopped on it.
 struct WallInRun {

@@ -7,7 +7,7 @@ namespace {
 /// What damping adds to a force f: with b = alpha h / 2 the velocity after the step is
 /// (v (1 - b) + h f / m) / (1 + b), as a force of (f - alpha m v) / (1 + b) gives it.
 void damp_rows(double rate, double mean_step, double inverse_inertia, const double* velocity, double* force,
-               Vector& added) {
+               Vector3d& added) {
   added = {};
   if (rate == 0 || inverse_inertia == 0) return;
   const double share = 1 / (1 + 0.5 * rate * mean_step);
@@ -18,12 +18,10 @@ void damp_rows(double rate, double mean_step, double inverse_inertia, const doub
   }
 }
 
-double dot_of(const Vector& a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 }  // namespace
 
 NodalDamping make_damping(std::vector<double> rate, const Nodes& nodes) {
-  NodalDamping damping{.rate = std::move(rate), .force = std::vector<Vector>(nodes.size())};
+  NodalDamping damping{.rate = std::move(rate), .force = std::vector<Vector3d>(nodes.size())};
   if (nodes.has_rotations()) damping.moment.resize(nodes.size());
   return damping;
 }
@@ -41,20 +39,16 @@ void damp(NodalDamping& damping, double mean_step, Nodes& nodes) {
 
 double power(const NodalDamping& damping, const Nodes& nodes) {
   double sum = 0;
-  for (std::size_t i = 0; i < damping.force.size(); ++i)
-    sum += dot_of(damping.force[i], nodes.record[i].velocity);
+  for (std::size_t i = 0; i < damping.force.size(); ++i) sum += dot(damping.force[i], velocity(nodes, i));
   for (std::size_t i = 0; i < damping.moment.size(); ++i)
-    sum += dot_of(damping.moment[i], nodes.angular_velocity[i].component);
+    sum += dot(damping.moment[i], vector_at(nodes.angular_velocity[i].component));
   return sum;
 }
 
 Impulse resultant(const NodalDamping& damping, const Nodes& nodes) {
   Impulse sum;
-  for (std::size_t i = 0; i < damping.force.size(); ++i) {
-    const double* x = nodes.record[i].position;
-    sum.add(Vector{x[0], x[1], x[2]}, damping.force[i]);
-  }
-  for (const Vector& moment : damping.moment) add_to(sum.angular, moment);
+  for (std::size_t i = 0; i < damping.force.size(); ++i) sum.add(position(nodes, i), damping.force[i]);
+  for (const Vector3d& moment : damping.moment) sum.angular += moment;
   return sum;
 }
 

@@ -11,8 +11,8 @@
 namespace brio {
 
 struct NodalDamping {
-  std::vector<double> rate;             ///< alpha of each node, 1/time; empty: nothing is damped
-  std::vector<Vector> force, moment{};  ///< of damping, in the present step; moments where nodes turn
+  std::vector<double> rate;               ///< alpha of each node, 1/time; empty: nothing is damped
+  std::vector<Vector3d> force, moment{};  ///< of damping, in the present step; moments where nodes turn
 
   bool empty() const { return rate.empty(); }
 };

@@ -18,14 +18,6 @@
 
 namespace brio {
 
-inline Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline void add_to(Vector& sum, const Vector& a) {
-  for (std::size_t i = 0; i < 3; ++i) sum[i] += a[i];
-}
-
 /// Work done by one kind of force.
 struct Work {
   double half = 0;    ///< up to the half step before the present step
@@ -47,16 +39,16 @@ struct Work {
 
 /// Linear impulse or momentum, and angular about the origin.
 struct Impulse {
-  Vector linear{};
-  Vector angular{};
+  Vector3d linear{};
+  Vector3d angular{};
 
-  void add(const Vector& position, const Vector& impulse) {
-    add_to(linear, impulse);
-    add_to(angular, cross(position, impulse));
+  void add(const Vector3d& position, const Vector3d& impulse) {
+    linear += impulse;
+    angular += cross(position, impulse);
   }
   Impulse& operator+=(const Impulse& other) {
-    add_to(linear, other.linear);
-    add_to(angular, other.angular);
+    linear += other.linear;
+    angular += other.angular;
     return *this;
   }
   Impulse& operator*=(double factor) {
@@ -199,7 +191,7 @@ struct MomentumBalance {
   double angular_imbalance() const { return imbalance(&Impulse::angular, angular_scale); }
 
  private:
-  double imbalance(Vector Impulse::*kind, double scale) const {
+  double imbalance(Vector3d Impulse::*kind, double scale) const {
     double largest = 0;
     for (std::size_t i = 0; i < 3; ++i)
       largest = std::max(largest, std::abs((now.*kind)[i] - (start.*kind)[i] - (loads.*kind)[i] -

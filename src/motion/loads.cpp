@@ -6,11 +6,6 @@ namespace brio {
 
 namespace {
 
-Vector position_of(const Nodes& nodes, int node) {
-  const double* x = nodes.record[index(node)].position;
-  return {x[0], x[1], x[2]};
-}
-
 void forces_of(const GravityLoad& load, double time, const Nodes& nodes, std::vector<NodeForce>& applied) {
   const double factor = load.factor(time);
   applied.resize(nodes.size());
@@ -26,7 +21,7 @@ void forces_of(const NodalLoad& load, double time, const Nodes&, std::vector<Nod
   applied.resize(load.nodes.size());
   for (std::size_t i = 0; i < load.nodes.size(); ++i) {
     applied[i].node = load.nodes[i];
-    const Vector& force = load.own_force.empty() ? load.force : load.own_force[i];
+    const Vector3d& force = load.own_force.empty() ? load.force : load.own_force[i];
     for (std::size_t axis = 0; axis < 3; ++axis) applied[i].force[axis] = factor * force[axis];
   }
 }
@@ -39,9 +34,9 @@ void forces_of(const PressureLoad& load, double time, const Nodes& nodes, std::v
   applied.resize(4 * load.sides.size());
   constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   for (std::size_t s = 0; s < load.sides.size(); ++s) {
-    Vector along_xi{}, along_eta{}, twist{}, centre{};
+    Vector3d along_xi{}, along_eta{}, twist{}, centre{};
     for (std::size_t k = 0; k < 4; ++k) {
-      const Vector x = position_of(nodes, load.sides[s][k]);
+      const Vector3d x = position(nodes, load.sides[s][k]);
       for (std::size_t i = 0; i < 3; ++i) {
         along_xi[i] += 0.25 * corner[k][0] * x[i];
         along_eta[i] += 0.25 * corner[k][1] * x[i];
@@ -50,9 +45,9 @@ void forces_of(const PressureLoad& load, double time, const Nodes& nodes, std::v
       }
     }
     if (varies) pressure = load.pressure.at(centre, time);
-    const Vector normal = cross(along_xi, along_eta);
-    const Vector with_xi = cross(along_xi, twist);    // coefficient of xi in the area vector
-    const Vector with_eta = cross(twist, along_eta);  // coefficient of eta
+    const Vector3d normal = cross(along_xi, along_eta);
+    const Vector3d with_xi = cross(along_xi, twist);    // coefficient of xi in the area vector
+    const Vector3d with_eta = cross(twist, along_eta);  // coefficient of eta
     for (std::size_t k = 0; k < 4; ++k) {
       NodeForce& entry = applied[4 * s + k];
       entry.node = load.sides[s][k];
@@ -88,9 +83,9 @@ Impulse resultant(const ActiveLoad& load, const Nodes& nodes) {
   const bool is_moment = load.is_moment();
   for (const NodeForce& entry : load.applied) {
     if (is_moment)
-      add_to(sum.angular, entry.force);
+      sum.angular += entry.force;
     else
-      sum.add(position_of(nodes, entry.node), entry.force);
+      sum.add(position(nodes, entry.node), entry.force);
   }
   return sum;
 }

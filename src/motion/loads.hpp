@@ -13,22 +13,22 @@ namespace brio {
 /// Or a moment, where the load is one of moments.
 struct NodeForce {
   int node;
-  Vector force;
+  Vector3d force;
 };
 
 /// m g on every node.
 struct GravityLoad {
-  Vector acceleration{};
+  Vector3d acceleration{};
   Curve factor;
 };
 /// The same force, or moment, on each node of a list, or one of its own on each.
 struct NodalLoad {
   std::vector<int> nodes;
-  Vector force{};
+  Vector3d force{};
   Curve factor;
   bool is_moment = false;
   std::vector<std::size_t> bodies{};  ///< rigid bodies on which the moment acts once
-  std::vector<Vector> own_force{};    ///< of each node, where they differ; else empty
+  std::vector<Vector3d> own_force{};  ///< of each node, where they differ; else empty
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>

@@ -115,7 +115,7 @@ double sum_of(Eight lanes) {
   for (int lane = 0; lane < 8; ++lane) sum += lanes[lane];
   return sum;
 }
-Vector sum_of(const Vector3<Eight>& lanes) { return {sum_of(lanes.x), sum_of(lanes.y), sum_of(lanes.z)}; }
+Vector3d sum_of(const Vector3<Eight>& lanes) { return {sum_of(lanes.x), sum_of(lanes.y), sum_of(lanes.z)}; }
 
 // Of rows of 4 numbers.
 Vector3<Eight> in_lanes(const Row4 (&rows)[8]) {

@@ -24,7 +24,7 @@ void turn(NodeRotations& rotations, const Nodes& nodes, double step, ThreadTeam&
   team.for_ranges(rotations.size(), nodes_per_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const double* rate = nodes.angular_velocity[i].component;
-      rotations[i] = turned(Vector3<double>{step * rate[0], step * rate[1], step * rate[2]}, rotations[i]);
+      rotations[i] = turned(Vector3d{step * rate[0], step * rate[1], step * rate[2]}, rotations[i]);
     }
   });
 }

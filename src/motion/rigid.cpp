@@ -8,42 +8,32 @@
 
 namespace brio {
 
-using Eigen::Matrix3d;
-using Eigen::Quaterniond;
-using Eigen::Vector3d;
-
 namespace {
-
-Matrix3d cross_matrix(const Vector3d& v) {
-  Matrix3d matrix;
-  matrix << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
-  return matrix;
-}
 
 bool rotation_is_given(const RigidBody& body) {
   return body.is_given(3) || body.is_given(4) || body.is_given(5);
 }
 
 // Inverse within the rows and columns of the free rotations about the body's axes, 0 elsewhere.
-Matrix3d free_inverse(const RigidBody& body, const Matrix3d& inertia) {
-  if (!rotation_is_given(body)) return inertia.inverse();
-  const Matrix3d along_axes = body.axes * inertia * body.axes.transpose();
-  Matrix3d reduced = along_axes;
+Tensor<double> free_inverse(const RigidBody& body, const Tensor<double>& inertia) {
+  if (!rotation_is_given(body)) return inverse(inertia);
+  const Tensor<double> along_axes = body.axes * inertia * transposed(body.axes);
+  Tensor<double> reduced = along_axes;
   for (int axis = 0; axis < 3; ++axis) {
     if (!body.is_given(axis + 3)) continue;
-    reduced.row(axis).setZero();
-    reduced.col(axis).setZero();
+    reduced.set_row(axis, {});
+    reduced.set_column(axis, {});
     reduced(axis, axis) = along_axes(axis, axis);
   }
-  Matrix3d inverse = reduced.inverse();
+  Tensor<double> result = inverse(reduced);
   for (int axis = 0; axis < 3; ++axis)
-    if (body.is_given(axis + 3)) inverse(axis, axis) = 0;
-  return body.axes.transpose() * inverse * body.axes;
+    if (body.is_given(axis + 3)) result(axis, axis) = 0;
+  return transposed(body.axes) * result * body.axes;
 }
 
-Matrix3d turned(const Matrix3d& inertia, const Quaterniond& attitude) {
-  const Matrix3d turn = attitude.toRotationMatrix();
-  return turn * inertia * turn.transpose();
+Tensor<double> turned(const Tensor<double>& inertia, const Quaternion<double>& attitude) {
+  const Tensor<double> turn = rotation_matrix(attitude);
+  return turn * inertia * transposed(turn);
 }
 
 // The angular velocity whose given components are those of `given` and whose momentum has the free components
@@ -52,7 +42,7 @@ Vector3d angular_velocity_of(const RigidMotion& motion, const Vector3d& momentum
   given = motion.axes * given;
   for (int axis = 0; axis < 3; ++axis)
     if (!motion.rotation_is_given(axis)) given[axis] = 0;
-  given = motion.axes.transpose() * given;
+  given = transposed_times(motion.axes, given);
   return given + motion.inverse_inertia * (momentum - motion.inertia * given);
 }
 
@@ -66,20 +56,9 @@ void prepare(const RigidBody& body, RigidMotion& motion) {
   motion.angular_velocity_before = motion.angular_velocity;
 }
 
-Quaterniond normalized(const Quaterniond& q) {
-  const double size = std::sqrt(q.w() * q.w() + q.x() * q.x() + q.y() * q.y() + q.z() * q.z());
-  return {q.w() / size, q.x() / size, q.y() / size, q.z() / size};
-}
-
 // Cayley transform of a vector: a turn by the angle 2 atan(|v|/2) about it.
-Quaterniond cayley(const Vector3d& v) { return normalized({1, 0.5 * v[0], 0.5 * v[1], 0.5 * v[2]}); }
-
-// A turn by the angle |v| about v.
-Quaterniond turn_by(const Vector3d& v) {
-  const double angle = v.norm();
-  if (angle == 0) return Quaterniond::Identity();
-  const double share = std::sin(0.5 * angle) / angle;
-  return normalized({std::cos(0.5 * angle), share * v[0], share * v[1], share * v[2]});
+Quaternion<double> cayley(const Vector3d& v) {
+  return normalized(Quaternion<double>{1, 0.5 * v.x, 0.5 * v.y, 0.5 * v.z});
 }
 
 [[noreturn]] void turns_too_far() {
@@ -93,20 +72,20 @@ constexpr double newton_share = 1e-9;
 constexpr double converged_change = 1e-15;
 
 // Midpoint rule for the angular momentum m in the body's frame, m' = m x (J^-1 m).
-Quaterniond free_turn(const RigidBody& body, double step) {
-  const Vector3d start = body.attitude.conjugate()._transformVector(body.angular_momentum);
-  const Matrix3d inverse = body.inertia.inverse();
-  Vector3d end = start + step * start.cross(inverse * start);
+Quaternion<double> free_turn(const RigidBody& body, double step) {
+  const Vector3d start = rotated(conjugate(body.attitude), body.angular_momentum);
+  const Tensor<double> of_momentum = inverse(body.inertia);
+  Vector3d end = start + step * cross(start, of_momentum * start);
   for (int i = 0; i < most_iterations; ++i) {
     const Vector3d mean = 0.5 * (start + end);
-    const Vector3d rate = inverse * mean;
-    const Vector3d residual = end - start - step * mean.cross(rate);
-    const Matrix3d slope =
-        Matrix3d::Identity() - 0.5 * step * (cross_matrix(mean) * inverse - cross_matrix(rate));
-    const Vector3d change = slope.inverse() * residual;
+    const Vector3d rate = of_momentum * mean;
+    const Vector3d residual = end - start - step * cross(mean, rate);
+    const Tensor<double> slope =
+        identity<double>() - 0.5 * step * (cross_matrix(mean) * of_momentum - cross_matrix(rate));
+    const Vector3d change = inverse(slope) * residual;
     end -= change;
-    if (change.norm() <= newton_share * start.norm())
-      return normalized(body.attitude * cayley(step * (inverse * (0.5 * (start + end)))));
+    if (norm(change) <= newton_share * norm(start))
+      return normalized(body.attitude * cayley(step * (of_momentum * (0.5 * (start + end)))));
   }
   turns_too_far();
 }
@@ -114,21 +93,21 @@ Quaterniond free_turn(const RigidBody& body, double step) {
 // Free components of the angular momentum are kept, given components of the angular velocity too; the turn is
 // by the mean of the angular velocities at both ends. \return the momentum that supports added.
 Vector3d given_turn(RigidBody& body, RigidMotion& motion, double step) {
-  const Quaterniond attitude = body.attitude;
+  const Quaternion<double> attitude = body.attitude;
   const Vector3d start = motion.angular_velocity;
   Vector3d end = start;
   double last_change = HUGE_VAL;
   for (int i = 0; i < most_iterations; ++i) {
-    body.attitude = normalized(turn_by(0.5 * step * (start + end)) * attitude);
+    body.attitude = normalized(rotation_by(0.5 * step * (start + end)) * attitude);
     motion.inertia = turned(body.inertia, body.attitude);
     motion.inverse_inertia = free_inverse(body, motion.inertia);
     const Vector3d next = angular_velocity_of(motion, body.angular_momentum, start);
-    const double change = (next - end).norm();
+    const double change = norm(next - end);
     end = next;
     // Below the rounding of what it is computed from, a change does not get smaller.
-    const bool is_rounding = change <= newton_share * start.norm() && change >= last_change;
+    const bool is_rounding = change <= newton_share * norm(start) && change >= last_change;
     last_change = change;
-    if (is_rounding || change <= converged_change * start.norm()) {
+    if (is_rounding || change <= converged_change * norm(start)) {
       Vector3d added = motion.inertia * end - body.angular_momentum;
       body.angular_momentum += added;
       return added;
@@ -140,7 +119,7 @@ Vector3d given_turn(RigidBody& body, RigidMotion& motion, double step) {
 constexpr std::size_t nodes_per_task = 4096;
 
 void place_nodes(const RigidBody& body, Nodes& nodes, ThreadTeam& team) {
-  const Matrix3d turn = body.attitude.toRotationMatrix();
+  const Tensor<double> turn = rotation_matrix(body.attitude);
   team.for_ranges(body.node.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3d x = body.centre + turn * body.arm[i];
@@ -153,9 +132,9 @@ void place_nodes(const RigidBody& body, Nodes& nodes, ThreadTeam& team) {
 // Before the body moves.
 void keep_joints(RigidBody& body) {
   if (body.joint.empty()) return;
-  const Matrix3d turn = body.attitude.toRotationMatrix();
+  const Tensor<double> turn = rotation_matrix(body.attitude);
   for (std::size_t j = 0; j < body.joint.size(); ++j)
-    body.joint_before[j] = to_vector(body.centre + turn * body.arm[body.joint[j]]);
+    body.joint_before[j] = body.centre + turn * body.arm[body.joint[j]];
 }
 
 void take_displacements(const RigidBody& body, double step, Nodes& nodes) {
@@ -168,7 +147,7 @@ void take_displacements(const RigidBody& body, double step, Nodes& nodes) {
 
 void add_torques(RigidBodies& bodies, const NodalLoad& load, double time) {
   if (load.bodies.empty()) return;
-  const Vector3d moment = load.factor(time) * Vector3d(load.force.data());
+  const Vector3d moment = load.factor(time) * load.force;
   for (const std::size_t b : load.bodies) bodies.body[b].torque += moment;
 }
 
@@ -193,10 +172,10 @@ KineticEnergy kinetic_energy(const RigidBodies& bodies) {
   for (std::size_t b = 0; b < bodies.body.size(); ++b) {
     const RigidBody& body = bodies.body[b];
     const RigidMotion& motion = bodies.motion[b];
-    energy.half += 0.5 * (body.mass * motion.velocity.squaredNorm() +
-                          body.angular_momentum.dot(motion.angular_velocity));
-    energy.now += 0.5 * (body.mass * motion.velocity.dot(motion.velocity_before) +
-                         body.angular_momentum.dot(motion.angular_velocity_before));
+    energy.half += 0.5 * (body.mass * squared_norm(motion.velocity) +
+                          dot(body.angular_momentum, motion.angular_velocity));
+    energy.now += 0.5 * (body.mass * dot(motion.velocity, motion.velocity_before) +
+                         dot(body.angular_momentum, motion.angular_velocity_before));
   }
   return energy;
 }
@@ -205,20 +184,20 @@ void add_momentum(const RigidBodies& bodies, Momentum& sum) {
   for (std::size_t b = 0; b < bodies.body.size(); ++b) {
     const RigidBody& body = bodies.body[b];
     const Vector3d linear = body.mass * bodies.motion[b].velocity;
-    sum.total.add(to_vector(body.centre), to_vector(linear));
-    add_to(sum.total.angular, to_vector(body.angular_momentum));
-    sum.linear_size += linear.norm();
-    sum.angular_size += linear.norm() * body.centre.norm() + body.angular_momentum.norm();
+    sum.total.add(body.centre, linear);
+    sum.total.angular += body.angular_momentum;
+    sum.linear_size += norm(linear);
+    sum.angular_size += norm(linear) * norm(body.centre) + norm(body.angular_momentum);
   }
 }
 
 void gather_forces(RigidBodies& bodies, std::span<const ActiveLoad> loads, double time, bool by_nodes,
                    const Nodes& nodes) {
-  Vector3d gravity = Vector3d::Zero();
-  for (RigidBody& body : bodies.body) body.torque.setZero();
+  Vector3d gravity{};
+  for (RigidBody& body : bodies.body) body.torque = {};
   for (const ActiveLoad& entry : loads) {
     if (const auto* load = std::get_if<GravityLoad>(&entry.load))
-      gravity += load->factor(time) * Vector3d(load->acceleration.data());
+      gravity += load->factor(time) * load->acceleration;
     else if (const auto* nodal = std::get_if<NodalLoad>(&entry.load))
       add_torques(bodies, *nodal, time);
   }
@@ -229,29 +208,29 @@ void gather_forces(RigidBodies& bodies, std::span<const ActiveLoad> loads, doubl
     if (!by_nodes) continue;
     for (int entry : body.node) {
       const auto node = index(entry);
-      const Vector3d force(nodes.force[node].component);
+      const Vector3d force = vector_at(nodes.force[node].component);
       body.force += force;
-      body.moment += (Vector3d(nodes.record[node].position) - body.centre).cross(force);
+      body.moment += cross(vector_at(nodes.record[node].position) - body.centre, force);
     }
     if (!nodes.has_rotations()) continue;
     for (const std::size_t i : body.joint)
-      body.moment += Vector3d(nodes.moment[index(body.node[i])].component);
+      body.moment += vector_at(nodes.moment[index(body.node[i])].component);
   }
 }
 
 double load_power(const RigidBodies& bodies) {
   double sum = 0;
   for (std::size_t b = 0; b < bodies.body.size(); ++b)
-    sum += bodies.body[b].weight.dot(bodies.motion[b].velocity) +
-           bodies.body[b].torque.dot(bodies.motion[b].angular_velocity);
+    sum += dot(bodies.body[b].weight, bodies.motion[b].velocity) +
+           dot(bodies.body[b].torque, bodies.motion[b].angular_velocity);
   return sum;
 }
 
 Impulse load_resultant(const RigidBodies& bodies) {
   Impulse sum;
   for (const RigidBody& body : bodies.body) {
-    sum.add(to_vector(body.centre), to_vector(body.weight));
-    add_to(sum.angular, to_vector(body.torque));
+    sum.add(body.centre, body.weight);
+    sum.angular += body.torque;
   }
   return sum;
 }
@@ -277,16 +256,16 @@ Reaction accelerate(RigidBodies& bodies, const StepTimes& times) {
       const double before = one.axis < 3 ? linear_before[one.axis] : angular_before[one.axis - 3];
       rate = given_velocity(one.kind, one.curve, times).after(before);
     }
-    motion.velocity = body.axes.transpose() * linear;
-    motion.angular_velocity = angular_velocity_of(motion, turning, body.axes.transpose() * angular);
+    motion.velocity = transposed_times(body.axes, linear);
+    motion.angular_velocity = angular_velocity_of(motion, turning, transposed_times(body.axes, angular));
     if (rotation_is_given(body)) body.angular_momentum = motion.inertia * motion.angular_velocity;
     const Vector3d impulse = body.mass * (motion.velocity - pushed);
     const Vector3d moment = body.angular_momentum - turning;
     body.support = impulse;
-    reaction.impulse.add(to_vector(body.centre), to_vector(impulse));
-    add_to(reaction.impulse.angular, to_vector(moment));
-    reaction.before += impulse.dot(motion.velocity_before) + moment.dot(motion.angular_velocity_before);
-    reaction.after += impulse.dot(motion.velocity) + moment.dot(motion.angular_velocity);
+    reaction.impulse.add(body.centre, impulse);
+    reaction.impulse.angular += moment;
+    reaction.before += dot(impulse, motion.velocity_before) + dot(moment, motion.angular_velocity_before);
+    reaction.after += dot(impulse, motion.velocity) + dot(moment, motion.angular_velocity);
   }
   return reaction;
 }
@@ -295,13 +274,13 @@ void add_contact_impulses(RigidBodies& bodies) {
   for (std::size_t b = 0; b < bodies.body.size(); ++b) {
     RigidBody& body = bodies.body[b];
     RigidMotion& motion = bodies.motion[b];
-    if (!motion.moment.isZero(0)) {
+    if (!is_zero(motion.moment)) {
       body.angular_momentum += motion.moment;
       motion.angular_velocity = angular_velocity_of(motion, body.angular_momentum, motion.angular_velocity);
       if (rotation_is_given(body)) body.angular_momentum = motion.inertia * motion.angular_velocity;
     }
-    motion.impulse.setZero();
-    motion.moment.setZero();
+    motion.impulse = {};
+    motion.moment = {};
   }
 }
 
@@ -312,7 +291,7 @@ void carry_velocities(const RigidBodies& bodies, Nodes& nodes, ThreadTeam& team)
     team.for_ranges(body.node.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         NodeRecord& record = nodes.record[index(body.node[i])];
-        const Vector3d velocity = motion.velocity_at(Vector3d(record.position) - body.centre);
+        const Vector3d velocity = motion.velocity_at(vector_at(record.position) - body.centre);
         for (int axis = 0; axis < 3; ++axis) record.velocity[axis] = velocity[axis];
       }
     });
@@ -333,10 +312,10 @@ Reaction move(RigidBodies& bodies, double step, Nodes& nodes, ThreadTeam& team) 
     if (rotation_is_given(body)) {
       const Vector3d rate = motion.angular_velocity;
       const Vector3d added = given_turn(body, motion, step);
-      add_to(reaction.impulse.angular, to_vector(added));
+      reaction.impulse.angular += added;
       for (int axis = 0; axis < 3; ++axis)
         if (body.is_given(axis + 3))
-          reaction.after += body.axes.row(axis).dot(added) * body.axes.row(axis).dot(rate);
+          reaction.after += dot(body.axes.row(axis), added) * dot(body.axes.row(axis), rate);
     } else {
       body.attitude = free_turn(body, step);
     }

@@ -10,16 +10,16 @@
 /// Cayley transform of the mean rate, conserves L and the energy L.I^-1.L/2 to rounding for any time step
 /// (Lewis and Simo 1994; Simo and Wong 1991).
 
-#include <Eigen/Dense>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "contact/features/rigid_motion.hpp"
+#include "elements/base/quaternion.hpp"
 #include "src/base/nodes.hpp"
 #include "src/base/parallel.hpp"
+#include "src/base/tensor.hpp"
 #include "src/deck/mass_properties.hpp"
 #include "src/motion/constraints.hpp"
 #include "src/motion/loads.hpp"
@@ -40,46 +40,45 @@ struct PrescribedRigid {
 /// A node of a body in contact with a wall in the present time step.
 struct WallTouch {
   int node = 0;
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  Vector3d arm{};
   double normal_mass = 0;
   double target = 0;   ///< least velocity away from the wall
   double impulse = 0;  ///< along the wall's normal; never negative
-  Eigen::Vector3d friction = Eigen::Vector3d::Zero();
+  Vector3d friction{};
 };
 
 struct RigidBody {
   std::size_t part = 0;
-  std::vector<int> node;             ///< of the model
-  std::vector<Eigen::Vector3d> arm;  ///< from the centre to each node, in the initial attitude
-  std::vector<int> connectivity;     ///< nodes of the model, in the order of the part's mesh
+  std::vector<int> node;          ///< of the model
+  std::vector<Vector3d> arm;      ///< from the centre to each node, in the initial attitude
+  std::vector<int> connectivity;  ///< nodes of the model, in the order of the part's mesh
   int nodes_per_element = 8;
-  double thickness = 0;              ///< of shells
-  std::vector<std::size_t> joint;    ///< places in `node` of those that belong to elements as well
-  std::vector<Vector> joint_before;  ///< their positions before the step; working space
+  double thickness = 0;                ///< of shells
+  std::vector<std::size_t> joint;      ///< places in `node` of those that belong to elements as well
+  std::vector<Vector3d> joint_before;  ///< their positions before the step; working space
 
   MassProperties own;  ///< without joined nodes, at the start
   double mass = 0;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre, in the initial attitude
+  Tensor<double> inertia{};  ///< about the centre, in the initial attitude
   std::vector<PrescribedRigid> given;
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: of the components in `given`
+  Tensor<double> axes = identity<double>();  ///< rows: of the components in `given`
 
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d angular_momentum = Eigen::Vector3d::Zero();  ///< about the centre, at the last half step
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();             ///< of loads, in this step
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-  Eigen::Vector3d weight = Eigen::Vector3d::Zero();  ///< gravity as a part of the force
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< of loads on the body itself, as a part of the moment
-  std::vector<WallTouch> touch;                      ///< at the wall under consideration
-  Eigen::Vector3d support =
-      Eigen::Vector3d::Zero();  ///< linear impulse of its supports, but in contact, in this step
+  Vector3d centre{};
+  Quaternion<double> attitude = no_rotation;
+  Vector3d angular_momentum{};  ///< about the centre, at the last half step
+  Vector3d force{};             ///< of loads, in this step
+  Vector3d moment{};
+  Vector3d weight{};              ///< gravity as a part of the force
+  Vector3d torque{};              ///< of loads on the body itself, as a part of the moment
+  std::vector<WallTouch> touch;   ///< at the wall under consideration
+  Vector3d support = Vector3d{};  ///< linear impulse of its supports, but in contact, in this step
 
   bool is_given(int axis) const;
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(centre, attitude.coeffs(), angular_momentum, force, moment, weight, torque);
+    archive(centre, attitude, angular_momentum, force, moment, weight, torque);
   }
 };
 
@@ -100,8 +99,7 @@ struct RigidBodies {
 };
 
 /// Start with a velocity of the centre and an angular velocity.
-void start(RigidBody& body, RigidMotion& motion, const Eigen::Vector3d& velocity,
-           const Eigen::Vector3d& angular_velocity);
+void start(RigidBody& body, RigidMotion& motion, const Vector3d& velocity, const Vector3d& angular_velocity);
 
 /// Kinetic energy of all bodies.
 KineticEnergy kinetic_energy(const RigidBodies& bodies);

@@ -9,8 +9,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 constexpr int most_passes = 50;
@@ -21,19 +19,17 @@ constexpr double overlap_recovery = 0.1;
 // rotate the body towards it.
 constexpr double approach_factor = 2;
 
-Vector3d point_of(const Nodes& nodes, int node) { return Vector3d(nodes.record[index(node)].position); }
-
 void find_touches(const WallInRun& entry, const StepTimes& times, RigidBody& body, const RigidMotion& motion,
                   const Nodes& nodes) {
-  const Vector3d normal(entry.wall.normal.data());
-  const Vector3d wall_velocity(entry.wall.velocity.data());
-  const double offset = normal.dot(Vector3d(entry.wall.point.data()) + times.time * wall_velocity);
+  const Vector3d normal = entry.wall.normal;
+  const Vector3d wall_velocity = entry.wall.velocity;
+  const double offset = dot(normal, entry.wall.point + times.time * wall_velocity);
   body.touch.clear();
   for (int node : body.node) {
-    const Vector3d x = point_of(nodes, node);
-    const double height = normal.dot(x) - offset;
+    const Vector3d x = position(nodes, node);
+    const double height = dot(normal, x) - offset;
     const Vector3d arm = x - body.centre;
-    const double reach = approach_factor * times.next * (motion.velocity_at(arm) - wall_velocity).norm();
+    const double reach = approach_factor * times.next * norm(motion.velocity_at(arm) - wall_velocity);
     if (height > reach) continue;
     WallTouch touch;
     touch.node = node;
@@ -49,7 +45,7 @@ void find_touches(const WallInRun& entry, const StepTimes& times, RigidBody& bod
 // \returns the change of the relative velocity.
 double solve_normal(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_velocity,
                     RigidMotion& motion) {
-  const double along = normal.dot(motion.velocity_at(touch.arm) - wall_velocity);
+  const double along = dot(normal, motion.velocity_at(touch.arm) - wall_velocity);
   const double impulse = std::max(0.0, touch.impulse + touch.normal_mass * (touch.target - along));
   const double change = impulse - touch.impulse;
   touch.impulse = impulse;
@@ -61,35 +57,34 @@ double solve_normal(WallTouch& touch, const Vector3d& normal, const Vector3d& wa
 double solve_friction(WallTouch& touch, const Vector3d& normal, const Vector3d& wall_velocity,
                       double friction, RigidMotion& motion) {
   const Vector3d relative = motion.velocity_at(touch.arm) - wall_velocity;
-  const Vector3d slip = relative - normal.dot(relative) * normal;
-  const double speed = slip.norm();
+  const Vector3d slip = relative - dot(normal, relative) * normal;
+  const double speed = norm(slip);
   if (speed == 0) return 0;
   const double inverse = motion.inverse_mass_along(slip / speed, touch.arm);
   if (!(inverse > 0)) return 0;
   Vector3d impulse = touch.friction - slip / inverse;
   const double limit = friction * touch.impulse;
-  const double size = impulse.norm();
+  const double size = norm(impulse);
   if (size > limit) impulse *= limit / size;
   const Vector3d change = impulse - touch.friction;
   touch.friction = impulse;
   motion.apply_impulse(change, touch.arm);
-  return change.norm() * inverse;
+  return norm(change) * inverse;
 }
 
 void account(Reaction& reaction, const Vector3d& position, const Vector3d& impulse, const WallTouch& touch,
              const RigidMotion& motion) {
-  reaction.impulse.add(to_vector(position), to_vector(impulse));
-  reaction.before += impulse.dot(motion.velocity_before_at(touch.arm));
-  reaction.after += impulse.dot(motion.velocity_at(touch.arm));
+  reaction.impulse.add(position, impulse);
+  reaction.before += dot(impulse, motion.velocity_before_at(touch.arm));
+  reaction.after += dot(impulse, motion.velocity_at(touch.arm));
 }
 
 }  // namespace
 
 double height_above(const WallInRun& entry, const RigidBody& body, const Nodes& nodes) {
-  const Vector3d normal(entry.wall.normal.data());
+  const Vector3d normal = entry.wall.normal;
   double least = HUGE_VAL;
-  for (int node : body.node)
-    least = std::min(least, normal.dot(point_of(nodes, node) - Vector3d(entry.wall.point.data())));
+  for (int node : body.node) least = std::min(least, dot(normal, position(nodes, node) - entry.wall.point));
   return least;
 }
 
@@ -98,8 +93,8 @@ Contribution stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& 
   if (times.next <= 0) return {};
   find_touches(entry, times, body, motion, nodes);
   if (body.touch.empty()) return {};
-  const Vector3d normal(entry.wall.normal.data());
-  const Vector3d wall_velocity(entry.wall.velocity.data());
+  const Vector3d normal = entry.wall.normal;
+  const Vector3d wall_velocity = entry.wall.velocity;
   double first = 0;
   for (int pass = 0; pass < most_passes; ++pass) {
     double residual = 0;
@@ -122,8 +117,8 @@ Contribution stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& 
   Contribution sum = of_wall(reaction);
   sum.external.before = held.work_before;
   sum.external.after = held.work_after;
-  sum.supports.add(to_vector(body.centre), to_vector(held.impulse));
-  add_to(sum.supports.angular, to_vector(held.moment));
+  sum.supports.add(body.centre, held.impulse);
+  sum.supports.angular += held.moment;
   return sum;
 }
 

@@ -10,9 +10,6 @@
 
 namespace brio {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
 namespace {
 
 /// Angle, in radians, below which directions are one: numbers of a deck are rounded. ...
@@ -23,7 +20,7 @@ constexpr double other_direction = 1e-3;
 /// Independent directions of a node, at most three.
 struct Basis {
   int count = 0;
-  Matrix3d direction = Matrix3d::Zero(), orthonormal = Matrix3d::Zero();  ///< rows
+  Tensor<double> direction{}, orthonormal{};  ///< rows
 };
 
 [[noreturn]] void refuse(const PrescribedNodes& given, const double* x) {
@@ -36,39 +33,37 @@ struct Basis {
 }
 
 /// \return whether the direction is not in the span of those before.
-bool take(Basis& basis, const Vector& direction, const PrescribedNodes& given, const double* position) {
-  const Vector3d whole(direction.data());
-  Vector3d left = whole;
+bool take(Basis& basis, const Vector3d& direction, const PrescribedNodes& given, const double* position) {
+  Vector3d left = direction;
   for (int again = 0; again < 2; ++again)  // Gram and Schmidt; the second time for what rounding left
     for (int k = 0; k < basis.count; ++k)
-      left -= basis.orthonormal.row(k).dot(left) * basis.orthonormal.row(k).transpose();
-  const double size = basis.count == 3 ? 0 : left.norm();
+      left -= dot(basis.orthonormal.row(k), left) * basis.orthonormal.row(k);
+  const double size = basis.count == 3 ? 0 : norm(left);
   if (size < same_direction) return false;
   if (size < other_direction) refuse(given, position);
-  basis.direction.row(basis.count) = whole;
-  basis.orthonormal.row(basis.count) = basis.count == 0 ? whole : Vector3d(left / size);
+  basis.direction.set_row(basis.count, direction);
+  basis.orthonormal.set_row(basis.count, basis.count == 0 ? direction : left / size);
   ++basis.count;
   return true;
 }
 
 /// Rows: the dual basis of the directions, within their span.
-Matrix3d duals_of(const Basis& basis) {
+Tensor<double> duals_of(const Basis& basis) {
   if (basis.count == 1) return basis.direction;
-  Matrix3d duals = Matrix3d::Zero();
-  const auto rows = basis.direction.topRows(basis.count);
-  duals.topRows(basis.count) = (rows * rows.transpose()).inverse() * rows;
+  const Vector3d a = basis.direction.row(0), b = basis.direction.row(1);
+  const Vector3d c = basis.count == 3 ? basis.direction.row(2) : cross(a, b);
+  Tensor<double> duals =
+      transposed(inverse(Tensor<double>{{{a.x, a.y, a.z}, {b.x, b.y, b.z}, {c.x, c.y, c.z}}}));
+  if (basis.count == 2) duals.set_row(2, {});
   return duals;
 }
 
 Tensor<double> axes_of(Basis basis) {
   if (basis.count == 0) return identity<double>();
-  Matrix3d& axes = basis.orthonormal;
-  if (basis.count == 1) axes.row(1) = Vector3d(axes.row(0)).unitOrthogonal();
-  if (basis.count <= 2) axes.row(2) = Vector3d(axes.row(0)).cross(Vector3d(axes.row(1)));
-  Tensor<double> rows;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) rows.m[i][j] = axes(i, j);
-  return rows;
+  Tensor<double>& axes = basis.orthonormal;
+  if (basis.count == 1) axes.set_row(1, unit_at_right_angles(axes.row(0)));
+  if (basis.count <= 2) axes.set_row(2, cross(axes.row(0), axes.row(1)));
+  return axes;
 }
 
 SupportAxes& own_axes_of(int node, Nodes& nodes) {
@@ -88,7 +83,7 @@ void mark(int node, int bits, Nodes& nodes) {
 /// All supports of one node, of translations or of rotations.
 void combine(std::span<const SupportPlace> places, std::vector<PrescribedNodes>& prescribed, Nodes& nodes) {
   Basis basis;
-  std::vector<Vector*> dual;
+  std::vector<Vector3d*> dual;
   const int node = places.front().node;
   for (const SupportPlace& place : places) {
     PrescribedNodes& given = prescribed[place.entry];
@@ -96,9 +91,8 @@ void combine(std::span<const SupportPlace> places, std::vector<PrescribedNodes>&
     if (take(basis, given.direction[place.at], given, nodes.record[index(node)].position))
       dual.push_back(&given.dual[place.at]);
   }
-  const Matrix3d duals = duals_of(basis);
-  for (std::size_t k = 0; k < dual.size(); ++k)
-    *dual[k] = to_vector(duals.row(static_cast<Eigen::Index>(k)).transpose());
+  const Tensor<double> duals = duals_of(basis);
+  for (std::size_t k = 0; k < dual.size(); ++k) *dual[k] = duals.row(k);
   const bool turns = prescribed[places.front().entry].turns();
   SupportAxes& own = own_axes_of(node, nodes);
   (turns ? own.angular : own.linear) = axes_of(basis);

@@ -31,9 +31,9 @@ std::vector<SupportPlace> skew_places(const std::vector<PrescribedNodes>& prescr
 void combine_supports(std::vector<PrescribedNodes>& prescribed, Nodes& nodes);
 
 /// Whether unit vectors are equal but for rounding.
-inline bool is_along(const Vector& a, const Vector& b) {
+inline bool is_along(const Vector3d& a, const Vector3d& b) {
   constexpr double rounding = 1e-9;
-  const Vector apart{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  const Vector3d apart{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
   return dot(apart, apart) <= rounding * rounding;
 }
 

@@ -7,60 +7,56 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 Vector3d place_of(const SpringAnchor& anchor, const Nodes& nodes) {
-  return anchor.node < 0 ? anchor.point : Vector3d(nodes.record[index(anchor.node)].position);
+  return anchor.node < 0 ? anchor.point : vector_at(nodes.record[index(anchor.node)].position);
 }
 
 Vector3d velocity_of(const SpringAnchor& anchor, const Nodes& nodes) {
-  return anchor.node < 0 ? Vector3d(Vector3d::Zero()) : Vector3d(nodes.record[index(anchor.node)].velocity);
+  return anchor.node < 0 ? Vector3d{} : vector_at(nodes.record[index(anchor.node)].velocity);
 }
 
 Vector3d spin_of(const SpringAnchor& anchor, const RigidBodies& bodies, const Nodes& nodes) {
-  if (anchor.node < 0) return Vector3d::Zero();
+  if (anchor.node < 0) return Vector3d{};
   if (anchor.body >= 0) return bodies.motion[index(anchor.body)].angular_velocity;
-  return Vector3d(nodes.angular_velocity[index(anchor.node)].component);
+  return vector_at(nodes.angular_velocity[index(anchor.node)].component);
 }
 
 double rate_of(const SpringInRun& spring, const RigidBodies& bodies, const Nodes& nodes) {
   const auto& [from, to] = spring.end;
   if (spring.is_torsional)
-    return spring.direction.dot(spin_of(to, bodies, nodes) - spin_of(from, bodies, nodes));
-  return spring.direction.dot(velocity_of(to, nodes) - velocity_of(from, nodes));
+    return dot(spring.direction, spin_of(to, bodies, nodes) - spin_of(from, bodies, nodes));
+  return dot(spring.direction, velocity_of(to, nodes) - velocity_of(from, nodes));
 }
 
 void measure(SpringInRun& spring, const Nodes& nodes) {
   const Vector3d between = place_of(spring.end[1], nodes) - place_of(spring.end[0], nodes);
-  const double distance = between.norm();
-  spring.direction = distance > 0 ? Vector3d(between / distance) : Vector3d(Vector3d::Zero());
+  const double distance = norm(between);
+  spring.direction = distance > 0 ? between / distance : Vector3d{};
   spring.elongation = distance - spring.length;
 }
 
 /// Rotation vector of an end over the last step.
 Vector3d turn_of(SpringAnchor& anchor, double last_step, const RigidBodies& bodies, const Nodes& nodes) {
   if (anchor.body < 0) return last_step * spin_of(anchor, bodies, nodes);
-  const Eigen::Quaterniond& now = bodies.body[index(anchor.body)].attitude;
-  const Eigen::Quaterniond turn = now * anchor.attitude.conjugate();
+  const Quaternion<double>& now = bodies.body[index(anchor.body)].attitude;
+  const Quaternion<double> turn = now * conjugate(anchor.attitude);
   anchor.attitude = now;
-  const double sine = turn.vec().norm();
-  return sine > 0 ? Vector3d(2 * std::atan2(sine, turn.w()) / sine * turn.vec()) : Vector3d(Vector3d::Zero());
+  const double sine = norm(vector_part(turn));
+  return sine > 0 ? 2 * std::atan2(sine, turn.w) / sine * vector_part(turn) : Vector3d{};
 }
 
 // The angle grows by the rotations about the axis as it lies in the middle of the step.
 void measure_angle(SpringInRun& spring, double last_step, const RigidBodies& bodies, const Nodes& nodes) {
   const Vector3d of_from = turn_of(spring.end[0], last_step, bodies, nodes);
   const Vector3d of_to = turn_of(spring.end[1], last_step, bodies, nodes);
-  const double size = of_from.norm();
   Vector3d middle = spring.direction;
-  if (size > 0) {
-    const Vector3d about = of_from / size;
-    middle = Eigen::AngleAxisd(0.5 * size, about) * spring.direction;
-    spring.direction = Vector3d(Eigen::AngleAxisd(size, about) * spring.direction).normalized();
+  if (!is_zero(of_from)) {
+    middle = turned_by(0.5 * of_from, spring.direction);
+    spring.direction = normalized(turned_by(of_from, spring.direction));
   }
-  spring.elongation += middle.dot(of_to - of_from);
+  spring.elongation += dot(middle, of_to - of_from);
 }
 
 bool is_removed(const SpringAnchor& anchor, const Nodes& nodes) {
@@ -98,13 +94,13 @@ Response response_of(const SpringAnchor& anchor, const Vector3d& direction, cons
     const RigidMotion& motion = bodies.motion[index(anchor.body)];
     const Vector3d arm = arm_of(anchor, bodies, nodes);
     const Vector3d turning = motion.inverse_inertia * body.moment;
-    return {direction.dot(motion.free_inverse_mass() * body.force + turning.cross(arm)),
+    return {dot(direction, motion.free_inverse_mass() * body.force + cross(turning, arm)),
             motion.inverse_mass_along(direction, arm)};
   }
   const auto node = index(anchor.node);
-  const Vector along = nodes.free_inverse_mass(node) * to_vector(direction);
+  const Vector3d along = nodes.free_inverse_mass(node) * direction;
   const double* force = nodes.force[node].component;
-  return {dot(along, {force[0], force[1], force[2]}), dot(along, to_vector(direction))};
+  return {dot(along, vector_at(force)), dot(along, direction)};
 }
 
 Response turning_response_of(const SpringAnchor& anchor, const Vector3d& axis, const RigidBodies& bodies,
@@ -113,12 +109,12 @@ Response turning_response_of(const SpringAnchor& anchor, const Vector3d& axis, c
   if (anchor.body >= 0) {
     const RigidMotion& motion = bodies.motion[index(anchor.body)];
     const Vector3d along = motion.inverse_inertia * axis;
-    return {along.dot(bodies.body[index(anchor.body)].moment), along.dot(axis)};
+    return {dot(along, bodies.body[index(anchor.body)].moment), dot(along, axis)};
   }
   const auto node = index(anchor.node);
-  const Vector along = nodes.free_inverse_inertia(node) * to_vector(axis);
+  const Vector3d along = nodes.free_inverse_inertia(node) * axis;
   const double* moment = nodes.moment[node].component;
-  return {dot(along, {moment[0], moment[1], moment[2]}), dot(along, to_vector(axis))};
+  return {dot(along, vector_at(moment)), dot(along, axis)};
 }
 
 void twist(const SpringAnchor& anchor, const Vector3d& moment, RigidBodies& bodies, Nodes& nodes) {
@@ -133,7 +129,7 @@ void pull(const SpringAnchor& anchor, const Vector3d& force, RigidBodies& bodies
   }
   RigidBody& body = bodies.body[index(anchor.body)];
   body.force += force;
-  body.moment += arm_of(anchor, bodies, nodes).cross(force);
+  body.moment += cross(arm_of(anchor, bodies, nodes), force);
 }
 
 // The rate of elongation at the time of the step is r + h/2 (a - d w): r that of the half step before, a by
@@ -153,7 +149,7 @@ double largest_inverse_mass(const AnchoredMass& mass, const RigidBodies& bodies,
   if (const auto node = index(mass.node); mass.body < 0)
     return nodes.prescribed_translations(node) == 7 ? 0 : nodes.record[node].inverse_mass;
   const RigidMotion& motion = bodies.motion[index(mass.body)];
-  return motion.inverse_mass.maxCoeff() + mass.arm * mass.arm * motion.inverse_inertia.trace();
+  return largest_component(motion.inverse_mass) + mass.arm * mass.arm * trace(motion.inverse_inertia);
 }
 
 // Zero where nothing turns.
@@ -163,7 +159,7 @@ double largest_inverse_inertia(const AnchoredMass& mass, const RigidBodies& bodi
     const auto node = index(mass.node);
     return nodes.prescribed_rotations(node) == 7 ? 0 : nodes.angular_velocity[node].component[3];
   }
-  return bodies.motion[index(mass.body)].inverse_inertia.trace();
+  return trace(bodies.motion[index(mass.body)].inverse_inertia);
 }
 
 /// Of what resists the elongation and, in tension, a motion across it.
@@ -324,9 +320,9 @@ Contribution pull_dashpots(Springs& springs, double mean_step, RigidBodies& bodi
       const SpringAnchor& anchor = spring.end[sign < 0 ? 0 : 1];
       if (anchor.node >= 0) continue;
       if (spring.is_torsional) {
-        add_to(sum.supports.angular, to_vector(sign * impulse));
+        sum.supports.angular += sign * impulse;
       } else {
-        sum.supports.add(to_vector(anchor.point), to_vector(sign * impulse));
+        sum.supports.add(anchor.point, sign * impulse);
       }
     }
   }

@@ -14,14 +14,14 @@
 /// the axis against `from`, summed over the steps, its force is a moment, opposite on both ends, and its
 /// direction is the axis, which turns with `from`.
 
-#include <Eigen/Dense>
-#include <Eigen/Geometry>
 #include <array>
 #include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "elements/base/quaternion.hpp"
+#include "src/base/tensor.hpp"
 #include "src/motion/energy_balance.hpp"
 #include "src/motion/rigid.hpp"
 
@@ -29,12 +29,12 @@ namespace brio {
 
 /// What the end of a spring is fastened to.
 struct SpringAnchor {
-  int node = -1;                                    ///< of the model; -1: a point that stays in place
-  int body = -1;                                    ///< rigid body of the node; -1: a part that deforms
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< if it stays in place
-  std::size_t mass = 0;                             ///< index in Springs::mass; of a node or a body
+  int node = -1;         ///< of the model; -1: a point that stays in place
+  int body = -1;         ///< rigid body of the node; -1: a part that deforms
+  Vector3d point{};      ///< if it stays in place
+  std::size_t mass = 0;  ///< index in Springs::mass; of a node or a body
   /// Of a body at the last step, where the spring is torsional.
-  Eigen::Quaterniond attitude = Eigen::Quaterniond::Identity();
+  Quaternion<double> attitude = no_rotation;
 };
 
 /// Elongation and force, of springs that are not linear; or angle and moment.
@@ -56,13 +56,12 @@ struct SpringInRun {
   double energy = 0;   ///< stored
   bool is_broken = false;
   /// Unit vector between the ends, 0 where they meet; or the axis.
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  Vector3d direction{};
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(elongation, force, dashpot, energy, is_broken, direction, end[0].attitude.coeffs(),
-            end[1].attitude.coeffs());
+    archive(elongation, force, dashpot, energy, is_broken, direction, end[0].attitude, end[1].attitude);
   }
 };
 

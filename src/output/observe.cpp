@@ -276,13 +276,13 @@ SymmetricTensor<double> FieldObserver::strain_of(const Model& model, const Eleme
                                                  const Cell& at) const {
   const std::span<const std::int64_t> corner = strained_corners(model, at);
   if (corner.empty()) return ElementSample::undefined_tensor;
-  std::array<Eigen::Vector3d, 8> before, now;
+  std::array<Vector3d, 8> before, now;
   for (std::size_t k = 0; k < corner.size(); ++k) {
     const auto point = index(corner[k]);
-    before[k] = Eigen::Vector3d(&reference_[3 * point]);
-    now[k] = Eigen::Vector3d(&snapshot_->points[3 * point]);
+    before[k] = vector_at(&reference_[3 * point]);
+    now[k] = vector_at(&snapshot_->points[3 * point]);
   }
-  const std::span<const Eigen::Vector3d> from(before.data(), corner.size()), to(now.data(), corner.size());
+  const std::span<const Vector3d> from(before.data(), corner.size()), to(now.data(), corner.size());
   return logarithmic_strain(
       corner.size() == 4 ? deformation_of_shell(from, to, sample.thickness / thickness_[at.part][at.place])
                          : deformation_of_hexahedron(from, to));
@@ -292,15 +292,14 @@ SymmetricTensor<double> FieldObserver::strain_of(const Model& model, const Eleme
 SymmetricTensor<double> FieldObserver::strain_rate_of(const Model& model, const Cell& at) const {
   const std::span<const std::int64_t> corner = strained_corners(model, at);
   if (corner.empty()) return ElementSample::undefined_tensor;
-  std::array<Eigen::Vector3d, 8> now, velocity;
+  std::array<Vector3d, 8> now, velocity;
   for (std::size_t k = 0; k < corner.size(); ++k) {
     const auto node = index(node_of_point_[index(corner[k])]);
     const NodeRecord& record = model.nodes.record[node];
-    velocity[k] = Eigen::Vector3d(record.velocity);
-    now[k] = Eigen::Vector3d(record.position) + 0.5 * model.times.next * velocity[k];
+    velocity[k] = vector_at(record.velocity);
+    now[k] = vector_at(record.position) + 0.5 * model.times.next * velocity[k];
   }
-  const std::span<const Eigen::Vector3d> place(now.data(), corner.size()),
-      rate(velocity.data(), corner.size());
+  const std::span<const Vector3d> place(now.data(), corner.size()), rate(velocity.data(), corner.size());
   return corner.size() == 4 ? strain_rate_of_shell(place, rate) : strain_rate_of_hexahedron(place, rate);
 }
 

@@ -65,7 +65,7 @@ Momentum total(const std::vector<Momentum>& ranges) {
 }
 
 // Momentum over mass. \param range the first of the part's; moves on to that of the next part
-Vector mean_velocity(std::size_t part, const HistorySums& sums, std::size_t& range) {
+Vector3d mean_velocity(std::size_t part, const HistorySums& sums, std::size_t& range) {
   Row4 momentum{};
   double mass = 0;
   for (; range < sums.of_parts.size() && sums.of_parts[range].part == part; ++range) {
@@ -80,11 +80,11 @@ void add_mean_velocities(const Model& model, const HistorySums& sums, std::vecto
   std::size_t range = 0;
   for (std::size_t p = 0; p < parts_in_history(model); ++p) {
     if (const int body = model.parts[p].rigid; body >= 0) {
-      const Eigen::Vector3d& v = model.rigid.motion[index(body)].velocity;
+      const Vector3d& v = model.rigid.motion[index(body)].velocity;
       row.insert(row.end(), v.data(), v.data() + 3);
       continue;
     }
-    const Vector velocity = mean_velocity(p, sums, range);
+    const Vector3d velocity = mean_velocity(p, sums, range);
     row.insert(row.end(), velocity.begin(), velocity.end());
   }
 }
@@ -129,11 +129,11 @@ void observe_history(Model& model, HistorySums& sums, std::vector<double>& row, 
               energy.internal, energy.hourglass, energy.all_viscous(), energy.deleted,
               -energy.contact.at_step(), -energy.friction.at_step(), energy.external.at_step(), energy.sum(),
               energy.relative_error(), energy.contact_added_max});
-  for (const Vector& vector : {balance.now.linear, balance.now.angular})
+  for (const Vector3d& vector : {balance.now.linear, balance.now.angular})
     row.insert(row.end(), vector.begin(), vector.end());
   row.push_back(balance.linear_imbalance());
   row.push_back(balance.angular_imbalance());
-  for (const Vector& vector : {balance.supports.linear, balance.walls.linear})
+  for (const Vector3d& vector : {balance.supports.linear, balance.walls.linear})
     row.insert(row.end(), vector.begin(), vector.end());
   row.push_back(static_cast<double>(deleted_so_far(model)));
   add_mean_velocities(model, sums, row);

@@ -12,8 +12,8 @@ double kinetic_energy_of(const Model& model, const PartInModel& part) {
   if (part.rigid >= 0) {
     const auto body = index(part.rigid);
     const RigidMotion& motion = model.rigid.motion[body];
-    return 0.5 * (model.rigid.body[body].mass * motion.velocity.squaredNorm() +
-                  model.rigid.body[body].angular_momentum.dot(motion.angular_velocity));
+    return 0.5 * (model.rigid.body[body].mass * squared_norm(motion.velocity) +
+                  dot(model.rigid.body[body].angular_momentum, motion.angular_velocity));
   }
   double sum = 0;
   for (const int entry : part.node) {

@@ -13,7 +13,7 @@ void add_rigid_columns(const Model& model, std::vector<std::string>& columns) {
 
 void add_rigid_values(const Model& model, std::vector<double>& row) {
   for (const RigidBody& body : model.rigid.body)
-    for (const Eigen::Vector3d& vector : {body.centre, rotation_vector(body.attitude)})
+    for (const Vector3d& vector : {body.centre, rotation_vector(body.attitude)})
       row.insert(row.end(), vector.begin(), vector.end());
 }
 

@@ -58,7 +58,7 @@ struct Summary {
     double of_deleted_elements = 0;  ///< rests on their nodes
   };
   struct Momenta {
-    std::array<double, 3> linear{}, angular{};  ///< angular: about the origin
+    Vector3d linear{}, angular{};  ///< angular: about the origin
   };
   /// Where the contact audit found the worst of a kind.
   struct DeepestContact {

@@ -12,9 +12,8 @@ void move_contact_walls(Model& model) {
   model.contact_walls.resize(model.walls.size());
   for (std::size_t w = 0; w < model.walls.size(); ++w) {
     const RigidWall& wall = model.walls[w].wall;
-    const Eigen::Vector3d velocity(wall.velocity.data());
-    model.contact_walls[w] = {Eigen::Vector3d(wall.point.data()) + model.times.time * velocity,
-                              Eigen::Vector3d(wall.normal.data()), velocity, wall.friction};
+    const Vector3d velocity = wall.velocity;
+    model.contact_walls[w] = {wall.point + model.times.time * velocity, wall.normal, velocity, wall.friction};
   }
 }
 
@@ -22,14 +21,14 @@ Contribution contribution_of(const ContactStep& step) {
   return {.external = {.before = step.support_work_before, .after = step.support_work_after},
           .contact = {.before = step.normal_work_before, .after = step.normal_work_after},
           .friction = {.before = step.friction_work_before, .after = step.friction_work_after},
-          .supports = {to_vector(step.support_impulse), to_vector(step.support_moment)},
-          .walls = {to_vector(step.wall_impulse), to_vector(step.wall_moment)}};
+          .supports = {step.support_impulse, step.support_moment},
+          .walls = {step.wall_impulse, step.wall_moment}};
 }
 
 void add_forces(ForceSums& sums, const ContactScene& scene, std::span<const WallInRun> walls) {
   sums.add(*scene.log);
   for (std::size_t w = 0; w < scene.walls.push.size(); ++w) {
-    const Vector3<double>& on_wall = scene.walls.push[w].impulse;
+    const Vector3d& on_wall = scene.walls.push[w].impulse;
     sums.add_reaction(walls[w].condition, {-on_wall.x, -on_wall.y, -on_wall.z});
   }
 }

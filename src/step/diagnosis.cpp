@@ -31,8 +31,8 @@ struct Fastest {
   bool finite = true;
 };
 
-Vector mean_velocity_of(const PartInModel& part, const Nodes& nodes) {
-  Vector sum{};
+Vector3d mean_velocity_of(const PartInModel& part, const Nodes& nodes) {
+  Vector3d sum{};
   for (const int node : part.node)
     for (std::size_t i = 0; i < 3; ++i) sum[i] += nodes.record[index(node)].velocity[i];
   for (double& component : sum) component /= static_cast<double>(part.node.size());
@@ -44,10 +44,10 @@ Fastest fastest_node(const Model& model) {
   for (const PartInModel& part : model.parts) {
     if (part.rigid >= 0) continue;
     const double sound = speed_of_sound(model.blocks[part.block]);
-    const Vector mean = mean_velocity_of(part, model.nodes);
+    const Vector3d mean = mean_velocity_of(part, model.nodes);
     for (const int node : part.node) {
       const NodeRecord& record = model.nodes.record[index(node)];
-      Vector velocity{};
+      Vector3d velocity{};
       bool finite = true;
       for (std::size_t i = 0; i < 3; ++i) {
         finite = finite && std::isfinite(record.velocity[i]) && std::isfinite(record.position[i]);

@@ -26,14 +26,14 @@ void expect_driven_bodies_apart(const Model& model, const ContactScene& scene) {
     const int second_body = scene.surface.rigid_body(node_of(own));
     if (first_body < 0 || second_body < 0) continue;
     const auto first = index(first_body), second = index(second_body);
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    Vector3d point{};
     for (std::size_t k = 0; k < own; ++k) point += contact.weight[k] * position(model.nodes, node_of(k));
     const RigidMotion &a = model.rigid.motion[first], &b = model.rigid.motion[second];
-    const Eigen::Vector3d arm_a = point - a.centre, arm_b = point - b.centre;
+    const Vector3d arm_a = point - a.centre, arm_b = point - b.centre;
     if (a.inverse_mass_along(contact.normal, arm_a) > 0 || b.inverse_mass_along(contact.normal, arm_b) > 0)
       continue;
-    const double approach_a = contact.normal.dot(a.velocity_at(arm_a));
-    const double approach_b = contact.normal.dot(b.velocity_at(arm_b));
+    const double approach_a = dot(contact.normal, a.velocity_at(arm_a));
+    const double approach_b = dot(contact.normal, b.velocity_at(arm_b));
     const double opening = approach_a - approach_b;
     const double gap = contact.gap + model.times.next * opening;
     if (opening >= 0 || gap >= -driven_overlap * scene.features.smallest_edge) continue;

@@ -26,8 +26,7 @@ struct Leap {
 Leap largest_change(const Nodes& nodes, double mean_step) {
   Leap largest;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const double* force = nodes.force[i].component;
-    for (const double component : nodes.free_translations(i) * Vector{force[0], force[1], force[2]}) {
+    for (const double component : nodes.free_translations(i) * vector_at(nodes.force[i].component)) {
       const double change = std::abs(component) * (nodes.record[i].inverse_mass * mean_step);
       if (change > largest.speed) largest = {i, change};
     }
@@ -54,17 +53,13 @@ void expect_no_leap(Model& model, const KineticEnergy& kinetic) {
 
 void refuse_crowd(const Model& model) {
   const Nodes& nodes = model.nodes;
-  Vector3<double> mean{0, 0, 0};
-  const auto velocity = [&](std::size_t i) {
-    const double* v = nodes.record[i].velocity;
-    return Vector3<double>{v[0], v[1], v[2]};
-  };
+  Vector3d mean{0, 0, 0};
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    mean = mean + (nodes.mass[i] / model.extent.mass) * velocity(i);
+    mean = mean + (nodes.mass[i] / model.extent.mass) * velocity(nodes, i);
   std::size_t fastest = 0;
   double largest = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vector3<double> relative = velocity(i) - mean;
+    const Vector3d relative = velocity(nodes, i) - mean;
     if (const double squared = dot(relative, relative); squared > largest) {
       largest = squared;
       fastest = i;

@@ -62,11 +62,11 @@ class Waiting {
     given.curve = std::move(motions_[next++].curve);
   }
 
-  std::vector<Vector> record_;
+  std::vector<Vector3d> record_;
   AlignedBuffer<NodeVector> angular_;
   std::vector<RigidMotion> motion_;
   std::vector<Motion> motions_;
-  std::vector<Vector> wall_velocity_;
+  std::vector<Vector3d> wall_velocity_;
 };
 
 void stop_all(Model& model) {
@@ -74,7 +74,7 @@ void stop_all(Model& model) {
   for (std::size_t i = 0; i < model.nodes.angular_velocity.size(); ++i)
     std::fill_n(model.nodes.angular_velocity[i].component, 3, 0.0);
   for (std::size_t b = 0; b < model.rigid.body.size(); ++b)
-    start(model.rigid.body[b], model.rigid.motion[b], Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+    start(model.rigid.body[b], model.rigid.motion[b], Vector3d{}, Vector3d{});
 }
 
 /// As from rest at the present time: with half of the change of velocity of this step. Velocities of zero

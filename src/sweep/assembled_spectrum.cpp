@@ -59,7 +59,7 @@ class Lanczos {
   /// Displacements over the length of the scene, and rotations, of sizes with which all have energies alike.
   /// \returns norm
   double start(std::span<const double> weight) {
-    const Vector centre = centre_of_mass();
+    const Vector3d centre = centre_of_mass();
     const double squared = sum_over_nodes(vectors_, nodes_, team_, [&](std::size_t i) {
       const Chirp chirp = chirp_at(i, centre);
       double norm = 0;
@@ -153,14 +153,14 @@ class Lanczos {
   double unit() const { return mass_ * square_of(vectors_.length); }
   double moving_mass(std::size_t i) const { return nodes_.record[i].inverse_mass > 0 ? nodes_.mass[i] : 0; }
 
-  Chirp chirp_at(std::size_t i, const Vector& centre) const {
+  Chirp chirp_at(std::size_t i, const Vector3d& centre) const {
     const double* x = nodes_.record[i].position;
     return {(x[0] - centre[0]) / vectors_.length, (x[1] - centre[1]) / vectors_.length,
             (x[2] - centre[2]) / vectors_.length};
   }
 
-  Vector centre_of_mass() {
-    Vector centre{};
+  Vector3d centre_of_mass() {
+    Vector3d centre{};
     for (std::size_t axis = 0; axis < 3; ++axis)
       centre[axis] =
           sum_over_nodes(vectors_, nodes_, team_,

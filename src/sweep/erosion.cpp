@@ -188,8 +188,8 @@ Contribution remove_nodes(Erosion& erosion, Nodes& nodes) {
     const auto node = index(entry);
     NodeRecord& record = nodes.record[node];
     const double mass = nodes.mass[node];
-    const Vector position{record.position[0], record.position[1], record.position[2]};
-    const Vector velocity{record.velocity[0], record.velocity[1], record.velocity[2]};
+    const Vector3d position = vector_at(record.position);
+    const Vector3d velocity = vector_at(record.velocity);
     removed.deleted += 0.5 * mass * dot(velocity, velocity);
     removed.dropped.add(position, {mass * velocity[0], mass * velocity[1], mass * velocity[2]});
     erosion.dropped_mass += mass;

@@ -17,8 +17,8 @@ struct Given {
 
 void give(double mass, double inertia, std::size_t node, Nodes& nodes, Given& given) {
   NodeRecord& record = nodes.record[node];
-  const Vector position{record.position[0], record.position[1], record.position[2]};
-  const Vector velocity{record.velocity[0], record.velocity[1], record.velocity[2]};
+  const Vector3d position = vector_at(record.position);
+  const Vector3d velocity = vector_at(record.velocity);
   nodes.mass[node] += mass;
   record.inverse_mass = 1 / nodes.mass[node];
   given.energy += 0.5 * mass * dot(velocity, velocity);

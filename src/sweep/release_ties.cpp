@@ -10,7 +10,7 @@ namespace {
 
 Contribution release_marked(Ties& ties, Nodes& nodes) {
   const NodeMotion lost = release(ties, nodes);
-  return {.deleted = lost.energy, .dropped = {to_vector(lost.linear), to_vector(lost.angular)}};
+  return {.deleted = lost.energy, .dropped = {lost.linear, lost.angular}};
 }
 
 }  // namespace

@@ -22,8 +22,6 @@
 
 namespace brio::test {
 
-using Eigen::Vector3d;
-
 /// Where a point of a new piece goes.
 using Map = std::function<Vector3d(const Vector3d&)>;
 /// Moved by a vector.
@@ -34,7 +32,7 @@ inline Map shifted(const Vector3d& by) {
 class SpringModel {
  public:
   double stiffness = 1e4;  ///< of a spring times its length
-  Vector3d gravity = Vector3d::Zero();
+  Vector3d gravity{};
   double damping = 0;        ///< rate at which velocities decay
   double debris_radius = 0;  ///< of nodes left without elements
   Nodes nodes;
@@ -47,11 +45,11 @@ class SpringModel {
     for (int k = 0; k <= nz; ++k)
       for (int j = 0; j <= ny; ++j)
         for (int i = 0; i <= nx; ++i) {
-          add_node(map(Vector3d(size[0] * i / nx, size[1] * j / ny, size[2] * k / nz)));
+          add_node(map(Vector3d{size[0] * i / nx, size[1] * j / ny, size[2] * k / nz}));
         }
     Piece& piece = pieces_.emplace_back();
     piece.first_spring = static_cast<int>(springs_.size());
-    const double mass = density * size.prod() / (8.0 * nx * ny * nz);
+    const double mass = density * (size.x * size.y * size.z) / (8.0 * nx * ny * nz);
     const auto at = [&](int i, int j, int k) { return first + i + (nx + 1) * (j + (ny + 1) * k); };
     for (int k = 0; k < nz; ++k)
       for (int j = 0; j < ny; ++j)
@@ -76,7 +74,7 @@ class SpringModel {
     const int nx = cells[0], ny = cells[1];
     for (int j = 0; j <= ny; ++j)
       for (int i = 0; i <= nx; ++i) {
-        add_node(map(Vector3d(size[0] * i / nx, size[1] * j / ny, 0)));
+        add_node(map(Vector3d{size[0] * i / nx, size[1] * j / ny, 0}));
       }
     add_shells(
         nx, ny, thickness, density * thickness * size[0] * size[1] / (4.0 * nx * ny),
@@ -165,7 +163,7 @@ class SpringModel {
   }
   /// Take the present positions as those without strain.
   void rest() {
-    for (Spring& spring : springs_) spring.length = (x(spring.a) - x(spring.b)).norm();
+    for (Spring& spring : springs_) spring.length = norm(x(spring.a) - x(spring.b));
   }
 
   void hold(int first, int end, int axes = 7) {
@@ -173,11 +171,11 @@ class SpringModel {
   }
 
   void accelerate(double dt) {
-    std::vector<Vector3d> force(nodes.size(), Vector3d::Zero());
+    std::vector<Vector3d> force(nodes.size(), Vector3d{});
     for (const Spring& s : springs_) {
       if (s.broken) continue;
       const Vector3d along = x(s.b) - x(s.a);
-      const double length = along.norm();
+      const double length = norm(along);
       const Vector3d pull = stiffness / s.length * (length - s.length) / length * along;
       force[index(s.a)] += pull;
       force[index(s.b)] -= pull;
@@ -205,8 +203,8 @@ class SpringModel {
   }
   void step(double dt) { step(dt, alone_); }
 
-  Vector3d x(int n) const { return Vector3d(nodes.record[index(n)].position); }
-  Vector3d v(int n) const { return Vector3d(nodes.record[index(n)].velocity); }
+  Vector3d x(int n) const { return vector_at(nodes.record[index(n)].position); }
+  Vector3d v(int n) const { return vector_at(nodes.record[index(n)].velocity); }
   void set_velocity(int n, const Vector3d& value) {
     for (int axis = 0; axis < 3; ++axis) nodes.record[index(n)].velocity[axis] = value[axis];
   }
@@ -214,26 +212,26 @@ class SpringModel {
 
   double kinetic_energy() const {
     double sum = 0;
-    for (int n = 0; n < count(); ++n) sum += 0.5 * mass(n) * v(n).squaredNorm();
+    for (int n = 0; n < count(); ++n) sum += 0.5 * mass(n) * squared_norm(v(n));
     return sum;
   }
   double spring_energy() const {
     double sum = 0;
     for (const Spring& s : springs_) {
       if (s.broken) continue;
-      const double stretch = (x(s.a) - x(s.b)).norm() - s.length;
+      const double stretch = norm(x(s.a) - x(s.b)) - s.length;
       sum += 0.5 * stiffness / s.length * stretch * stretch;
     }
     return sum;
   }
   Vector3d momentum(int first = 0, int end = -1) const {
-    Vector3d sum = Vector3d::Zero();
+    Vector3d sum{};
     for (int n = first; n < (end < 0 ? count() : end); ++n) sum += mass(n) * v(n);
     return sum;
   }
   Vector3d angular_momentum() const {
-    Vector3d sum = Vector3d::Zero();
-    for (int n = 0; n < count(); ++n) sum += mass(n) * x(n).cross(v(n));
+    Vector3d sum{};
+    for (int n = 0; n < count(); ++n) sum += mass(n) * cross(x(n), v(n));
     return sum;
   }
   Vector3d mean_velocity(int first, int end) const {
@@ -242,7 +240,7 @@ class SpringModel {
     return momentum(first, end) / total;
   }
   Vector3d centre(int first, int end) const {
-    Vector3d sum = Vector3d::Zero();
+    Vector3d sum{};
     double total = 0;
     for (int n = first; n < end; ++n) {
       sum += mass(n) * x(n);
@@ -268,7 +266,7 @@ class SpringModel {
   void add_node(const Vector3d& position) {
     position_.push_back(position);
     mass_.push_back(0);
-    velocity_.push_back(Vector3d::Zero());
+    velocity_.push_back(Vector3d{});
   }
 
   /// Shells between the nodes at(i, j), with `mass` to each corner of each; `closed`: column nx is column 0.

@@ -51,8 +51,8 @@ TEST(Debris, FliesAgainstAPlateAndTurnsAtItsRadius) {
           ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
         }
       }
-      EXPECT_LT((model.momentum() - momentum).norm(), 1e-12 * momentum.norm());
-      EXPECT_LT((model.angular_momentum() - moment).norm(), 1e-11 * momentum.norm());
+      EXPECT_LT(norm(model.momentum() - momentum), 1e-12 * norm(momentum));
+      EXPECT_LT(norm(model.angular_momentum() - moment), 1e-11 * norm(momentum));
       if (given > 0) {
         EXPECT_NEAR(nearest, radius + std::max(0.5 * thickness, model.scene.features.skin), 1e-3 * radius);
         for (int n = first; n < first + 8; ++n)
@@ -69,7 +69,7 @@ TEST(Debris, FliesAgainstAPlateAndTurnsAtItsRadius) {
 // what is left, whichever way it goes.
 TEST(Debris, IsOutsideOfTheBodyThatItWasPartOf) {
   for (const Vector3d& way :
-       {Vector3d(0, 0, 1), Vector3d(0, 0, -1), Vector3d(1, 0.3, 0), Vector3d(-1, 0, -1)}) {
+       {Vector3d{0, 0, 1}, Vector3d{0, 0, -1}, Vector3d{1, 0.3, 0}, Vector3d{-1, 0, -1}}) {
     SpringModel model;
     model.stiffness = 200;
     model.debris_radius = radius;
@@ -77,7 +77,7 @@ TEST(Debris, IsOutsideOfTheBodyThatItWasPartOf) {
     const int node = 2 + 5 * (2 + 5 * 3);
     model.start_erodible({});
     model.step(1e-3);
-    ASSERT_EQ(model.x(node), Vector3d(2, 2, 3));
+    ASSERT_EQ(model.x(node), (Vector3d{2, 2, 3}));
     std::vector<SurfaceElement> around;
     for (int j : {1, 2})
       for (int i : {1, 2}) around.push_back({0, i + 4 * (j + 4 * 2)});
@@ -96,11 +96,11 @@ TEST(Debris, IsOutsideOfTheBodyThatItWasPartOf) {
         ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
       }
     }
-    EXPECT_LT((model.momentum() - momentum).norm(), 1e-12);
+    EXPECT_LT(norm(model.momentum() - momentum), 1e-12);
     if (way[2] > 0) {
       EXPECT_EQ(model.v(node), way);
     } else {
-      EXPECT_NEAR(nearest, radius + model.scene.features.skin, 1e-3 * radius) << way.transpose();
+      EXPECT_NEAR(nearest, radius + model.scene.features.skin, 1e-3 * radius) << testing::PrintToString(way);
     }
   }
 }
@@ -119,7 +119,7 @@ TEST(Debris, FreedNextToABlockWaitsUntilItHasBeenApart) {
   model.erode(std::vector<SurfaceElement>{{0, 0}});
   for (int i = 0; i < 50; ++i) {
     model.step(1e-3);
-    for (int n = 0; n < model.count(); ++n) ASSERT_EQ(model.v(n), Vector3d::Zero());
+    for (int n = 0; n < model.count(); ++n) ASSERT_EQ(model.v(n), (Vector3d{}));
   }
   const int node = above + 3;
   const auto fly = [&](double speed, int steps) {

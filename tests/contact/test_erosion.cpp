@@ -8,6 +8,7 @@
 #include "contact/surface/face_geometry.hpp"
 #include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio::test {
 namespace {
@@ -68,17 +69,15 @@ TEST(Erosion, SameBitsForAnyNumberOfThreads) {
 TEST(Erosion, FacesLaidBareTouchInTheSameStep) {
   for (const bool turned : {false, true}) {
     SpringModel model;
-    const Eigen::Matrix3d turn =
-        turned ? Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix()
-               : Eigen::Matrix3d::Identity();
+    const Tensor<double> turn = turned ? rotation_about(0.7, Vector3d{1, 2, 3}) : identity<double>();
     const double layer = 1e-3;
     model.stiffness = 200;
     const int nodes = 4 * 4 * 8;
     model.add_box({3, 3, 7}, {3, 3, 7}, 1, [&](const Vector3d& x) -> Vector3d {
-      return turn * Vector3d(x[0], x[1], x[2] < 3.5 ? x[2] : x[2] - 1 + layer);
+      return turn * Vector3d{x[0], x[1], x[2] < 3.5 ? x[2] : x[2] - 1 + layer};
     });
     model.start_erodible({});
-    for (int n = 0; n < nodes; ++n) model.set_velocity(n, turn * Vector3d(0, 0, n < nodes / 2 ? 0.5 : -0.5));
+    for (int n = 0; n < nodes; ++n) model.set_velocity(n, turn * Vector3d{0, 0, n < nodes / 2 ? 0.5 : -0.5});
     const double dt = 5e-3;
     resolve(model.scene, model.nodes, 1e-9, model.alone());
     EXPECT_TRUE(model.scene.contacts.empty());
@@ -97,10 +96,10 @@ TEST(Erosion, FacesLaidBareTouchInTheSameStep) {
       ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << i;
     }
     const double scale = 0.5 * 7 * 9;
-    EXPECT_LT((model.momentum() - momentum).norm(), 1e-12 * scale);
-    EXPECT_LT((model.angular_momentum() - moment).norm(), 1e-11 * scale);
+    EXPECT_LT(norm(model.momentum() - momentum), 1e-12 * scale);
+    EXPECT_LT(norm(model.angular_momentum() - moment), 1e-11 * scale);
     const double between =
-        (turn.transpose() * (model.mean_velocity(nodes / 2, nodes) - model.mean_velocity(0, nodes / 2)))[2];
+        transposed_times(turn, model.mean_velocity(nodes / 2, nodes) - model.mean_velocity(0, nodes / 2))[2];
     EXPECT_GT(between, 0.3) << "they have bounced";
     EXPECT_LT(model.scene.totals.deepest_overlap, 1e-2 * layer);
   }
@@ -112,7 +111,7 @@ TEST(Erosion, NodesOfAPinchedEdgeAreCarried) {
   SpringModel model;
   model.stiffness = 100;
   model.add_box({2, 1, 2}, {2, 1, 2}, 1, [](const Vector3d& x) -> Vector3d {
-    const Vector3d p = x - Vector3d(1, 0, 1);
+    const Vector3d p = x - Vector3d{1, 0, 1};
     return {p[0] + 0.5 * std::min(p[2], 0.0), p[1], p[2]};
   });
   const int below = model.add_box({1, 1, 1}, {0.6, 1.4, 0.5}, 1, shifted({-0.003, -0.2, -0.51}));
@@ -123,7 +122,7 @@ TEST(Erosion, NodesOfAPinchedEdgeAreCarried) {
   const std::array<int, 2> edge{surface.slave(7), surface.slave(10)};
   for (int slave : edge) {
     EXPECT_EQ(surface.pinched[index(slave)], 1);
-    EXPECT_LT(vertex_normal(surface, model.nodes, slave).dot(Vector3d::UnitZ()), 0.1);
+    EXPECT_LT(dot(vertex_normal(surface, model.nodes, slave), Vector3d{0, 0, 1}), 0.1);
   }
   model.step(0.02);
   int carried = 0;
@@ -249,7 +248,7 @@ TEST(Erosion, ATornShellDoesNotPushItselfApart) {
     double nearest = HUGE_VAL;
     for (int n = 0; n < model.count(); ++n)
       for (int m = 0; m < model.count(); ++m)
-        if (column(n) == 6 && column(m) == 7) nearest = std::min(nearest, (model.x(n) - model.x(m)).norm());
+        if (column(n) == 6 && column(m) == 7) nearest = std::min(nearest, norm(model.x(n) - model.x(m)));
     return nearest;
   };
   const auto drive = [&](double speed) {

@@ -6,6 +6,7 @@
 #include "contact/geometry/closest_segments.hpp"
 #include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio::test {
 namespace {
@@ -37,7 +38,7 @@ TEST(FoldingStripSlow, NeverPassesThroughItself) {
     double approach = 0;  // of two nodes in a step
     for (int i = 0; i < steps; ++i) {
       model.step(dt);
-      for (int n = 0; n < model.count(); ++n) approach = std::max(approach, 2 * dt * model.v(n).norm());
+      for (int n = 0; n < model.count(); ++n) approach = std::max(approach, 2 * dt * norm(model.v(n)));
       most_contacts = std::max(most_contacts, model.scene.step.active);
       if (i % 50 != 0) continue;
       ASSERT_EQ(audit(model.scene, model.nodes, team).missed(), 0) << refine << " step " << i;
@@ -83,14 +84,13 @@ TEST(WarpedCells, KeepTheirThicknessFromASharpEdge) {
     SpringModel model;
     const int across = 6;
     model.add_sheet({across, across}, {1.0 * across, 1.0 * across}, thickness, 1, [&](const Vector3d& x) {
-      return Vector3d(x[0] + 0.1 * number(), x[1] + 0.1 * number(), 0.0035 * number());
+      return Vector3d{x[0] + 0.1 * number(), x[1] + 0.1 * number(), 0.0035 * number()};
     });
     const double turn = 0.3 + 0.2 * number();
-    const Eigen::Matrix3d rotation = (Eigen::AngleAxisd(turn, Vector3d::UnitZ()) *
-                                      Eigen::AngleAxisd(0.25 * std::numbers::pi, Vector3d::UnitX()))
-                                         .toRotationMatrix();
+    const Tensor<double> rotation =
+        rotation_about(turn, Vector3d{0, 0, 1}) * rotation_about(0.25 * std::numbers::pi, Vector3d{1, 0, 0});
     const int first = model.add_box({1, 1, 1}, {8, 1, 1}, 1, [&](const Vector3d& x) -> Vector3d {
-      return rotation * (x - Vector3d(4, 0, 0)) + Vector3d(3, 3, 0.5 * thickness + 0.02);
+      return rotation * (x - Vector3d{4, 0, 0}) + Vector3d{3, 3, 0.5 * thickness + 0.02};
     });
     model.start({});
     for (int n = 0; n < first; ++n) model.hold(n, n + 1);

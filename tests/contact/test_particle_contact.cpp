@@ -10,8 +10,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double particle_radius = 0.05;
 constexpr double mass = 0.7;
 constexpr double speed = 10;
@@ -69,12 +67,12 @@ class Scene {
       nodes.velocity_before[nodes.size() - 1].component[axis] = own.velocity[axis];
     resolve(scene, nodes, dt, team_);
     for (int axis = 0; axis < 3; ++axis) own.position[axis] += dt * own.velocity[axis];
-    Vector3d impulse = Vector3d::Zero();
+    Vector3d impulse{};
     for (const Contact& contact : scene.contacts)
       impulse += contact.impulse * contact.normal + contact.friction;
     return impulse;
   }
-  Vector3d particle() const { return Vector3d(nodes.record[nodes.size() - 1].position); }
+  Vector3d particle() const { return vector_at(nodes.record[nodes.size() - 1].position); }
 
   Nodes nodes{0, false};
   ContactScene scene;
@@ -94,11 +92,11 @@ TEST_P(OneParticle, IsStoppedByOneImpulse) {
     // The skin of the cube; the diameter of the particle is the smallest edge.
     const double touching = particle_radius + skin_share * 2 * particle_radius;
     Scene scene(aim + (touching + gap) * from, -speed * from);
-    Vector3d impulse = Vector3d::Zero();
+    Vector3d impulse{};
     for (int i = 0; i < 20; ++i) impulse += scene.step(dt);
-    EXPECT_NEAR(impulse.dot(from), mass * speed, 1e-10 * mass * speed) << dt;
-    EXPECT_LT((impulse - impulse.dot(from) * from).norm(), 1e-10 * mass * speed) << dt;
-    EXPECT_NEAR((scene.particle() - aim).dot(from), touching, 1e-10) << dt;
+    EXPECT_NEAR(dot(impulse, from), mass * speed, 1e-10 * mass * speed) << dt;
+    EXPECT_LT(norm(impulse - dot(impulse, from) * from), 1e-10 * mass * speed) << dt;
+    EXPECT_NEAR(dot(scene.particle() - aim, from), touching, 1e-10) << dt;
     EXPECT_EQ(scene.scene.totals.most_contacts, 1) << dt;
   }
 }

@@ -8,6 +8,7 @@
 #include "src/base/floating_point.hpp"
 #include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio::test {
 namespace {
@@ -37,7 +38,7 @@ class FreePieces {
 
   /// A piece about a centre, turned at random.
   void add(Kind kind, const Vector3d& centre, const Vector3d& velocity) {
-    const Eigen::Matrix3d turn = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+    const Tensor<double> turn = rotation_about(std::numbers::pi * vector().x, vector());
     const auto add_node = [&](const Vector3d& x, double inertia, double mass) {
       nodes_.push_back({centre + turn * x, velocity + 0.1 * vector(), mass, inertia});
       connectivity_.back().push_back(static_cast<int>(nodes_.size()) - 1);
@@ -107,8 +108,8 @@ class FreePieces {
     for (RigidMotion& body : bodies) {
       body.velocity_before = body.velocity;
       body.angular_velocity_before = body.angular_velocity;
-      body.impulse.setZero();
-      body.moment.setZero();
+      body.impulse = {};
+      body.moment = {};
     }
     brio::resolve(scene, nodes, dt, team_, bodies, ties);
     carry_bodies();
@@ -120,37 +121,37 @@ class FreePieces {
     for (RigidMotion& body : bodies) body.centre += dt * body.velocity;
   }
 
-  Vector3d x(std::size_t n) const { return Vector3d(nodes.record[n].position); }
-  Vector3d v(std::size_t n) const { return Vector3d(nodes.record[n].velocity); }
+  Vector3d x(std::size_t n) const { return vector_at(nodes.record[n].position); }
+  Vector3d v(std::size_t n) const { return vector_at(nodes.record[n].velocity); }
   Vector3d momentum() const {
-    Vector3d sum = Vector3d::Zero();
+    Vector3d sum{};
     for (std::size_t n = 0; n < nodes.size(); ++n) sum += nodes.mass[n] * v(n);
     for (const RigidMotion& body : bodies) sum += body.mass * body.velocity;
     return sum;
   }
   Vector3d angular_momentum() const {
-    Vector3d sum = Vector3d::Zero();
+    Vector3d sum{};
     for (std::size_t n = 0; n < nodes.size(); ++n)
-      sum += nodes.mass[n] * x(n).cross(v(n)) +
-             nodes.rotational_inertia[n] * Vector3d(nodes.angular_velocity[n].component);
+      sum += nodes.mass[n] * cross(x(n), v(n)) +
+             nodes.rotational_inertia[n] * vector_at(nodes.angular_velocity[n].component);
     for (const RigidMotion& body : bodies)
-      sum += body.centre.cross(body.mass * body.velocity) + body.inertia * body.angular_velocity;
+      sum += cross(body.centre, body.mass * body.velocity) + body.inertia * body.angular_velocity;
     return sum;
   }
   double size_of_motion() const {
     double sum = 0;
-    for (std::size_t n = 0; n < nodes.size(); ++n) sum += nodes.mass[n] * v(n).norm() * (1 + x(n).norm());
-    for (const RigidMotion& body : bodies) sum += body.mass * body.velocity.norm() * (1 + body.centre.norm());
+    for (std::size_t n = 0; n < nodes.size(); ++n) sum += nodes.mass[n] * norm(v(n)) * (1 + norm(x(n)));
+    for (const RigidMotion& body : bodies) sum += body.mass * norm(body.velocity) * (1 + norm(body.centre));
     return sum;
   }
   double kinetic_energy() const {
     double sum = 0;
     for (std::size_t n = 0; n < nodes.size(); ++n)
-      sum += 0.5 * nodes.mass[n] * v(n).squaredNorm() +
-             0.5 * nodes.rotational_inertia[n] * Vector3d(nodes.angular_velocity[n].component).squaredNorm();
+      sum += 0.5 * nodes.mass[n] * squared_norm(v(n)) +
+             0.5 * nodes.rotational_inertia[n] * squared_norm(vector_at(nodes.angular_velocity[n].component));
     for (const RigidMotion& body : bodies)
-      sum += 0.5 * body.mass * body.velocity.squaredNorm() +
-             0.5 * body.angular_velocity.dot(body.inertia * body.angular_velocity);
+      sum += 0.5 * body.mass * squared_norm(body.velocity) +
+             0.5 * dot(body.angular_velocity, body.inertia * body.angular_velocity);
     return sum;
   }
 
@@ -166,10 +167,11 @@ class FreePieces {
     body.velocity = velocity;
     body.angular_velocity = vector();
     body.mass = 5;
-    const Eigen::Matrix3d root = Eigen::Matrix3d::Identity() + 0.2 * vector() * vector().transpose();
-    body.inertia = root * root.transpose();
-    body.inverse_mass.setConstant(1 / body.mass);
-    body.inverse_inertia = body.inertia.inverse();
+    const Tensor<double> root = identity<double>() + 0.2 * outer_product(vector(), vector());
+    body.inertia = root * transposed(root);
+    const double inverse_mass = 1 / body.mass;
+    body.inverse_mass = {inverse_mass, inverse_mass, inverse_mass};
+    body.inverse_inertia = inverse(body.inertia);
     bodies.push_back(body);
   }
   void carry_bodies() {
@@ -212,8 +214,8 @@ TEST_P(Kinds, KeepMomentumAndAngularMomentumWithFriction) {
       const Vector3d linear = pieces.momentum(), angular = pieces.angular_momentum();
       pieces.resolve(dt);
       const double size = pieces.size_of_motion();
-      EXPECT_LE((pieces.momentum() - linear).norm(), 1e-12 * size) << "seed " << seed << " step " << step;
-      EXPECT_LE((pieces.angular_momentum() - angular).norm(), 1e-12 * size)
+      EXPECT_LE(norm(pieces.momentum() - linear), 1e-12 * size) << "seed " << seed << " step " << step;
+      EXPECT_LE(norm(pieces.angular_momentum() - angular), 1e-12 * size)
           << "seed " << seed << " step " << step;
       met += pieces.scene.step.active > 0;
       rubbed -= pieces.scene.step.friction_work();
@@ -256,9 +258,9 @@ void expect_mirrored(const SpringModel& model, double tolerance) {
   for (int a = 0; a < model.count(); ++a) {
     double best = infinity;
     for (int b = 0; b < model.count(); ++b)
-      best = std::min(
-          best, (Vector3d(-model.x(b).x(), model.x(b).y(), model.x(b).z()) - model.x(a)).norm() +
-                    0.01 * (Vector3d(-model.v(b).x(), model.v(b).y(), model.v(b).z()) - model.v(a)).norm());
+      best =
+          std::min(best, norm(Vector3d{-model.x(b).x, model.x(b).y, model.x(b).z} - model.x(a)) +
+                             0.01 * norm(Vector3d{-model.v(b).x, model.v(b).y, model.v(b).z} - model.v(a)));
     ASSERT_LE(best, tolerance) << "node " << a;
   }
 }
@@ -336,12 +338,12 @@ TEST(Resolution, PushesWhatHoldsTiedNodes) {
       const Vector3d linear = model.momentum(), angular = model.angular_momentum();
       const double energy = model.kinetic_energy();
       resolve(model.scene, model.nodes, 1e-3, model.alone(), {}, ties);
-      EXPECT_LE((model.momentum() - linear).norm(), 1e-13);
-      EXPECT_LE((model.angular_momentum() - angular).norm(), 1e-13);
+      EXPECT_LE(norm(model.momentum() - linear), 1e-13);
+      EXPECT_LE(norm(model.angular_momentum() - angular), 1e-13);
       const ContactStep& did = model.scene.step;
       EXPECT_NEAR(model.kinetic_energy() - energy, did.normal_work() + did.friction_work(), 1e-12);
       for (int n = held; n < block; ++n)
-        if (model.scene.normal_impulse[index(surface.slave(n))].norm() > 0) pushed += 1;
+        if (norm(model.scene.normal_impulse[index(surface.slave(n))]) > 0) pushed += 1;
       model.move(1e-3);
       place(ties, model.nodes, 1e-3);
     }
@@ -378,24 +380,24 @@ TEST(Resolution, OpensEdgesThatNearlyTouchAndTurn) {
   model.stiffness = 0;
   const double half = std::sqrt(0.5), tilt = 2e-2, slide = 4e-3, press = 1e-3, dt = 0.1;
   const int lower = model.add_box({1, 1, 1}, {1, 1, 1}, 1, [&](const Vector3d& x) -> Vector3d {
-    const Vector3d y = x - Vector3d(0.5, 1, 1);
+    const Vector3d y = x - Vector3d{0.5, 1, 1};
     return {y[0], half * (y[1] - y[2]), half * (y[1] + y[2])};
   });
   const int upper = model.add_box({1, 1, 1}, {1, 1, 1}, 1, [&](const Vector3d& x) -> Vector3d {
-    const Vector3d y = x - Vector3d(0, 0.5, 0);
+    const Vector3d y = x - Vector3d{0, 0.5, 0};
     return {half * (y[0] - y[2]), y[1], half * (y[0] + y[2]) + 4e-6};
   });
   model.start({});
   for (int n = lower; n < upper; ++n)
-    model.set_velocity(n, Vector3d(-model.x(n)[2], 0, model.x(n)[0]) * (tilt / dt));
-  for (int n = upper; n < model.count(); ++n) model.set_velocity(n, Vector3d(slide, 0, -press) / dt);
+    model.set_velocity(n, Vector3d{-model.x(n)[2], 0, model.x(n)[0]} * (tilt / dt));
+  for (int n = upper; n < model.count(); ++n) model.set_velocity(n, Vector3d{slide, 0, -press} / dt);
   const Vector3d momentum = model.momentum(), angular = model.angular_momentum();
   model.step(dt, team);
   EXPECT_GE(model.scene.rounds, 1U);
   EXPECT_LE(model.scene.rounds, 4U);
   EXPECT_EQ(model.scene.zones, 0U);
-  EXPECT_LT((model.momentum() - momentum).norm(), 1e-13);
-  EXPECT_LT((model.angular_momentum() - angular).norm(), 1e-13);
+  EXPECT_LT(norm(model.momentum() - momentum), 1e-13);
+  EXPECT_LT(norm(model.angular_momentum() - angular), 1e-13);
 }
 
 }  // namespace

@@ -5,12 +5,13 @@
 #include "contact/audit/audit.hpp"
 #include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio::test {
 namespace {
 
 Map turned_and_shifted(double angle, const Vector3d& axis, const Vector3d& by) {
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  const Tensor<double> turn = rotation_about(angle, axis);
   return [turn, by](const Vector3d& x) -> Vector3d { return turn * x + by; };
 }
 
@@ -19,16 +20,16 @@ void throw_things(SpringModel& model, unsigned seed, const ContactOptions& optio
                   const Vector3d& common_velocity) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const auto vector = [&] { return Vector3d(uniform(random), uniform(random), uniform(random)); };
+  const auto vector = [&] { return Vector3d{uniform(random), uniform(random), uniform(random)}; };
   int things = 0;
   for (const double x : {0.0, 3.0})
     for (const double y : {0.0, 3.0})
       for (const double z : {0.0, 3.0}) {
-        const Vector3d centre = Vector3d(x, y, z) + 0.2 * vector();
+        const Vector3d centre = Vector3d{x, y, z} + 0.2 * vector();
         const Map map = turned_and_shifted(3 * uniform(random), vector(), centre + offset);
         const int first = ++things % 3 == 0 ? model.add_sheet({4, 4}, {1.5, 1.5}, 0.1, 10, map)
                                             : model.add_box({2, 2, 2}, {1, 1, 1}, 1, map);
-        model.throw_from(first, 2.0 * (Vector3d(1.5, 1.5, 1.5) - centre) + common_velocity);
+        model.throw_from(first, 2.0 * (Vector3d{1.5, 1.5, 1.5} - centre) + common_velocity);
       }
   model.stiffness = 200;
   model.start(options);
@@ -41,10 +42,10 @@ TEST(Momentum, IsKeptToRoundingInRandomScenes) {
       SpringModel model;
       ContactOptions options;
       options.friction = friction;
-      throw_things(model, seed, options, Vector3d::Zero(), {0.3, 0, 0});
+      throw_things(model, seed, options, Vector3d{}, {0.3, 0, 0});
       const Vector3d linear = model.momentum(), angular = model.angular_momentum();
       double size = 0;
-      for (int n = 0; n < model.count(); ++n) size += model.mass(n) * model.v(n).norm();
+      for (int n = 0; n < model.count(); ++n) size += model.mass(n) * norm(model.v(n));
       const double energy = model.kinetic_energy();
       std::uint64_t active = 0;
       for (int i = 0; i < 800; ++i) {
@@ -53,8 +54,8 @@ TEST(Momentum, IsKeptToRoundingInRandomScenes) {
       }
       EXPECT_GT(active, 1000U);
       EXPECT_GT(model.scene.steps_with_hits, 0U);
-      EXPECT_LT((model.momentum() - linear).norm(), 1e-12 * size);
-      EXPECT_LT((model.angular_momentum() - angular).norm(), 1e-12 * size * 5) << seed;
+      EXPECT_LT(norm(model.momentum() - linear), 1e-12 * size);
+      EXPECT_LT(norm(model.angular_momentum() - angular), 1e-12 * size * 5) << seed;
       EXPECT_LE(model.scene.totals.largest_normal_work, 1e-3 * energy);
     }
 }
@@ -63,11 +64,11 @@ TEST(Momentum, IsKeptWithFriction) {
   SpringModel model;
   ContactOptions options;
   options.friction = 0.4;
-  throw_things(model, 7, options, Vector3d::Zero(), Vector3d::Zero());
+  throw_things(model, 7, options, Vector3d{}, Vector3d{});
   const Vector3d linear = model.momentum();
   const double energy = model.kinetic_energy();
   for (int i = 0; i < 800; ++i) model.step(1e-3);
-  EXPECT_LT((model.momentum() - linear).norm(), 1e-12 * std::sqrt(energy));
+  EXPECT_LT(norm(model.momentum() - linear), 1e-12 * std::sqrt(energy));
   EXPECT_LT(model.scene.totals.friction_work, 0);
 }
 
@@ -78,7 +79,7 @@ TEST(Resolve, HasTheSameBitsForAnyNumberOfThreads) {
     SpringModel model;
     ContactOptions options;
     options.friction = 0.3;
-    throw_things(model, 5, options, Vector3d::Zero(), Vector3d::Zero());
+    throw_things(model, 5, options, Vector3d{}, Vector3d{});
     for (int i = 0; i < 500; ++i) model.step(1e-3, team);
     std::vector<double> state;
     for (int n = 0; n < model.count(); ++n)
@@ -99,36 +100,35 @@ TEST(Resolve, DoesNotDependOnTheFrame) {
   const auto run = [](const Vector3d& offset, const Vector3d& velocity, double dt, int steps) -> Vector3d {
     SpringModel model;
     model.add_box({3, 3, 3}, {3, 3, 3}, 1, shifted(offset));
-    const int upper = model.add_box({2, 2, 2}, {2, 2, 2}, 1, shifted(offset + Vector3d(0.3, 0.4, 3.01)));
+    const int upper = model.add_box({2, 2, 2}, {2, 2, 2}, 1, shifted(offset + Vector3d{0.3, 0.4, 3.01}));
     model.throw_from(0, velocity);
-    model.throw_from(upper, velocity + Vector3d(0, 0, -1));
+    model.throw_from(upper, velocity + Vector3d{0, 0, -1});
     model.stiffness = 200;
     model.start({});
     for (int i = 0; i < steps; ++i) model.step(dt);
     return model.mean_velocity(upper, model.count()) - velocity;
   };
-  const Vector3d reference = run(Vector3d::Zero(), Vector3d::Zero(), 0x1p-10, 300);
+  const Vector3d reference = run(Vector3d{}, Vector3d{}, 0x1p-10, 300);
   EXPECT_GT(reference[2], -0.7);
   // Positions are rounded to 2^-32, which a step of 2^-10 turns into a velocity 300 times.
-  EXPECT_LT((run({0x1p20, -0x1p20, 0x1p20}, Vector3d::Zero(), 0x1p-10, 300) - reference).norm(),
-            300 * 0x1p-22);
-  EXPECT_LT((run(Vector3d::Zero(), {1024, -1024, 512}, 0x1p-10, 300) - reference).norm(), 1e-6);
+  EXPECT_LT(norm(run({0x1p20, -0x1p20, 0x1p20}, Vector3d{}, 0x1p-10, 300) - reference), 300 * 0x1p-22);
+  EXPECT_LT(norm(run(Vector3d{}, {1024, -1024, 512}, 0x1p-10, 300) - reference), 1e-6);
 }
 
 TEST(Friction, NeverLeavesTheCone) {
   SpringModel model;
   ContactOptions options;
   options.friction = 0.25;
-  throw_things(model, 11, options, Vector3d::Zero(), Vector3d::Zero());
+  throw_things(model, 11, options, Vector3d{}, Vector3d{});
   int sliding = 0;
   int sticking = 0;
   for (int i = 0; i < 600; ++i) {
     model.step(1e-3);
     for (const Contact& contact : model.scene.contacts) {
-      ASSERT_LE(contact.friction.norm(), 0.25 * contact.impulse * (1 + 1e-12));
-      ASSERT_LE(std::abs(contact.friction.dot(contact.normal)), 1e-12 * contact.impulse);
+      ASSERT_LE(norm(contact.friction), 0.25 * contact.impulse * (1 + 1e-12));
+      ASSERT_LE(std::abs(dot(contact.friction, contact.normal)), 1e-12 * contact.impulse);
       if (contact.impulse == 0) continue;
-      (contact.friction.norm() > 0.2499 * contact.impulse ? sliding : sticking) += 1;
+      (norm(contact.friction) > 0.2499 * contact.impulse ? sliding : sticking) += 1;
     }
   }
   EXPECT_GT(sliding, 100);
@@ -192,7 +192,7 @@ TEST(FrictionSlow, DampedStackRestsWithoutDrift) {
   const Vector3d settled = model.centre(floor_end, model.count());
   for (int i = 0; i < 5000; ++i) model.step(1e-3);
   const double potential = 1 * (0.5 + 1.5 + 2.5 + 3.5);
-  EXPECT_LT((model.centre(floor_end, model.count()) - settled).norm(), 1e-5);
+  EXPECT_LT(norm(model.centre(floor_end, model.count()) - settled), 1e-5);
   EXPECT_LT(model.kinetic_energy(), 5e-7 * potential);
   EXPECT_LT(model.scene.step.deepest_overlap, 1e-4);
 }
@@ -247,7 +247,7 @@ TEST(Seams, AHitOnASeamIsOneContact) {
     SpringModel single;
     single.add_box({2, 2, 1}, {2, 2, 1}, 1, shifted({0, 0, -1}));
     single.add_box({1, 1, 1}, {0.5, 0.5, 0.5}, 1,
-                   turned_and_shifted(0.8, {1, -0.7, 0.2}, Vector3d(x, 1, 0.0)));
+                   turned_and_shifted(0.8, {1, -0.7, 0.2}, Vector3d{x, 1, 0.0}));
     single.throw_from(floor_end, {0, 0, -1});
     single.stiffness = 0;
     single.start({});

@@ -31,8 +31,8 @@ inline Hex8 inviscid_hex8() {
   return element;
 }
 
-inline Part box(std::string name, Vector size, std::array<int, 3> elements, Vector centre, Element element,
-                std::string material = "material") {
+inline Part box(std::string name, Vector3d size, std::array<int, 3> elements, Vector3d centre,
+                Element element, std::string material = "material") {
   BoxMesh mesh;
   mesh.size = size;
   mesh.elements = elements;
@@ -48,7 +48,7 @@ inline PrescribedMotion fix(std::string set, std::vector<int> axes) {
   return motion;
 }
 
-inline InitialCondition moving(std::string part, Vector velocity) {
+inline InitialCondition moving(std::string part, Vector3d velocity) {
   InitialCondition condition;
   condition.where.set = std::move(part);
   condition.velocity = velocity;
@@ -86,7 +86,7 @@ inline void run(Model& model, const Deck& deck, ThreadTeam& team,
   });
 }
 
-inline Vector momentum_of(const Model& model) { return momentum(model.nodes).total.linear; }
+inline Vector3d momentum_of(const Model& model) { return momentum(model.nodes).total.linear; }
 
 /// Mean velocity of a part along an axis.
 inline double mean_velocity(const Model& model, std::size_t part, std::size_t axis) {

@@ -6,8 +6,6 @@
 
 namespace brio::test {
 
-using Eigen::Vector3d;
-
 namespace {
 
 std::array<Vector3d, 3> random_triangle(Random& random) {

@@ -10,8 +10,8 @@
 namespace brio::test {
 
 struct SegmentAndTriangle {
-  std::array<Eigen::Vector3d, 2> segment;
-  std::array<Eigen::Vector3d, 3> triangle;
+  std::array<Vector3d, 2> segment;
+  std::array<Vector3d, 3> triangle;
 };
 
 enum class CrossingFamily {

@@ -11,8 +11,6 @@
 
 namespace brio::test {
 
-using Eigen::Vector3d;
-
 class AuditScene {
  public:
   using Map = std::function<Vector3d(const Vector3d&)>;

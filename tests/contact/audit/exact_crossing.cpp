@@ -4,8 +4,6 @@
 
 namespace brio::test {
 
-using Eigen::Vector3d;
-
 ExactCrossing judge_crossing(const std::array<Vector3d, 2>& segment,
                              const std::array<Vector3d, 3>& triangle) {
   using namespace exact;

@@ -23,7 +23,6 @@ struct ExactCrossing {
   }
 };
 
-ExactCrossing judge_crossing(const std::array<Eigen::Vector3d, 2>& segment,
-                             const std::array<Eigen::Vector3d, 3>& triangle);
+ExactCrossing judge_crossing(const std::array<Vector3d, 2>& segment, const std::array<Vector3d, 3>& triangle);
 
 }  // namespace brio::test

@@ -72,7 +72,7 @@ TEST(AuditBodies, FindsASolidThatCutsItself) {
     const double angle = -0.16 * std::numbers::pi;
     const double radius = n % 2 == 0 ? 3.3 : 3.7;
     move_nodes(model, n, n + 1,
-               Vector3d(radius * std::cos(angle), n < 2 ? 0.3 : 0.7, radius * std::sin(angle)) - model.x(n));
+               Vector3d{radius * std::cos(angle), n < 2 ? 0.3 : 0.7, radius * std::sin(angle)} - model.x(n));
   }
   const Audit found = audit(model.scene, model.nodes, team);
   EXPECT_EQ(found.crossings, 4) << "four sides with the end";

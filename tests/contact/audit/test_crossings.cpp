@@ -10,15 +10,14 @@
 #include "tests/contact/audit/audit_scene.hpp"
 #include "tests/contact/audit/exact_crossing.hpp"
 #include "tests/contact/geometry/adversarial_queries.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio::test {
 namespace {
 
-const Vector3d one(1, 1, 1);
+const Vector3d one{1, 1, 1};
 
-Eigen::Matrix3d turned(double angle, const Vector3d& axis) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
+Tensor<double> turned(double angle, const Vector3d& axis) { return rotation_about(angle, axis); }
 const auto as_it_is = moved({0, 0, 0});
 
 TEST(AuditCrossings, ApartOrTouchingThereIsNone) {
@@ -34,10 +33,11 @@ TEST(AuditCrossings, ApartOrTouchingThereIsNone) {
 
 // At places that have no short binary form, 1000 lengths away.
 TEST(AuditCrossings, ATouchWithinRoundingIsNone) {
-  const Eigen::Matrix3d turn = turned(0.7, {1, 2, 3});
+  const Tensor<double> turn = turned(0.7, {1, 2, 3});
   const auto placed = [&](const Vector3d& by) {
-    return
-        [by, turn](const Vector3d& x) -> Vector3d { return turn * (x + by) + Vector3d(1000.1, -700.3, 3.7); };
+    return [by, turn](const Vector3d& x) -> Vector3d {
+      return turn * (x + by) + Vector3d{1000.1, -700.3, 3.7};
+    };
   };
   AuditScene scene;
   scene.add_box({2, 2, 2}, one, placed({0, 0, 0}));
@@ -50,10 +50,10 @@ TEST(AuditCrossings, ATouchWithinRoundingIsNone) {
 TEST(AuditCrossings, ACornerInAFaceIsThreePairs) {
   AuditScene scene;
   scene.add_box({1, 1, 1}, one, as_it_is);
-  const Eigen::Matrix3d on_its_corner =
-      Eigen::Quaterniond::FromTwoVectors(one, Vector3d::UnitZ()).toRotationMatrix();
-  scene.add_box({1, 1, 1}, one,
-                [&](const Vector3d& x) -> Vector3d { return on_its_corner * x + Vector3d(0.4, 0.45, 0.9); });
+  const Tensor<double> on_its_corner = rotation_about(std::acos(1 / std::sqrt(3.0)), cross(one, {0, 0, 1}));
+  scene.add_box({1, 1, 1}, one, [&](const Vector3d& x) -> Vector3d {
+    return on_its_corner * x + Vector3d{0.4, 0.45, 0.9};
+  });
   scene.start();
   const Audit found = scene.found();
   EXPECT_EQ(found.crossings, 3) << "the sides of the corner with the top";
@@ -67,9 +67,9 @@ TEST(AuditCrossings, ACornerInAFaceIsThreePairs) {
 TEST(AuditCrossings, AnEdgeAcrossAFaceIsSixPairs) {
   AuditScene scene;
   scene.add_box({1, 1, 1}, one, as_it_is);
-  const Eigen::Matrix3d on_its_edge = turned(std::numbers::pi / 4, {1, 0, 0});
+  const Tensor<double> on_its_edge = turned(std::numbers::pi / 4, {1, 0, 0});
   scene.add_box({1, 1, 1}, {3, 1, 1}, [&](const Vector3d& x) -> Vector3d {
-    return on_its_edge * (x - Vector3d(1.1, 0, 0)) + Vector3d(0, 0.47, 0.8);
+    return on_its_edge * (x - Vector3d{1.1, 0, 0}) + Vector3d{0, 0.47, 0.8};
   });
   scene.start();
   const Audit found = scene.found();
@@ -122,7 +122,7 @@ TEST(AuditCrossings, AHoleIsOutside) {
   scene.start();
   EXPECT_EQ(scene.found().missed(), 0);
   scene.place_all([&](const Vector3d& x) -> Vector3d {
-    return x.head<2>().norm() < 1.5 ? Vector3d(0.2 * x + Vector3d(2.51, 0.3, 0.4)) : x;
+    return std::hypot(x.x, x.y) < 1.5 ? 0.2 * x + Vector3d{2.51, 0.3, 0.4} : x;
   });
   EXPECT_EQ(scene.found().crossings, 0);
   EXPECT_EQ(scene.found().swallowed, 1) << "in the material";
@@ -171,7 +171,7 @@ TEST(AuditCrossings, FindsAShellThatCrossesItself) {
   EXPECT_EQ(scene.found().missed(), 0) << "a spiral";
   place([&](const Vector3d& x) -> Vector3d {
     const Vector3d at = bent(1.1)(x);
-    return x[0] > 0.95 ? Vector3d(1.3 * at[0], at[1], 1.3 * at[2]) : at;
+    return x[0] > 0.95 ? Vector3d{1.3 * at[0], at[1], 1.3 * at[2]} : at;
   });
   EXPECT_EQ(scene.found().crossings, 5) << "a column of three faces with one that lies askew by a little";
 }
@@ -267,7 +267,7 @@ AuditScene heap(std::uint64_t seed) {
   Random random(seed);
   AuditScene scene;
   const auto anyhow = [&](int) {
-    const Eigen::Matrix3d turn = turned(random.uniform(0, 6), random.vector(1));
+    const Tensor<double> turn = turned(random.uniform(0, 6), random.vector(1));
     const Vector3d to = random.vector(1.2);
     return [turn, to](const Vector3d& x) -> Vector3d { return turn * x + to; };
   };

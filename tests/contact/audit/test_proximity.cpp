@@ -32,10 +32,10 @@ TEST(AuditDistance, IsNeverMoreThanThatOfAnyTwoPoints) {
       for (int b = 0; b <= steps; ++b) {
         const double s = a / double(steps), t = b / double(steps);
         const Vector3d x = first[0] + s * (first[1] - first[0]), y = second[0] + t * (second[1] - second[0]);
-        least = std::min(least, (x - y).norm());
+        least = std::min(least, norm(x - y));
         if (a + b > steps) continue;
         const Vector3d z = face[0] + s * (face[1] - face[0]) + t * (face[2] - face[0]);
-        least_of_triangle = std::min(least_of_triangle, (first[0] - z).norm());
+        least_of_triangle = std::min(least_of_triangle, norm(first[0] - z));
       }
     ASSERT_LE(of_segments, least + 1e-12);
     ASSERT_GE(of_segments, least - 0.2);
@@ -45,7 +45,7 @@ TEST(AuditDistance, IsNeverMoreThanThatOfAnyTwoPoints) {
 }
 
 TEST(AuditDistance, IsKnownAtEveryFeature) {
-  const Vector3d a(0, 0, 0), b(2, 0, 0), c(0, 2, 0);
+  const Vector3d a{0, 0, 0}, b(2, 0, 0), c(0, 2, 0);
   const auto distance = [&](const Vector3d& x) {
     return std::sqrt(squared_distance_to_triangle(x, a, b, c));
   };
@@ -67,7 +67,7 @@ TEST(AuditProximity, CountsNodesOfShellsTooClose) {
   EXPECT_EQ(scene.found().missed(), 0);
   const auto lower = [&](double by) {
     for (int n = first; n < scene.count(); ++n)
-      scene.place(n, scene.positions()[index(n)] - Vector3d(0, 0, by));
+      scene.place(n, scene.positions()[index(n)] - Vector3d{0, 0, by});
   };
   lower(0.009);
   EXPECT_EQ(scene.found().missed(), 0) << "by less than a tenth";
@@ -93,7 +93,7 @@ TEST(AuditProximity, CountsParticlesInFacesBeamsAndParticles) {
   for (int n = first; n < scene.first_node(other); ++n) {
     AuditScene closer = scene;
     const double down = n + 1 == scene.first_node(other) ? -0.05 : 0.05;
-    closer.place(n, scene.positions()[index(n)] - Vector3d(0, 0, down));
+    closer.place(n, scene.positions()[index(n)] - Vector3d{0, 0, down});
     EXPECT_EQ(closer.found().too_close, 1) << n;
     EXPECT_EQ(closer.found().missed(), 1) << n;
     EXPECT_NEAR(closer.found().deepest_too_close.depth, 0.05, 1e-12) << n;
@@ -112,7 +112,7 @@ TEST(AuditProximity, CountsCrossedBeamsAndEdges) {
   const auto depths = [&](int node_count, int first, double by) {
     AuditScene closer = scene;
     for (int n = first; n < first + node_count; ++n)
-      closer.place(n, scene.positions()[index(n)] - Vector3d(0, 0, by));
+      closer.place(n, scene.positions()[index(n)] - Vector3d{0, 0, by});
     return closer.found();
   };
   EXPECT_EQ(depths(4, scene.first_node(2), 0.02).too_close, 1) << "rim on rim";

@@ -15,8 +15,6 @@
 namespace brio::test {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr int segments_of_family = 100000;  // of eleven: more than a million in all
 
 SurfaceTriangle triangle_of(const SegmentAndTriangle& pair, const Continuation& continues) {
@@ -95,9 +93,9 @@ TEST(AuditPredicate, DepthIsTheShortestTranslationThatEndsACrossing) {
     if (!crosses(from, to, triangle)) continue;
     ++crossing;
     const double depth = crossing_depth(from, to, triangle);
-    std::vector<Vector3d> ways{triangle.area.normalized()};
+    std::vector<Vector3d> ways{normalized(triangle.area)};
     for (std::size_t k = 0; k < 3; ++k)
-      ways.push_back((to - from).cross(triangle.corner[(k + 1) % 3] - triangle.corner[k]).normalized());
+      ways.push_back(normalized(cross(to - from, triangle.corner[(k + 1) % 3] - triangle.corner[k])));
     bool ends = false;
     for (const Vector3d& way : ways)
       for (double sign : {-1.0, 1.0}) {
@@ -107,7 +105,7 @@ TEST(AuditPredicate, DepthIsTheShortestTranslationThatEndsACrossing) {
         ASSERT_TRUE(crosses(from + less, to + less, triangle));
       }
     ASSERT_TRUE(ends);
-    const Vector3d any = (1 - 1e-6) * depth * random.vector(1).normalized();
+    const Vector3d any = (1 - 1e-6) * depth * normalized(random.vector(1));
     ASSERT_TRUE(crosses(from + any, to + any, triangle));
   }
   EXPECT_GT(crossing, 1000);

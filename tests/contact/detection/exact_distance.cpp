@@ -35,15 +35,15 @@ Fraction squared_to_triangle(const IntegerVector& a, const IntegerVector& b, con
 }
 
 template <std::size_t N>
-Scaled scaled_for(const Eigen::Vector3d& node, const std::array<Eigen::Vector3d, N>& vertices) {
+Scaled scaled_for(const Vector3d& node, const std::array<Vector3d, N>& vertices) {
   Scaled scaled;
   scaled.note(node);
-  for (const Eigen::Vector3d& vertex : vertices) scaled.note(vertex);
+  for (const Vector3d& vertex : vertices) scaled.note(vertex);
   scaled.note(0x1p-130);  // below all distances to compare with
   return scaled;
 }
 
-std::array<IntegerVector, 4> seen_from(const Eigen::Vector3d& node, const FaceVertices& vertices,
+std::array<IntegerVector, 4> seen_from(const Vector3d& node, const FaceVertices& vertices,
                                        const Scaled& scaled) {
   std::array<IntegerVector, 4> seen;
   for (std::size_t k = 0; k < 4; ++k) seen[k] = scaled(vertices[k]) - scaled(node);
@@ -65,7 +65,7 @@ bool SquaredDistance::at_least(double distance) const {
   return numerator >= length * length * denominator;
 }
 
-SquaredDistance to_triangle(const Eigen::Vector3d& node, const std::array<Eigen::Vector3d, 3>& vertices) {
+SquaredDistance to_triangle(const Vector3d& node, const std::array<Vector3d, 3>& vertices) {
   const Scaled scaled = scaled_for(node, vertices);
   const IntegerVector origin = scaled(node);
   const Fraction square = squared_to_triangle(scaled(vertices[0]) - origin, scaled(vertices[1]) - origin,
@@ -73,7 +73,7 @@ SquaredDistance to_triangle(const Eigen::Vector3d& node, const std::array<Eigen:
   return {square.numerator, square.denominator, scaled};
 }
 
-SquaredDistance to_hull_surface(const Eigen::Vector3d& node, const FaceVertices& vertices) {
+SquaredDistance to_hull_surface(const Vector3d& node, const FaceVertices& vertices) {
   const Scaled scaled = scaled_for(node, vertices);
   const auto x = seen_from(node, vertices, scaled);
   const Fraction square =
@@ -83,7 +83,7 @@ SquaredDistance to_hull_surface(const Eigen::Vector3d& node, const FaceVertices&
 }
 
 SquaredDistance between_segments(const Segment& a, const Segment& b) {
-  Scaled scaled = scaled_for(a[0], std::array<Eigen::Vector3d, 3>{a[1], b[0], b[1]});
+  Scaled scaled = scaled_for(a[0], std::array<Vector3d, 3>{a[1], b[0], b[1]});
   const IntegerVector a0 = scaled(a[0]);
   const IntegerVector a1 = scaled(a[1]);
   const IntegerVector b0 = scaled(b[0]);
@@ -105,7 +105,7 @@ SquaredDistance between_segments(const Segment& a, const Segment& b) {
   return {best.numerator, best.denominator, scaled};
 }
 
-bool is_inside_hull(const Eigen::Vector3d& node, const FaceVertices& vertices, double share) {
+bool is_inside_hull(const Vector3d& node, const FaceVertices& vertices, double share) {
   Scaled scaled = scaled_for(node, vertices);
   const auto x = seen_from(node, vertices, scaled);
   const Integer volumes[4] = {dot(cross(x[1], x[2]), x[3]), -dot(cross(x[0], x[2]), x[3]),
@@ -125,20 +125,20 @@ bool is_inside_hull(const Eigen::Vector3d& node, const FaceVertices& vertices, d
   return beyond(1) || beyond(-1);
 }
 
-bool separated_by(const Eigen::Vector3d& d, const std::vector<Eigen::Vector3d>& first,
-                  const std::vector<Eigen::Vector3d>& second, double value) {
+bool separated_by(const Vector3d& d, const std::vector<Vector3d>& first, const std::vector<Vector3d>& second,
+                  double value) {
   Scaled scaled;  // one unit for lengths and one for the direction; that of the value is their product
   Scaled direction;
   scaled.note(1);
   direction.note(1);
   direction.note(d);
   for (const auto* points : {&first, &second})
-    for (const Eigen::Vector3d& point : *points) scaled.note(point);
+    for (const Vector3d& point : *points) scaled.note(point);
   const IntegerVector along = direction(d);
   Integer least = dot(along, scaled(first[0]));
-  for (const Eigen::Vector3d& p : first) least = std::min(least, dot(along, scaled(p)));
+  for (const Vector3d& p : first) least = std::min(least, dot(along, scaled(p)));
   Integer greatest = dot(along, scaled(second[0]));
-  for (const Eigen::Vector3d& q : second) greatest = std::max(greatest, dot(along, scaled(q)));
+  for (const Vector3d& q : second) greatest = std::max(greatest, dot(along, scaled(q)));
   return mpq_class(least - greatest) >= mpq_class(value) * scaled(1) * direction(1);
 }
 

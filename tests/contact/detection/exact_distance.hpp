@@ -21,17 +21,17 @@ struct SquaredDistance {
   bool at_least(double distance) const;
 };
 
-SquaredDistance to_triangle(const Eigen::Vector3d& node, const std::array<Eigen::Vector3d, 3>& vertices);
+SquaredDistance to_triangle(const Vector3d& node, const std::array<Vector3d, 3>& vertices);
 /// To the nearest of the four triangles: for a node inside of the hull that to its surface.
-SquaredDistance to_hull_surface(const Eigen::Vector3d& node, const FaceVertices& vertices);
+SquaredDistance to_hull_surface(const Vector3d& node, const FaceVertices& vertices);
 SquaredDistance between_segments(const Segment& a, const Segment& b);
 
 /// Strictly inside of the hull, with volumes of the node and each triangle above `share` of the cube of the
 /// largest component of a difference between the node and a vertex.
-bool is_inside_hull(const Eigen::Vector3d& node, const FaceVertices& vertices, double share = 0);
+bool is_inside_hull(const Vector3d& node, const FaceVertices& vertices, double share = 0);
 
 /// min over pairs of d . (p - q) >= value.
-bool separated_by(const Eigen::Vector3d& d, const std::vector<Eigen::Vector3d>& first,
-                  const std::vector<Eigen::Vector3d>& second, double value);
+bool separated_by(const Vector3d& d, const std::vector<Vector3d>& first, const std::vector<Vector3d>& second,
+                  double value);
 
 }  // namespace brio::exact

@@ -27,11 +27,11 @@ struct RandomScene {
   double dt = 0.01;
 
   RandomScene(const SceneSize& size, Random& random) {
-    std::vector<Eigen::Vector3d> at;
+    std::vector<Vector3d> at;
     for (int i = 0; i < size.sheets; ++i) add_sheet(size, random, at);
     for (int i = 0; i < size.cubes; ++i) add_cube(random.vector(size.room / 2), random, at);
     for (int i = 0; i < size.beams; ++i) {
-      const Eigen::Vector3d from = random.vector(size.room / 2);
+      const Vector3d from = random.vector(size.room / 2);
       for (double share : {0.0, 1.0}) beam.push_back(add(from + share * random.vector(0.7), at));
     }
     for (int i = 0; i < size.particles; ++i) particle.push_back(add(random.vector(size.room / 2), at));
@@ -40,29 +40,27 @@ struct RandomScene {
 
   /// Velocities of all nodes: together, and every one by itself up to `speed`.
   void push(double speed, Random& random) {
-    const Eigen::Vector3d common = random.vector(5 * speed);
+    const Vector3d common = random.vector(5 * speed);
     for (NodeRecord& node : nodes.record) {
-      const Eigen::Vector3d v = common + random.vector(speed);
+      const Vector3d v = common + random.vector(speed);
       std::copy(v.data(), v.data() + 3, node.velocity);
     }
   }
   /// To the end of the step, some of them a little farther, as walls and ties do.
   void move(Random& random) {
     for (NodeRecord& node : nodes.record) {
-      const Eigen::Vector3d shift =
-          random.integer(0, 19) == 0 ? random.vector(0.02) : Eigen::Vector3d::Zero();
+      const Vector3d shift = random.integer(0, 19) == 0 ? random.vector(0.02) : Vector3d{};
       for (int axis = 0; axis < 3; ++axis) node.position[axis] += dt * node.velocity[axis] + shift[axis];
     }
   }
 
  private:
-  static int add(const Eigen::Vector3d& x, std::vector<Eigen::Vector3d>& at) {
+  static int add(const Vector3d& x, std::vector<Vector3d>& at) {
     at.push_back(x);
     return static_cast<int>(at.size()) - 1;
   }
-  void add_sheet(const SceneSize& size, Random& random, std::vector<Eigen::Vector3d>& at) {
-    const Eigen::Vector3d corner = random.vector(size.room / 2), u = random.vector(0.6),
-                          v = random.vector(0.6);
+  void add_sheet(const SceneSize& size, Random& random, std::vector<Vector3d>& at) {
+    const Vector3d corner = random.vector(size.room / 2), u = random.vector(0.6), v = random.vector(0.6);
     const int first = static_cast<int>(at.size()), row = size.cells + 1;
     for (int j = 0; j < row; ++j)
       for (int i = 0; i < row; ++i) add(corner + i * u + j * v + random.vector(0.15), at);
@@ -71,13 +69,13 @@ struct RandomScene {
         for (int n : {i + row * j, i + 1 + row * j, i + 1 + row * (j + 1), i + row * (j + 1)})
           sheet.push_back(first + n);
   }
-  void add_cube(const Eigen::Vector3d& corner, Random& random, std::vector<Eigen::Vector3d>& at) {
-    constexpr int lattice[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-                                   {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-    for (const int* c : lattice)
-      cube.push_back(add(corner + 0.5 * Eigen::Vector3d(c[0], c[1], c[2]) + random.vector(0.05), at));
+  void add_cube(const Vector3d& corner, Random& random, std::vector<Vector3d>& at) {
+    constexpr double lattice[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                      {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    for (const double* c : lattice)
+      cube.push_back(add(corner + 0.5 * Vector3d{c[0], c[1], c[2]} + random.vector(0.05), at));
   }
-  void build(const std::vector<Eigen::Vector3d>& at) {
+  void build(const std::vector<Vector3d>& at) {
     nodes = Nodes(at.size(), true);
     for (std::size_t i = 0; i < at.size(); ++i) {
       std::copy(at[i].data(), at[i].data() + 3, nodes.record[i].position);

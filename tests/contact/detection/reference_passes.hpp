@@ -87,7 +87,7 @@ class Reference {
     double longest = 0;
     for (int a : first)
       for (int b : second)
-        longest = std::max(longest, (motion_.displacement(a) - motion_.displacement(b)).norm());
+        longest = std::max(longest, norm(motion_.displacement(a) - motion_.displacement(b)));
     return approach_factor * longest;
   }
   bool is_near(double distance, double reach, double ahead) const {
@@ -101,21 +101,19 @@ class Reference {
     FaceVertices at;
     for (std::size_t k = 0; k < 4; ++k) at[k] = motion_.start(scene_.features.face_node[index(f)][k]);
     const bool spaced = list.has_radii(i);
-    const Vector3<double> x = components(motion_.start(s));
+    const Vector3d x = motion_.start(s);
     std::array<double, 4> weights{};
-    Vector3<double> offset{};
+    Vector3d offset{};
     if (spaced) {
-      const auto found = closest_on_hull<double>(
-          x, {components(at[0]), components(at[1]), components(at[2]), components(at[3])},
-          0.1 * scene_.features.skin);
+      const auto found = closest_on_hull<double>(x, {at[0], at[1], at[2], at[3]}, 0.1 * scene_.features.skin);
       weights = found.weights;
       if (!found.inside) {
-        offset = weights[0] * (x - components(at[0]));
-        for (std::size_t k = 1; k < 4; ++k) offset = offset + weights[k] * (x - components(at[k]));
+        offset = weights[0] * (x - at[0]);
+        for (std::size_t k = 1; k < 4; ++k) offset = offset + weights[k] * (x - at[k]);
       }
     } else {
-      const auto p = closest_on_triangle<double>(x, components(at[0]), components(at[1]), components(at[2]));
-      const auto q = closest_on_triangle<double>(x, components(at[0]), components(at[2]), components(at[3]));
+      const auto p = closest_on_triangle<double>(x, at[0], at[1], at[2]);
+      const auto q = closest_on_triangle<double>(x, at[0], at[2], at[3]);
       const bool first = at[2] == at[3] || p.squared_distance <= q.squared_distance;
       weights = first ? std::array<double, 4>{p.weights[0], p.weights[1], p.weights[2], 0}
                       : std::array<double, 4>{q.weights[0], 0, q.weights[1], q.weights[2]};
@@ -125,19 +123,17 @@ class Reference {
     const double reach = spaced
                              ? scene_.features.node_radius[index(s)] + scene_.features.face_radius[index(f)]
                              : 2 * scene_.features.skin;
-    return {static_cast<int>(i), weights, eigen((1 / distance) * offset), distance, reach};
+    return {static_cast<int>(i), weights, (1 / distance) * offset, distance, reach};
   }
 
   NearPair<2> closest_edges(std::size_t i) const {
     const PairList& list = all_.edge_edge;
     const EdgeFeature &a = edge(list.first(i)), &b = edge(list.second(i));
-    const auto found =
-        closest_on_segments(components(motion_.start(a.node[0])), components(motion_.start(a.node[1])),
-                            components(motion_.start(b.node[0])), components(motion_.start(b.node[1])));
+    const auto found = closest_on_segments(motion_.start(a.node[0]), motion_.start(a.node[1]),
+                                           motion_.start(b.node[0]), motion_.start(b.node[1]));
     const double distance = std::sqrt(found.squared_distance);
     const double reach = list.has_radii(i) ? a.radius + b.radius : 2 * scene_.features.skin;
-    return {
-        static_cast<int>(i), {found.on_a, found.on_b}, eigen((1 / distance) * found.offset), distance, reach};
+    return {static_cast<int>(i), {found.on_a, found.on_b}, (1 / distance) * found.offset, distance, reach};
   }
 
   static void take_over(std::vector<FoundContact>& found, std::vector<Contact>& contacts) {

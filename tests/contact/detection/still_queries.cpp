@@ -6,8 +6,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 double small(Random& random) { return random.integer(0, 5) == 0 ? 0 : random.power_of_ten(-17, 0); }
@@ -73,19 +71,17 @@ Vector3d any_point(Random& random, const FaceVertices& face) {
     weights[random.integer(0, 3)] += weight;
     sum += weight;
   }
-  Vector3d point = Vector3d::Zero();
+  Vector3d point{};
   for (std::size_t k = 0; k < 4; ++k) point += weights[k] / sum * face[k];
   return point;
 }
 
-Vector3d any_shift(Random& random) {
-  return random.integer(0, 3) == 0 ? random.vector(1e6) : Vector3d::Zero();
-}
+Vector3d any_shift(Random& random) { return random.integer(0, 3) == 0 ? random.vector(1e6) : Vector3d{}; }
 
 }  // namespace
 
 FaceQuery any_face_query(Random& random) {
-  FaceQuery query{Vector3d::Zero(), any_face(random)};
+  FaceQuery query{Vector3d{}, any_face(random)};
   const Vector3d point = any_point(random, query.face);
   switch (random.integer(0, 4)) {
     case 0:
@@ -96,7 +92,7 @@ FaceQuery any_face_query(Random& random) {
       break;
     case 2:  // over the point, along the normal
       query.node =
-          point + small(random) * (query.face[2] - query.face[0]).cross(query.face[3] - query.face[1]);
+          point + small(random) * cross(query.face[2] - query.face[0], query.face[3] - query.face[1]);
       break;
     default:
       query.node = point + small(random) * random.vector(1);
@@ -129,7 +125,7 @@ SegmentQuery any_segment_query(Random& random) {
       const Vector3d meet = random.vector(1);
       const double s = random.uniform(-0.5, 1.5);
       const double t = random.uniform(-0.5, 1.5);
-      const Vector3d apart = small(random) * along.cross(other) + small(random) * random.vector(1);
+      const Vector3d apart = small(random) * cross(along, other) + small(random) * random.vector(1);
       a = {meet - s * along, meet + (1 - s) * along};
       b = {meet - t * other + apart, meet + (1 - t) * other + apart};
       break;
@@ -137,7 +133,7 @@ SegmentQuery any_segment_query(Random& random) {
     case 3: {  // side by side
       const double length = random.uniform(-2, 2);
       const Vector3d start = random.uniform(-2, 2) * along + small(random) * random.vector(1);
-      a = {Vector3d::Zero(), along};
+      a = {Vector3d{}, along};
       b = {start, start + length * (random.coin() ? along : other)};
       break;
     }

@@ -8,7 +8,7 @@
 namespace brio {
 
 struct FaceQuery {
-  Eigen::Vector3d node;
+  Vector3d node;
   FaceVertices face;
 };
 

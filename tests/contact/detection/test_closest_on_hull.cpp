@@ -16,18 +16,13 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
-std::array<Vector3<double>, 4> corners(const FaceVertices& face) {
-  return {components(face[0]), components(face[1]), components(face[2]), components(face[3])};
-}
+std::array<Vector3d, 4> corners(const FaceVertices& face) { return {face[0], face[1], face[2], face[3]}; }
 ClosestOnHull<double> closest(const FaceQuery& query) {
-  return closest_on_hull(components(query.node), corners(query.face));
+  return closest_on_hull(query.node, corners(query.face));
 }
 double largest_difference(const FaceQuery& query) {
   double largest = 0;
-  for (const Vector3d& vertex : query.face)
-    largest = std::max(largest, (query.node - vertex).lpNorm<Eigen::Infinity>());
+  for (const Vector3d& vertex : query.face) largest = std::max(largest, maximum_norm(query.node - vertex));
   return largest;
 }
 
@@ -58,14 +53,12 @@ constexpr double roundings = 10;
 
 void judge_triangle(const FaceQuery& query) {
   const test::FloatingPointTraps traps;
-  const auto result = closest_on_triangle(components(query.node), components(query.face[0]),
-                                          components(query.face[1]), components(query.face[2]));
+  const auto result = closest_on_triangle(query.node, query.face[0], query.face[1], query.face[2]);
   const double rounding = roundings * unit_roundoff * largest_difference(query);
   const double distance = std::sqrt(result.squared_distance);
   EXPECT_TRUE(are_shares(result.weights));
-  EXPECT_LE((offset_by_weights(query, result.weights) - eigen(result.offset)).lpNorm<Eigen::Infinity>(),
-            rounding);
-  EXPECT_LE(std::abs(eigen(result.offset).norm() - distance), 4 * unit_roundoff * distance);
+  EXPECT_LE(maximum_norm(offset_by_weights(query, result.weights) - result.offset), rounding);
+  EXPECT_LE(std::abs(norm(result.offset) - distance), 4 * unit_roundoff * distance);
   const exact::SquaredDistance truth =
       exact::to_triangle(query.node, {query.face[0], query.face[1], query.face[2]});
   EXPECT_TRUE(truth.at_most(distance + rounding));
@@ -78,11 +71,10 @@ void judge_hull(const FaceQuery& query) {
   const double scale = largest_difference(query);
   const double rounding = roundings * unit_roundoff * scale;
   // Sheets nearer than 16 to 32 roundings of the coordinates are one.
-  const double flat = 32 * unit_roundoff * (scale + query.node.lpNorm<Eigen::Infinity>());
-  const double distance = eigen(result.offset).norm();
+  const double flat = 32 * unit_roundoff * (scale + maximum_norm(query.node));
+  const double distance = norm(result.offset);
   EXPECT_TRUE(are_shares(result.weights));
-  EXPECT_LE((offset_by_weights(query, result.weights) - eigen(result.offset)).lpNorm<Eigen::Infinity>(),
-            rounding + flat);
+  EXPECT_LE(maximum_norm(offset_by_weights(query, result.weights) - result.offset), rounding + flat);
   if (result.inside) {
     EXPECT_TRUE(exact::is_inside_hull(query.node, query.face));
     EXPECT_EQ(result.squared_distance, 0);
@@ -131,8 +123,7 @@ TEST(ClosestOnHull, LanesGiveTheBitsOfPlainNumbers) {
       ASSERT_EQ(in_lane(packed.inside, lane), result.inside) << i;
       for (std::size_t k = 0; k < 4; ++k)
         ASSERT_TRUE(same_bits(packed.weights[k][lane], result.weights[k])) << i;
-      const auto triangle = closest_on_triangle(components(query.node), components(query.face[0]),
-                                                components(query.face[1]), components(query.face[2]));
+      const auto triangle = closest_on_triangle(query.node, query.face[0], query.face[1], query.face[2]);
       ASSERT_TRUE(same_bits(of_triangle.offset, lane, triangle.offset)) << i;
       for (std::size_t k = 0; k < 3; ++k)
         ASSERT_TRUE(same_bits(of_triangle.weights[k][lane], triangle.weights[k])) << i;
@@ -147,11 +138,11 @@ TEST(ClosestOnHull, MirrorImagesAreMirrorImages) {
   for (int i = 0; i < 50000; ++i) {
     const FaceQuery query = any_face_query(random);
     const auto result = closest(query);
-    const Vector3d mirror(1, -1, 1);
-    FaceQuery mirrored{query.node.cwiseProduct(mirror), {}};
-    for (std::size_t k = 0; k < 4; ++k) mirrored.face[k] = query.face[k].cwiseProduct(mirror);
+    const Vector3d mirror{1, -1, 1};
+    FaceQuery mirrored{componentwise_product(query.node, mirror), {}};
+    for (std::size_t k = 0; k < 4; ++k) mirrored.face[k] = componentwise_product(query.face[k], mirror);
     const auto seen = closest(mirrored);
-    ASSERT_EQ(eigen(seen.offset), eigen(result.offset).cwiseProduct(mirror)) << i;
+    ASSERT_EQ(seen.offset, componentwise_product(result.offset, mirror)) << i;
     ASSERT_EQ(seen.weights, result.weights) << i;
     ASSERT_EQ(seen.inside, result.inside) << i;
     if (query.face[3] == query.face[2]) continue;
@@ -159,7 +150,7 @@ TEST(ClosestOnHull, MirrorImagesAreMirrorImages) {
     const auto first = index(random.integer(0, 3));
     for (std::size_t k = 0; k < 4; ++k) relisted.face[k] = mirrored.face[(first + 4 - k) % 4];
     const double rounding = 2 * roundings * unit_roundoff * largest_difference(query);
-    ASSERT_NEAR(eigen(closest(relisted).offset).norm(), eigen(result.offset).norm(), rounding) << i;
+    ASSERT_NEAR(norm(closest(relisted).offset), norm(result.offset), rounding) << i;
   }
 }
 
@@ -170,8 +161,8 @@ TEST(ClosestOnHull, WeightsOfAFlatFaceAreItsShapeFunctions) {
   for (int i = 0; i < 50000; ++i) {
     const Vector3d u = random.vector(1);
     const Vector3d v = random.vector(1);
-    const Vector3d normal = u.cross(v);
-    if (normal.norm() < 0.1 * u.norm() * v.norm() || u.norm() < 0.1 || v.norm() < 0.1) continue;
+    const Vector3d normal = cross(u, v);
+    if (norm(normal) < 0.1 * norm(u) * norm(v) || norm(u) < 0.1 || norm(v) < 0.1) continue;
     const Vector3d corner = random.vector(random.coin() ? 1 : 100);
     const double s = random.uniform(0.6, 1.5);
     const double t = random.uniform(0.6, 1.5);
@@ -183,7 +174,7 @@ TEST(ClosestOnHull, WeightsOfAFlatFaceAreItsShapeFunctions) {
     for (std::size_t k = 0; k < 4; ++k) query.node += shape[k] * query.face[k];
     const auto result = closest(query);
     for (std::size_t k = 0; k < 4; ++k)
-      ASSERT_NEAR(result.weights[k], shape[k], 1e-12 * std::max(1.0, corner.norm())) << i;
+      ASSERT_NEAR(result.weights[k], shape[k], 1e-12 * std::max(1.0, norm(corner))) << i;
   }
 }
 
@@ -194,17 +185,17 @@ TEST(ClosestOnHull, WithAFlatnessWeightsAreContinuousInTheWarp) {
   Random random(60);
   const double flatness = 1e-3;
   for (int i = 0; i < 200; ++i) {
-    FaceQuery query{random.vector(0.4) + Vector3d(0.5, 0.5, 0), {}};
+    FaceQuery query{random.vector(0.4) + Vector3d{0.5, 0.5, 0}, {}};
     const double height = random.power_of_ten(-2, 0);
     query.node[2] = random.coin() ? height : -height;
     std::array<double, 4> before{};
     for (int k = -400; k <= 400; ++k) {
       const double warp = 0.02 * flatness * k;
-      query.face = {Vector3d(0, 0, warp), Vector3d(1, 0, 0), Vector3d(1, 1, warp), Vector3d(0, 1, 0)};
-      const auto result = closest_on_hull(components(query.node), corners(query.face), flatness);
-      const Vector3d shift = offset_by_weights(query, result.weights) - eigen(result.offset);
-      ASSERT_LE(shift.norm(), 2 * flatness);
-      ASSERT_LE(shift.cross(eigen(result.offset).normalized()).norm(), 2 * std::abs(warp) * height + 1e-15);
+      query.face = {Vector3d{0, 0, warp}, Vector3d{1, 0, 0}, Vector3d{1, 1, warp}, Vector3d{0, 1, 0}};
+      const auto result = closest_on_hull(query.node, corners(query.face), flatness);
+      const Vector3d shift = offset_by_weights(query, result.weights) - result.offset;
+      ASSERT_LE(norm(shift), 2 * flatness);
+      ASSERT_LE(norm(cross(shift, normalized(result.offset))), 2 * std::abs(warp) * height + 1e-15);
       for (std::size_t c = 0; c < 4; ++c) {
         const double change = k > -400 ? std::abs(result.weights[c] - before[c]) : 0;
         ASSERT_LE(change, 0.03) << i << ' ' << k;
@@ -220,8 +211,7 @@ TEST(ClosestOnHull, ATriangularFaceHasNoWeightOnItsFourthVertex) {
     FaceQuery query = any_face_query(random);
     query.face[3] = query.face[2];
     const auto result = closest(query);
-    const auto triangle = closest_on_triangle(components(query.node), components(query.face[0]),
-                                              components(query.face[1]), components(query.face[2]));
+    const auto triangle = closest_on_triangle(query.node, query.face[0], query.face[1], query.face[2]);
     ASSERT_EQ(result.weights[3], 0);
     ASSERT_FALSE(result.inside);
     ASSERT_NEAR(std::sqrt(result.squared_distance), std::sqrt(triangle.squared_distance),

@@ -16,15 +16,13 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 ClosestOnSegments<double> closest(const Segment& a, const Segment& b) {
-  return closest_on_segments(components(a[0]), components(a[1]), components(b[0]), components(b[1]));
+  return closest_on_segments(a[0], a[1], b[0], b[1]);
 }
 double largest_difference(const SegmentQuery& query) {
   double largest = 0;
   for (std::size_t k = 0; k < 4; ++k)
-    largest = std::max(largest, (query.a[k / 2] - query.b[k % 2]).lpNorm<Eigen::Infinity>());
+    largest = std::max(largest, maximum_norm(query.a[k / 2] - query.b[k % 2]));
   return largest;
 }
 Vector3d offset_by_parameters(const SegmentQuery& query, double on_a, double on_b) {
@@ -46,13 +44,11 @@ void judge(std::uint64_t seed, int queries) {
     const auto result = closest(query.a, query.b);
     const double rounding = roundings * unit_roundoff * largest_difference(query);
     const double distance = std::sqrt(result.squared_distance);
-    const double lengths = (query.a[1] - query.a[0]).norm() + (query.b[1] - query.b[0]).norm();
+    const double lengths = norm(query.a[1] - query.a[0]) + norm(query.b[1] - query.b[0]);
     const double same = result.parallel ? parallel_resolution * unit_roundoff * (distance + lengths) : 0;
     EXPECT_TRUE(std::min(result.on_a, result.on_b) >= 0 && std::max(result.on_a, result.on_b) <= 1);
-    EXPECT_LE((offset_by_parameters(query, result.on_a, result.on_b) - eigen(result.offset))
-                  .lpNorm<Eigen::Infinity>(),
-              rounding);
-    EXPECT_LE(std::abs(eigen(result.offset).norm() - distance), 4 * unit_roundoff * distance);
+    EXPECT_LE(maximum_norm(offset_by_parameters(query, result.on_a, result.on_b) - result.offset), rounding);
+    EXPECT_LE(std::abs(norm(result.offset) - distance), 4 * unit_roundoff * distance);
     const exact::SquaredDistance truth = exact::between_segments(query.a, query.b);
     EXPECT_TRUE(truth.at_most(distance + rounding));
     EXPECT_TRUE(truth.at_least(distance - rounding - same));
@@ -66,9 +62,9 @@ TEST(ClosestOnSegmentsSlow, RightToRoundingByExactArithmetic) { judge(62, 300000
 TEST(ClosestOnSegments, LanesExchangeAndMirrorGiveTheSameBits) {
   Random random(64);
   const test::FloatingPointTraps traps;
-  const Vector3d mirror(1, -1, 1);
+  const Vector3d mirror{1, -1, 1};
   const auto mirrored = [&](const Segment& s) {
-    return Segment{s[0].cwiseProduct(mirror), s[1].cwiseProduct(mirror)};
+    return Segment{componentwise_product(s[0], mirror), componentwise_product(s[1], mirror)};
   };
   for (int i = 0; i < 20000; ++i) {
     std::array<SegmentQuery, 8> queries;
@@ -93,11 +89,11 @@ TEST(ClosestOnSegments, LanesExchangeAndMirrorGiveTheSameBits) {
       const auto exchanged = closest(query.b, query.a);
       ASSERT_EQ(exchanged.on_a, result.on_b) << i;
       ASSERT_EQ(exchanged.on_b, result.on_a) << i;
-      ASSERT_EQ(eigen(exchanged.offset), -eigen(result.offset)) << i;
+      ASSERT_EQ(exchanged.offset, -result.offset) << i;
       ASSERT_EQ(exchanged.squared_distance, result.squared_distance) << i;
       const auto seen = closest(mirrored(query.a), mirrored(query.b));
       ASSERT_EQ(seen.on_a, result.on_a) << i;
-      ASSERT_EQ(eigen(seen.offset), eigen(result.offset).cwiseProduct(mirror)) << i;
+      ASSERT_EQ(seen.offset, componentwise_product(result.offset, mirror)) << i;
     }
   }
 }
@@ -109,13 +105,13 @@ TEST(ClosestOnSegments, ParallelOnesMeetInTheMiddleOfWhatTheyShare) {
     const Vector3d along = random.vector(1);
     const double first = random.uniform(-1.5, 1.5);
     const double second = random.uniform(-1.5, 1.5);
-    const Vector3d aside = random.coin() ? random.vector(1).cross(along).eval() : Vector3d(0, 0, 0);
+    const Vector3d aside = random.coin() ? cross(random.vector(1), along) : Vector3d{0, 0, 0};
     const Segment a = {random.vector(1), {}};
     const Segment whole = {a[0], a[0] + along};
     const Segment b = {a[0] + first * along + aside, a[0] + second * along + aside};
     const double low = std::max(0.0, std::min(first, second));
     const double high = std::min(1.0, std::max(first, second));
-    if (high - low < 0.01 || along.norm() < 0.1) continue;
+    if (high - low < 0.01 || norm(along) < 0.1) continue;
     const auto result = closest(whole, b);
     if (!result.parallel) continue;  // coordinates are rounded
     ++parallel;
@@ -126,12 +122,12 @@ TEST(ClosestOnSegments, ParallelOnesMeetInTheMiddleOfWhatTheyShare) {
 }
 
 TEST(ClosestOnSegments, WithoutLengthTheyArePoints) {
-  const Segment along_x = {Vector3d(0, 0, 0), Vector3d(4, 0, 0)};
-  const Segment above = {Vector3d(1, 0, 2), Vector3d(1, 0, 2)};
-  const Segment below = {Vector3d(1, 0, -1), Vector3d(1, 0, -1)};
+  const Segment along_x = {Vector3d{0, 0, 0}, Vector3d{4, 0, 0}};
+  const Segment above = {Vector3d{1, 0, 2}, Vector3d{1, 0, 2}};
+  const Segment below = {Vector3d{1, 0, -1}, Vector3d{1, 0, -1}};
   EXPECT_EQ(closest(along_x, above).on_a, 0.25);
-  EXPECT_EQ(eigen(closest(along_x, above).offset), Vector3d(0, 0, -2));
-  EXPECT_EQ(eigen(closest(above, below).offset), Vector3d(0, 0, 3));
+  EXPECT_EQ(closest(along_x, above).offset, (Vector3d{0, 0, -2}));
+  EXPECT_EQ(closest(above, below).offset, (Vector3d{0, 0, 3}));
   EXPECT_TRUE(closest(above, below).parallel);
 }
 

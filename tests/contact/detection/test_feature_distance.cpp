@@ -11,12 +11,8 @@
 
 namespace brio {
 namespace {
-
-using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 4>;
 using Numbers = std::array<int, 4>;
-
-Vector3<double> vector_of(const Vector3d& x) { return {x[0], x[1], x[2]}; }
 
 /// Two faces as a pass over pairs sees them.
 struct TwoFaces {
@@ -32,8 +28,8 @@ double bound_of(const Numbers& first, const Corners& a, const Numbers& second, c
   kind.list.add({.spacing = Spacing::radii});
   OnePair<TwoFaces>::Points at;
   for (std::size_t k = 0; k < 4; ++k) {
-    at.first[k] = vector_of(a[k]);
-    at.second[k] = vector_of(b[k]);
+    at.first[k] = a[k];
+    at.second[k] = b[k];
   }
   return CommonCorners(OnePair<TwoFaces>(kind, 0), at).distance().distance;
 }
@@ -76,7 +72,7 @@ TEST(FeatureDistance, IsNoMoreThanThatOfAnyPairOfFeatures) {
       return x;
     };
     if (random.coin())
-      for (std::size_t k = 4; k < 8; ++k) node[k] += Vector3d(1, 1, 0);
+      for (std::size_t k = 4; k < 8; ++k) node[k] += Vector3d{1, 1, 0};
     for (std::size_t i = 0; i < others.size(); ++i) {
       const double bound = bound_of(own, at(own), others[i], at(others[i]));
       ASSERT_LE(bound, least_distance(own, at(own), others[i], at(others[i]))) << trial << ' ' << i;
@@ -89,8 +85,8 @@ TEST(FeatureDistance, IsNoMoreThanThatOfAnyPairOfFeatures) {
 // In a sheet of squares, bent or not: what faces share no node with is an edge away, or its half diagonal.
 TEST(FeatureDistance, OfSquaresIsNearlyTheLeast) {
   const auto square_at = [](double x, double y) {
-    return Corners{Vector3d(x, y, 0), Vector3d(x + 1, y, 0), Vector3d(x + 1, y + 1, 0),
-                   Vector3d(x, y + 1, 0)};
+    return Corners{Vector3d{x, y, 0}, Vector3d{x + 1, y, 0}, Vector3d{x + 1, y + 1, 0},
+                   Vector3d{x, y + 1, 0}};
   };
   EXPECT_NEAR(bound_of(own, square_at(0, 0), {4, 5, 6, 7}, square_at(2, 0.3)), 1, 0.1);
   EXPECT_NEAR(bound_of(own, square_at(0, 0), {2, 5, 6, 7}, square_at(1, 1)), std::sqrt(0.5), 0.07);
@@ -102,8 +98,8 @@ TEST(FeatureDistance, OfSquaresIsNearlyTheLeast) {
 }
 
 TEST(FeatureDistance, OfFacesFoldedOntoEachOtherIsNone) {
-  const Corners flat{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 1, 0)};
-  const Corners folded{Vector3d(1, 0, 0), Vector3d(0, 0, 1e-3), Vector3d(0, 1, 1e-3), Vector3d(1, 1, 0)};
+  const Corners flat{Vector3d{0, 0, 0}, Vector3d{1, 0, 0}, Vector3d{1, 1, 0}, Vector3d{0, 1, 0}};
+  const Corners folded{Vector3d{1, 0, 0}, Vector3d{0, 0, 1e-3}, Vector3d{0, 1, 1e-3}, Vector3d{1, 1, 0}};
   EXPECT_LT(bound_of(own, flat, {1, 4, 5, 2}, folded), 1e-3);
 }
 

@@ -97,7 +97,7 @@ class Hidden {
       return is_flat(std::array{at(corner[0]), at(corner[1]), at(corner[2]), at(corner[3])});
     }
     if (edge.kind != EdgeKind::side || edge.faces != 2) return false;
-    std::array<Vector3<double>, 6> corners{at(edge.node[0]), at(edge.node[1])};
+    std::array<Vector3d, 6> corners{at(edge.node[0]), at(edge.node[1])};
     double area = HUGE_VAL;
     for (std::size_t k = 0; k < 2; ++k) {
       std::size_t next = 2 + 2 * k;
@@ -105,18 +105,18 @@ class Hidden {
       for (int node : corner)
         if (node != edge.node[0] && node != edge.node[1] && next < 4 + 2 * k) corners[next++] = at(node);
       if (next == 3 + 2 * k) corners[next] = corners[next - 1];
-      const Vector3<double> normal = cross(at(corner[2]) - at(corner[0]), at(corner[3]) - at(corner[1]));
+      const Vector3d normal = cross(at(corner[2]) - at(corner[0]), at(corner[3]) - at(corner[1]));
       area = std::min(area, 0.5 * std::sqrt(dot(normal, normal)));
     }
     return is_flat(corners) && length(other) <= 1.05 * area / length(flat);
   }
-  Vector3<double> at(int slave) const {
-    const Eigen::Vector3d x = still_.start(slave);
+  Vector3d at(int slave) const {
+    const Vector3d x = still_.start(slave);
     return {x[0], x[1], x[2]};
   }
   double length(int e) const {
     const std::array<int, 2>& node = features_.edge_node[index(e)];
-    return (still_.start(node[1]) - still_.start(node[0])).norm();
+    return norm(still_.start(node[1]) - still_.start(node[0]));
   }
 
   const SurfaceFeatures& features_;

@@ -11,7 +11,7 @@
 namespace brio {
 namespace {
 
-using Point = Vector3<double>;
+using Point = Vector3d;
 using Quad = std::array<Point, 4>;
 
 constexpr double thickness = 0.05;

@@ -22,7 +22,7 @@ struct Detector {
   Proximity proximity{};
   CrossingGuard guard{};
   std::vector<Contact> contacts{};
-  std::vector<Eigen::Vector3d> corrected{};
+  std::vector<Vector3d> corrected{};
   std::array<std::vector<int>, 2> active{};  ///< before constraints were found
 
   void begin() {
@@ -44,11 +44,11 @@ struct Detector {
   // Nodes are pushed, as if by contact, one in ten of them beyond its limit.
   void solve(double speed, Random& random) {
     SlaveSet pushed(scene.surface.slaves());
-    corrected.resize(scene.surface.slaves(), Eigen::Vector3d::Zero());
+    corrected.resize(scene.surface.slaves(), Vector3d{});
     for (std::size_t s = 0; s < scene.surface.slaves(); ++s) {
       if (random.coin()) continue;
       NodeRecord& node = scene.nodes.record[index(scene.surface.node[s])];
-      const Eigen::Vector3d change = random.vector(random.integer(0, 9) == 0 ? 8 * speed : 0.5 * speed);
+      const Vector3d change = random.vector(random.integer(0, 9) == 0 ? 8 * speed : 0.5 * speed);
       for (int axis = 0; axis < 3; ++axis)
         corrected[s][axis] = node.velocity[axis] = node.velocity[axis] + change[axis];
       pushed.insert(static_cast<int>(s));
@@ -216,8 +216,7 @@ TEST(Passes, EveryPairedEdgeIsSeenToGoAsFarAsItsNodes) {
         const std::array<int, 2>& nodes = scene.features.edge_node[index(e)];
         const auto& frame = motion.groups.group[index(motion.groups.of_node(nodes[0]))].step;
         double longest = 0;
-        for (int node : nodes)
-          longest = std::max(longest, (motion.displacement(node) - Eigen::Vector3d(frame.data())).norm());
+        for (int node : nodes) longest = std::max(longest, norm(motion.displacement(node) - frame));
         ASSERT_GE((motion.of_edge.ahead[index(e)] - motion.of_edge.path[index(e)]) * (1 + 1e-12),
                   approach_factor * longest)
             << step << ' ' << e;

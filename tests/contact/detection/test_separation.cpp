@@ -20,8 +20,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 struct Features {
   Vector3d d;
   std::vector<Vector3d> first_start, first_end, second_start, second_end;
@@ -32,13 +30,14 @@ struct Features {
 Features features(Random& random, std::size_t n, std::size_t m, double gap) {
   Features f;
   f.d = random.vector(1) * random.power_of_ten(-3, 3);
-  if (random.coin()) f.d = f.d.cast<float>().cast<double>();
+  if (random.coin())
+    for (double& component : f.d) component = static_cast<float>(component);
   if (random.integer(0, 9) == 0) f.d[random.integer(0, 2)] = 0;
   const auto at_one_time = [&](std::vector<Vector3d>& first, std::vector<Vector3d>& second) {
     const Vector3d shift = random.integer(0, 2) == 0 ? random.vector(1e6) : random.vector(1);
-    const double square = f.d.squaredNorm();
+    const double square = squared_norm(f.d);
     const auto raise = [&](Vector3d v, double height) {  // to this height along d
-      return Vector3d(v + (height - v.dot(f.d) / std::sqrt(square)) / std::sqrt(square) * f.d);
+      return Vector3d(v + (height - dot(v, f.d) / std::sqrt(square)) / std::sqrt(square) * f.d);
     };
     for (std::size_t k = 0; k < n; ++k)
       first.push_back(shift + raise(random.vector(1), gap + (random.coin() ? 0 : random.uniform(0, 1))));
@@ -51,9 +50,9 @@ Features features(Random& random, std::size_t n, std::size_t m, double gap) {
 }
 
 template <std::size_t N>
-std::array<Vector3<double>, N> points(const std::vector<Vector3d>& from) {
-  std::array<Vector3<double>, N> to;
-  for (std::size_t k = 0; k < N; ++k) to[k] = components(from[k]);
+std::array<Vector3d, N> points(const std::vector<Vector3d>& from) {
+  std::array<Vector3d, N> to;
+  for (std::size_t k = 0; k < N; ++k) to[k] = from[k];
   return to;
 }
 
@@ -67,7 +66,7 @@ void judge(Random& random, Count& count) {
       random.integer(0, 5) == 0 ? 0 : random.power_of_ten(-18, 0) * (random.integer(0, 3) - 0.5);
   const Features f = features(random, N, M, gap);
   const test::FloatingPointTraps traps;
-  const auto result = separation(components(f.d), points<N>(f.first_start), points<N>(f.first_end),
+  const auto result = separation(f.d, points<N>(f.first_start), points<N>(f.first_end),
                                  points<M>(f.second_start), points<M>(f.second_end));
   ASSERT_TRUE(exact::separated_by(f.d, f.first_start, f.second_start, result.start - result.bound));
   ASSERT_FALSE(exact::separated_by(f.d, f.first_start, f.second_start, result.start + result.bound));
@@ -95,7 +94,7 @@ TEST(SeparationSlow, TheValueIsWithinTheBoundByExactArithmetic) { judge(72, 1500
 
 // Multiples of 2^-30: the ends of the step are exact.
 Segment on_grid(const Segment& segment) {
-  const auto round = [](const Vector3d& v) { return Vector3d((v * 0x1p30).array().round() * 0x1p-30); };
+  const auto round = [](const Vector3d& v) { return rounded_to(v, 0x1p-30); };
   return {round(segment[0]), round(segment[1])};
 }
 
@@ -105,15 +104,15 @@ TEST(Separation, WhatIsCertainNeverMeets) {
   int certain = 0;
   for (int i = 0; i < 10000; ++i) {
     EdgeQuery query = adversarial_edges(static_cast<EdgeFamily>(i % edge_family_count), random);
-    std::array<Vector3<double>, 2> start[2], end[2];
+    std::array<Vector3d, 2> start[2], end[2];
     MovingEdge* edges[2] = {&query.a, &query.b};
     for (int side = 0; side < 2; ++side) {
       edges[side]->radius = 0;
       edges[side]->start = on_grid(edges[side]->start);
       edges[side]->displacement = on_grid(edges[side]->displacement);
       for (std::size_t k = 0; k < 2; ++k) {
-        start[side][k] = components(edges[side]->start[k]);
-        end[side][k] = components(edges[side]->start[k] + edges[side]->displacement[k]);
+        start[side][k] = edges[side]->start[k];
+        end[side][k] = edges[side]->start[k] + edges[side]->displacement[k];
       }
     }
     const auto closest = closest_on_segments(start[0][0], start[0][1], start[1][0], start[1][1]);
@@ -145,9 +144,8 @@ TEST(Separation, LanesGiveTheBitsOfPlainNumbers) {
     const auto packed = separation(d, node_start[0], node_end[0], face_start, face_end);
     for (int lane = 0; lane < 8; ++lane) {
       const Features& f = all[index(lane)];
-      const auto result =
-          separation(components(f.d), components(f.first_start[0]), components(f.first_end[0]),
-                     points<4>(f.second_start), points<4>(f.second_end));
+      const auto result = separation(f.d, f.first_start[0], f.first_end[0], points<4>(f.second_start),
+                                     points<4>(f.second_end));
       ASSERT_TRUE(same_bits(packed.start[lane], result.start)) << i;
       ASSERT_TRUE(same_bits(packed.end[lane], result.end)) << i;
       ASSERT_TRUE(same_bits(packed.bound[lane], result.bound)) << i;

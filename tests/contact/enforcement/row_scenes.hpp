@@ -10,12 +10,9 @@
 
 namespace brio::test {
 
-inline double norm(const Vector3<double>& a) { return std::sqrt(dot(a, a)); }
-inline Vector3<double> unit(const Vector3<double>& a) { return (1 / norm(a)) * a; }
+inline Vector3d unit(const Vector3d& a) { return (1 / norm(a)) * a; }
 
-inline VelocityBlock moving(double mass, const Vector3<double>& velocity) {
-  return {velocity, isotropic(1 / mass)};
-}
+inline VelocityBlock moving(double mass, const Vector3d& velocity) { return {velocity, isotropic(1 / mass)}; }
 
 class RandomNumbers {
  public:
@@ -25,12 +22,12 @@ class RandomNumbers {
     return std::uniform_real_distribution<double>(least, most)(engine_);
   }
   int below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(engine_); }
-  Vector3<double> vector(double size = 1) {
+  Vector3d vector(double size = 1) {
     const double x = number(size);
     const double y = number(size);
     return {x, y, number(size)};
   }
-  Vector3<double> direction() { return unit(vector() + Vector3<double>{0, 0, 1e-3}); }
+  Vector3d direction() { return unit(vector() + Vector3d{0, 0, 1e-3}); }
   std::mt19937& engine() { return engine_; }
 
  private:
@@ -42,8 +39,8 @@ struct RowScene {
   ConstraintRows rows;
   std::vector<VelocityBlock> blocks;
 
-  Vector3<double> momentum() const {
-    Vector3<double> sum{0, 0, 0};
+  Vector3d momentum() const {
+    Vector3d sum{0, 0, 0};
     for (const VelocityBlock& block : blocks) sum = sum + (1 / block.inverse_mass.xx) * block.velocity;
     return sum;
   }
@@ -53,7 +50,7 @@ struct RowScene {
       if (block.inverse_mass.xx > 0) sum += 0.5 * dot(block.velocity, block.velocity) / block.inverse_mass.xx;
     return sum;
   }
-  Vector3<double> relative_velocity(std::size_t i) const {
+  Vector3d relative_velocity(std::size_t i) const {
     return RowMap(rows, rows.row[i]).relative_velocity(blocks);
   }
 };
@@ -68,8 +65,7 @@ inline SolveReport solve(RowScene& scene, const SolveOptions& options, int threa
 }
 
 /// The row of a node on a wall.
-inline ConstraintRow& add_wall_row(RowScene& scene, int block, const Vector3<double>& normal,
-                                   double friction = 0) {
+inline ConstraintRow& add_wall_row(RowScene& scene, int block, const Vector3d& normal, double friction = 0) {
   ConstraintRow& row = scene.rows.add_row(normal, 0, friction);
   scene.rows.add_point(block, Side::first);
   return row;
@@ -77,15 +73,14 @@ inline ConstraintRow& add_wall_row(RowScene& scene, int block, const Vector3<dou
 
 /// Foot of a random quadrilateral: its corners are the blocks from `first` on.
 struct RandomFace {
-  std::vector<Vector3<double>> corner;
+  std::vector<Vector3d> corner;
   FaceFoot foot;
-  Vector3<double> point;
+  Vector3d point;
 
   RandomFace(RandomNumbers& random, int first, int corners = 4) {
-    const Vector3<double> o = random.vector(3);
-    corner = {o, o + Vector3<double>{1, 0, 0} + random.vector(0.2),
-              o + Vector3<double>{1, 1, 0} + random.vector(0.2),
-              o + Vector3<double>{0, 1, 0} + random.vector(0.2)};
+    const Vector3d o = random.vector(3);
+    corner = {o, o + Vector3d{1, 0, 0} + random.vector(0.2), o + Vector3d{1, 1, 0} + random.vector(0.2),
+              o + Vector3d{0, 1, 0} + random.vector(0.2)};
     const double u = random.between(0.05, corners == 4 ? 0.95 : 0.45);
     const double v = random.between(0.05, corners == 4 ? 0.95 : 0.45);
     double along[4] = {v - 1, 1 - v, v, -v};

@@ -15,17 +15,16 @@ class Rows : public testing::Test {
   ConstraintRows rows;
 
   const ConstraintRow& last() const { return rows.row.back(); }
-  void new_row(const Vector3<double>& normal) { rows.add_row(normal, 0, 0.3); }
+  void new_row(const Vector3d& normal) { rows.add_row(normal, 0, 0.3); }
 
   /// Sum of the impulses on blocks and of their moments about the origin, for an impulse on the first side.
   struct Total {
-    Vector3<double> impulse{0, 0, 0};
-    Vector3<double> moment{0, 0, 0};
+    Vector3d impulse{0, 0, 0};
+    Vector3d moment{0, 0, 0};
   };
-  Total spread(const Vector3<double>& impulse, const std::vector<Vector3<double>>& position,
-               int first_rotation) const {
+  Total spread(const Vector3d& impulse, const std::vector<Vector3d>& position, int first_rotation) const {
     Total total;
-    RowMap(rows, last()).spread(impulse, [&](int block, const Vector3<double>& given) {
+    RowMap(rows, last()).spread(impulse, [&](int block, const Vector3d& given) {
       if (block >= first_rotation) {
         total.moment = total.moment + given;
         return;
@@ -40,7 +39,7 @@ class Rows : public testing::Test {
 TEST_F(Rows, FrameIsOrthonormal) {
   for (int i = 0; i < 1000; ++i) {
     new_row(random.direction());
-    const Vector3<double> frame[3] = {last().normal, last().tangent[0], last().tangent[1]};
+    const Vector3d frame[3] = {last().normal, last().tangent[0], last().tangent[1]};
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) EXPECT_NEAR(dot(frame[a], frame[b]), a == b ? 1 : 0, 1e-15);
   }
@@ -56,9 +55,9 @@ TEST_F(Rows, SpreadIsTheTransposeOfVelocity) {
     rows.add_rigid_body(5, 7, random.vector(), Side::first);
     std::vector<VelocityBlock> blocks;
     for (int b = 0; b < 8; ++b) blocks.push_back(moving(1, random.vector()));
-    const Vector3<double> impulse = random.vector();
+    const Vector3d impulse = random.vector();
     double power = 0;
-    RowMap(rows, last()).spread(impulse, [&](int block, const Vector3<double>& given) {
+    RowMap(rows, last()).spread(impulse, [&](int block, const Vector3d& given) {
       power += dot(given, blocks[index(block)].velocity);
     });
     EXPECT_NEAR(power, dot(impulse, RowMap(rows, last()).relative_velocity(blocks)), 1e-13);
@@ -71,16 +70,16 @@ TEST_F(Rows, SolidFaceTakesTheMomentOfAPointThatStandsOff) {
     rows.clear();
     const RandomFace face(random, 0, i % 3 == 0 ? 3 : 4);
     // Along the face's normal, against it, and any direction as at an edge.
-    const Vector3<double> normal = i % 4 == 0   ? face.foot.normal
-                                   : i % 4 == 1 ? -1.0 * face.foot.normal
-                                                : random.direction();
+    const Vector3d normal = i % 4 == 0   ? face.foot.normal
+                            : i % 4 == 1 ? -1.0 * face.foot.normal
+                                         : random.direction();
     const double height = i % 5 == 0 ? 0 : random.number(0.5);
     new_row(normal);
     rows.add_face(face.foot, height, Side::first);
     EXPECT_EQ(last().matrix.size() > 0, i % 4 > 1 && height != 0);
-    const Vector3<double> impulse = random.vector();
+    const Vector3d impulse = random.vector();
     const Total total = spread(impulse, face.corner, 100);
-    const Vector3<double> point = face.point + height * normal;
+    const Vector3d point = face.point + height * normal;
     EXPECT_LT(norm(total.impulse - impulse), 1e-14);
     EXPECT_LT(norm(total.moment - cross(point, impulse)), 3e-14);
   }
@@ -90,11 +89,11 @@ TEST_F(Rows, SolidFaceMovesAsABodyInRigidMotion) {
   for (int i = 0; i < 1000; ++i) {
     rows.clear();
     const RandomFace face(random, 0);
-    const Vector3<double> normal = i % 2 == 0 ? face.foot.normal : random.direction();
+    const Vector3d normal = i % 2 == 0 ? face.foot.normal : random.direction();
     new_row(normal);
     rows.add_face(face.foot, 0.4, Side::first);
-    const Vector3<double> spin = random.vector();
-    const Vector3<double> v =
+    const Vector3d spin = random.vector();
+    const Vector3d v =
         RowMap(rows, last()).velocity([&](int b) { return cross(spin, face.corner[index(b)]); });
     EXPECT_LT(norm(v - cross(spin, face.point + 0.4 * normal)), 2e-14);
   }
@@ -108,10 +107,10 @@ TEST_F(Rows, ShellsAndRigidBodiesTakeTheMoment) {
     new_row(random.direction());
     const double height = random.number(0.5);
     rows.add_face(face.foot, height, Side::second);
-    const Vector3<double> point = face.point + height * last().normal;
-    const Vector3<double> centre = random.vector(3);
+    const Vector3d point = face.point + height * last().normal;
+    const Vector3d centre = random.vector(3);
     rows.add_rigid_body(4, 9, point - centre, Side::first);
-    std::vector<Vector3<double>> position = face.corner;
+    std::vector<Vector3d> position = face.corner;
     position.push_back(centre);
     const Total total = spread(random.vector(), position, 5);
     EXPECT_LT(norm(total.impulse), 1e-14);
@@ -120,7 +119,7 @@ TEST_F(Rows, ShellsAndRigidBodiesTakeTheMoment) {
 }
 
 TEST_F(Rows, ABlockIsNamedOnce) {
-  const Vector3<double> normal = random.direction();
+  const Vector3d normal = random.direction();
   std::vector<VelocityBlock> blocks{moving(1, random.vector()), moving(1, random.vector()),
                                     moving(1, random.vector()), moving(1, random.vector())};
   new_row(normal);
@@ -133,10 +132,9 @@ TEST_F(Rows, ABlockIsNamedOnce) {
   rows.add_rotation(3, {1, 0, 0});
   EXPECT_EQ(last().translation.size(), 3U);
   EXPECT_EQ(last().rotation.size(), 1U);
-  const Vector3<double> v = RowMap(rows, last()).velocity([&](int b) { return blocks[index(b)].velocity; });
-  const Vector3<double> expected = 0.5 * blocks[0].velocity - 0.5 * blocks[1].velocity -
-                                   0.25 * blocks[2].velocity +
-                                   cross(blocks[3].velocity, Vector3<double>{2, 2, 3});
+  const Vector3d v = RowMap(rows, last()).velocity([&](int b) { return blocks[index(b)].velocity; });
+  const Vector3d expected = 0.5 * blocks[0].velocity - 0.5 * blocks[1].velocity - 0.25 * blocks[2].velocity +
+                            cross(blocks[3].velocity, Vector3d{2, 2, 3});
   EXPECT_LT(norm(v - expected), 1e-15);
   // A matrix swallows the translation of its block, whatever comes first.
   const Tensor<double> matrix{{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}};
@@ -144,7 +142,7 @@ TEST_F(Rows, ABlockIsNamedOnce) {
   rows.add_point(1, Side::first, 0.125);
   EXPECT_EQ(last().translation.size(), 2U);
   EXPECT_EQ(last().matrix.size(), 1U);
-  const Vector3<double> w = RowMap(rows, last()).velocity([&](int b) { return blocks[index(b)].velocity; });
+  const Vector3d w = RowMap(rows, last()).velocity([&](int b) { return blocks[index(b)].velocity; });
   EXPECT_LT(norm(w - (expected + matrix * blocks[1].velocity + 0.125 * blocks[1].velocity)), 1e-14);
 }
 
@@ -160,9 +158,9 @@ TEST_F(Rows, PiecesJoinInTheirOrder) {
     all.append(piece);
   }
   ASSERT_EQ(all.size(), 15U);
-  const auto velocity_of = [](int b) { return Vector3<double>{1.0 + b, 2.0 * b, 3.0 - b}; };
+  const auto velocity_of = [](int b) { return Vector3d{1.0 + b, 2.0 * b, 3.0 - b}; };
   for (std::size_t i = 0; i < 15; ++i) {
-    const Vector3<double> expected = RowMap(pieces[i / 5], pieces[i / 5].row[i % 5]).velocity(velocity_of);
+    const Vector3d expected = RowMap(pieces[i / 5], pieces[i / 5].row[i % 5]).velocity(velocity_of);
     EXPECT_EQ(norm(RowMap(all, all.row[i]).velocity(velocity_of) - expected), 0);
     EXPECT_EQ(all.row[i].gap, pieces[i / 5].row[i % 5].gap);
   }
@@ -174,7 +172,7 @@ TEST_F(Rows, EnergyAndMomentumBalance) {
   scene.blocks = {moving(2, {0.3, 0.1, -1}), moving(0.5, {0, 0.4, 1}), moving(1, {0, 0, 0})};
   scene.blocks[1].inverse_mass.xx = 0;
   scene.blocks[1].velocity.x = 0.7;
-  const std::vector<Vector3<double>> before{scene.blocks[0].velocity, scene.blocks[1].velocity, {0.1, 0, 0}};
+  const std::vector<Vector3d> before{scene.blocks[0].velocity, scene.blocks[1].velocity, {0.1, 0, 0}};
   const std::vector<BlockPlace> places{{.position = {1, 2, 3}}, {.position = {-1, 0, 1}}, {.turns = true}};
   scene.rows.add_row({0, 0, 1}, 0, 0.4);
   scene.rows.add_point(0, Side::first);
@@ -200,12 +198,12 @@ TEST_F(Rows, EnergyAndMomentumBalance) {
   EXPECT_NEAR(gained, done, 1e-14);
   EXPECT_EQ(scene.blocks[1].velocity.x, 0.7);
   // All momentum that the blocks gained came from walls and supports.
-  const Vector3<double> momentum =
+  const Vector3d momentum =
       2.0 * (scene.blocks[0].velocity - before[0]) + 0.5 * (scene.blocks[1].velocity - before[1]);
   EXPECT_LT(norm(momentum - (work.support_impulse - reaction[0].impulse)), 1e-14);
-  EXPECT_LT(norm(reaction[0].moment - cross(Vector3<double>{1, 2, 3}, reaction[0].impulse)), 1e-14);
+  EXPECT_LT(norm(reaction[0].moment - cross(Vector3d{1, 2, 3}, reaction[0].impulse)), 1e-14);
   EXPECT_NEAR(reaction[0].work, -0.2 * reaction[0].impulse.z, 1e-15);
-  EXPECT_LT(norm(work.support_moment - cross(Vector3<double>{-1, 0, 1}, work.support_impulse)), 1e-14);
+  EXPECT_LT(norm(work.support_moment - cross(Vector3d{-1, 0, 1}, work.support_impulse)), 1e-14);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ TEST(HeldRows, WhatOnlyTurnsAboutTheNormalIsHeld) {
   RandomNumbers random(7);
   for (int i = 0; i < 100; ++i) {
     RowScene scene;
-    const Vector3<double> normal = random.direction();
+    const Vector3d normal = random.direction();
     scene.blocks = {VelocityBlock{-1.0 * normal, isotropic(0.0)}, VelocityBlock{{0, 0, 0}, isotropic(0.0)},
                     moving(0.1, {0, 0, 0})};
     scene.rows.add_row(normal, 0, i % 2 == 0 ? 0 : 0.3).impulse = 1;

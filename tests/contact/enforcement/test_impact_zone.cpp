@@ -8,11 +8,10 @@
 #include "contact/impact_zone.hpp"
 #include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
-
-using Eigen::Vector3d;
 
 class Zone : public testing::TestWithParam<int> {
  protected:
@@ -22,7 +21,7 @@ class Zone : public testing::TestWithParam<int> {
     for (int k = 0; k < nodes + bodies; ++k) {
       ZoneMember one{.mass = 1 + value_(random_) / 2, .position = any(), .velocity = any()};
       if (k >= nodes) {
-        one.inertia = Vector3d(2, 3, 4).asDiagonal();
+        one.inertia = diagonal(Vector3d{2, 3, 4});
         one.angular_velocity = any();
       }
       members_.push_back(one);
@@ -40,29 +39,29 @@ class Zone : public testing::TestWithParam<int> {
     double energy = 0;
     for (const ZoneMember& one : members_) {
       const Vector3d velocity = after ? velocity_after(one) : one.velocity;
-      energy += one.mass * velocity.squaredNorm() / 2;
-      if (one.inertia.isZero(0)) continue;
+      energy += one.mass * squared_norm(velocity) / 2;
+      if (one.inertia == Tensor<double>{}) continue;
       const Vector3d turning =
-          one.angular_velocity + (after ? Vector3d(one.inertia.inverse() * one.moment) : Vector3d::Zero());
-      energy += turning.dot(one.inertia * turning) / 2;
+          one.angular_velocity + (after ? inverse(one.inertia) * one.moment : Vector3d{});
+      energy += dot(turning, one.inertia * turning) / 2;
     }
     return energy;
   }
 
   void expect_no_sums() const {
-    Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
+    Vector3d linear{}, angular = Vector3d{};
     for (const ZoneMember& one : members_) {
       linear += one.impulse;
-      angular += one.position.cross(one.impulse) + one.moment;
+      angular += cross(one.position, one.impulse) + one.moment;
     }
-    EXPECT_LT(linear.norm(), 1e-12);
-    EXPECT_LT(angular.norm(), 1e-12);
+    EXPECT_LT(norm(linear), 1e-12);
+    EXPECT_LT(norm(angular), 1e-12);
   }
   // In a rigid motion no two points approach each other.
   void expect_rigid() const {
     for (const ZoneMember& a : members_)
       for (const ZoneMember& b : members_)
-        EXPECT_NEAR((a.position - b.position).dot(velocity_after(a) - velocity_after(b)), 0, 1e-11);
+        EXPECT_NEAR(dot(a.position - b.position, velocity_after(a) - velocity_after(b)), 0, 1e-11);
   }
 
   std::vector<ZoneMember> members_;
@@ -84,12 +83,12 @@ TEST_P(Zone, TurnsAboutWhatIsHeldOfIt) {
   fill(5, GetParam() % 2);
   for (int axis = 0; axis < 3; ++axis) prescribe(0, axis);
   prescribe(1, GetParam() % 3);
-  members_[0].velocity = members_[1].velocity = Vector3d::Zero();
+  members_[0].velocity = members_[1].velocity = Vector3d{};
   find_zone_impulses(members_);
   expect_no_sums();
   expect_rigid();
   EXPECT_LE(kinetic_energy(true), kinetic_energy(false));
-  EXPECT_GT(velocity_after(members_[2]).norm(), 1e-3);
+  EXPECT_GT(norm(velocity_after(members_[2])), 1e-3);
 }
 
 TEST_P(Zone, FollowsWhatDrivesIt) {
@@ -100,8 +99,8 @@ TEST_P(Zone, FollowsWhatDrivesIt) {
   const ZoneMember& leader = members_[4];
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector3d arm = members_[i].position - leader.position;
-    const Vector3d wanted = leader.velocity + leader.angular_velocity.cross(arm);
-    EXPECT_LT((velocity_after(members_[i]) - wanted).norm(), 1e-10);
+    const Vector3d wanted = leader.velocity + cross(leader.angular_velocity, arm);
+    EXPECT_LT(norm(velocity_after(members_[i]) - wanted), 1e-10);
   }
 }
 
@@ -112,7 +111,7 @@ TEST_P(Zone, ThatLiesOnSupportsSlidesOnThem) {
     members_[i].velocity[2] = 0;
     prescribe(i, 2);
   }
-  Vector3d before = Vector3d::Zero(), after = Vector3d::Zero();
+  Vector3d before{}, after = Vector3d{};
   for (const ZoneMember& one : members_) before += one.mass * one.velocity;
   find_zone_impulses(members_);
   expect_no_sums();
@@ -131,18 +130,18 @@ TEST_P(Zone, HeldAlongAxesOfItsOwnIsTurned) {
     prescribe(5, 3 + GetParam() % 3);
   else
     prescribe(2, (GetParam() + 1) % 3);
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, -2, 3).normalized()).toRotationMatrix();
+  const Tensor<double> turn = test::rotation_about(0.7, Vector3d{1, -2, 3});
   std::vector<ZoneMember> turned = members_;
   for (ZoneMember& one : turned) {
     one.axes = turn;
     for (Vector3d* vector : {&one.position, &one.velocity, &one.angular_velocity}) *vector = turn * *vector;
-    one.inertia = turn * one.inertia * turn.transpose();
+    one.inertia = turn * one.inertia * transposed(turn);
   }
   find_zone_impulses(members_);
   find_zone_impulses(turned);
   for (std::size_t i = 0; i < members_.size(); ++i) {
-    EXPECT_LT((turn * members_[i].impulse - turned[i].impulse).norm(), 1e-11);
-    EXPECT_LT((turn * members_[i].moment - turned[i].moment).norm(), 1e-11);
+    EXPECT_LT(norm(turn * members_[i].impulse - turned[i].impulse), 1e-11);
+    EXPECT_LT(norm(turn * members_[i].moment - turned[i].moment), 1e-11);
   }
 }
 
@@ -177,15 +176,15 @@ TEST(ImpactZone, AccountsForWhatSupportsTake) {
     const double energy = model.kinetic_energy();
     model.accelerate(dt);
     resolve(model.scene, model.nodes, dt, team);
-    EXPECT_LT((model.momentum() - linear - step.support_impulse).norm(), 1e-13);
-    EXPECT_LT((model.angular_momentum() - angular - step.support_moment).norm(), 1e-13);
+    EXPECT_LT(norm(model.momentum() - linear - step.support_impulse), 1e-13);
+    EXPECT_LT(norm(model.angular_momentum() - angular - step.support_moment), 1e-13);
     const double of_supports = 0.5 * (step.support_work_before + step.support_work_after);
     EXPECT_NEAR(model.kinetic_energy() - energy, step.normal_work() + step.friction_work() + of_supports,
                 1e-13);
     model.move(dt);
   }
   EXPECT_GT(model.scene.zones, 0U);
-  EXPECT_GT(step.support_impulse.norm() + step.support_moment.norm(), 1e-3);
+  EXPECT_GT(norm(step.support_impulse) + norm(step.support_moment), 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Zone, testing::Range(0, 12));

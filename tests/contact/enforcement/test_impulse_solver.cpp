@@ -58,7 +58,7 @@ TEST(Impulses, WallMayMove) {
   scene.blocks = {moving(1, {0, 0, -3})};
   add_wall_row(scene, 0, {0, 0, 1}, 10).wall_velocity = {0.2, 0.1, 0.5};
   solve(scene, to_the_end());
-  EXPECT_LT(norm(scene.blocks[0].velocity - Vector3<double>{0.2, 0.1, 0.5}), 1e-14);
+  EXPECT_LT(norm(scene.blocks[0].velocity - Vector3d{0.2, 0.1, 0.5}), 1e-14);
 }
 
 // Complementarity found by trying every set of rows that touch.
@@ -99,7 +99,7 @@ TEST(Impulses, AgreeWithTheExactSolutionOfTheComplementarityProblem) {
       const ConstraintRow& row = scene.rows.row[index(i)];
       const RowMap map(scene.rows, row);
       free[i] = dot(row.normal, map.relative_velocity(scene.blocks)) - row.target_velocity;
-      map.spread(row.normal, [&](int b, const Vector3<double>& v) {
+      map.spread(row.normal, [&](int b, const Vector3d& v) {
         const double scale = std::sqrt(scene.blocks[index(b)].inverse_mass.xx);
         jacobian.row(i).segment<3>(3 * b) += scale * Eigen::RowVector3d(v.x, v.y, v.z);
       });
@@ -139,7 +139,7 @@ TEST(Impulses, ChainsOfTwentyMassesPool) {
     RowScene scene;
     std::vector<double> mass;
     std::vector<double> velocity;
-    const Vector3<double> along = random.direction();
+    const Vector3d along = random.direction();
     for (int b = 0; b < 20; ++b) {
       mass.push_back(trial == 0 ? 1 : random.between(0.5, 2));
       velocity.push_back(trial == 0 ? (b == 0 ? 1 : 0) : random.number());
@@ -195,8 +195,8 @@ TEST(Impulses, LightAndHeavySidesMeet) {
 
 TEST(CoulombRows, BlockOnASlopeSlidesAsCoulombSays) {
   const double slope = 0.4;
-  const Vector3<double> normal{-std::sin(slope), 0, std::cos(slope)};
-  const Vector3<double> down{-std::cos(slope), 0, -std::sin(slope)};
+  const Vector3d normal{-std::sin(slope), 0, std::cos(slope)};
+  const Vector3d down{-std::cos(slope), 0, -std::sin(slope)};
   for (double friction : {0.1, 0.3, 0.42, 0.43, 0.8}) {
     RowScene scene;
     scene.blocks = {moving(2.5, {0, 0, 0})};
@@ -220,7 +220,7 @@ TEST(CoulombRows, SlidingDoesNotLift) {
     add_wall_row(scene, 0, {0, 0, 1}, friction);
     solve(scene, to_the_end());
     EXPECT_NEAR(scene.blocks[0].velocity.z, 0, 1e-14);
-    EXPECT_LT(norm(scene.blocks[0].velocity - (1 - friction / 50) * Vector3<double>{40, 30, 0}), 1e-12);
+    EXPECT_LT(norm(scene.blocks[0].velocity - (1 - friction / 50) * Vector3d{40, 30, 0}), 1e-12);
   }
 }
 
@@ -238,9 +238,9 @@ TEST(CoulombRows, LimitIsThatOfTheImpulse) {
   EXPECT_LT(scene.kinetic_energy(), before);
   for (std::size_t i = 0; i < scene.rows.size(); ++i) {
     const ConstraintRow& row = scene.rows.row[i];
-    const Vector3<double> u = scene.relative_velocity(i);
+    const Vector3d u = scene.relative_velocity(i);
     const double along = dot(row.normal, u);
-    const Vector3<double> slip = u - along * row.normal;
+    const Vector3d slip = u - along * row.normal;
     EXPECT_GE(row.impulse, 0);
     EXPECT_GT(along, -1e-11);
     EXPECT_NEAR(row.impulse * along, 0, 1e-11);

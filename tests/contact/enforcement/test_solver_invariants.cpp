@@ -25,8 +25,8 @@ class MixedScene : public RowScene {
     }
   }
 
-  Vector3<double> angular_momentum() const {
-    Vector3<double> sum{0, 0, 0};
+  Vector3d angular_momentum() const {
+    Vector3d sum{0, 0, 0};
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       if (turns_[b]) {
         sum = sum + inertia_[b] * blocks[b].velocity;
@@ -36,8 +36,8 @@ class MixedScene : public RowScene {
     }
     return sum;
   }
-  Vector3<double> linear_momentum() const {
-    Vector3<double> sum{0, 0, 0};
+  Vector3d linear_momentum() const {
+    Vector3d sum{0, 0, 0};
     for (std::size_t b = 0; b < blocks.size(); ++b)
       if (!turns_[b]) sum = sum + (1 / blocks[b].inverse_mass.xx) * blocks[b].velocity;
     return sum;
@@ -50,8 +50,7 @@ class MixedScene : public RowScene {
   }
 
  private:
-  int add_block(const Vector3<double>& position, double mass, const Vector3<double>& velocity,
-                bool turns = false) {
+  int add_block(const Vector3d& position, double mass, const Vector3d& velocity, bool turns = false) {
     blocks.push_back(moving(mass, velocity));
     position_.push_back(position);
     turns_.push_back(turns);
@@ -60,7 +59,7 @@ class MixedScene : public RowScene {
   }
   RandomFace add_face(bool shell) {
     RandomFace face(random_, static_cast<int>(blocks.size()));
-    for (const Vector3<double>& x : face.corner) add_block(x, random_.between(0.5, 2), random_.vector());
+    for (const Vector3d& x : face.corner) add_block(x, random_.between(0.5, 2), random_.vector());
     if (shell)
       for (int k = 0; k < 4; ++k)
         face.foot.rotation[k] = add_block({0, 0, 0}, random_.between(0.05, 0.2), random_.vector(), true);
@@ -68,8 +67,8 @@ class MixedScene : public RowScene {
   }
   void add_node_on_face(double friction, bool shell) {
     const RandomFace face = add_face(shell);
-    const Vector3<double> normal = shell ? face.foot.normal : random_.direction();
-    const Vector3<double> node = face.point + 0.15 * normal;
+    const Vector3d normal = shell ? face.foot.normal : random_.direction();
+    const Vector3d node = face.point + 0.15 * normal;
     const int block = add_block(node, random_.between(0.5, 2), random_.vector() - 4.0 * normal);
     rows.add_row(normal, 0, friction);
     rows.add_point(block, Side::first);
@@ -77,13 +76,13 @@ class MixedScene : public RowScene {
   }
   void add_body_on_face(double friction) {
     const RandomFace face = add_face(false);
-    const Vector3<double> normal = face.foot.normal;
-    const Vector3<double> point = face.point + 0.1 * normal;
-    const Vector3<double> centre = point + normal + random_.vector(0.5);
+    const Vector3d normal = face.foot.normal;
+    const Vector3d point = face.point + 0.1 * normal;
+    const Vector3d centre = point + normal + random_.vector(0.5);
     const int body = add_block(centre, 5, -4.0 * normal);
     const int turn = add_block({0, 0, 0}, 1, random_.vector(), true);
     // Inertia a, b, c about turned axes.
-    const Vector3<double> axis = random_.direction();
+    const Vector3d axis = random_.direction();
     SymmetricTensor<double> inertia = isotropic(2.0);
     const double stretch = 0.7;
     inertia = inertia + stretch * SymmetricTensor<double>{axis.x * axis.x, axis.y * axis.y, axis.z * axis.z,
@@ -100,13 +99,13 @@ class MixedScene : public RowScene {
   }
   // Edges that touch: points of both coincide.
   void add_edges(double friction) {
-    const Vector3<double> point = random_.vector(3);
-    const Vector3<double> normal = random_.direction();
+    const Vector3d point = random_.vector(3);
+    const Vector3d normal = random_.direction();
     rows.add_row(normal, 0, friction);
     for (Side side : {Side::first, Side::second}) {
       const double share = random_.between(0.1, 0.9);
-      const Vector3<double> along = random_.direction();
-      const Vector3<double> speed = (side == Side::first ? -2.0 : 2.0) * normal;
+      const Vector3d along = random_.direction();
+      const Vector3d speed = (side == Side::first ? -2.0 : 2.0) * normal;
       const int a = add_block(point - share * along, 1, speed + random_.vector());
       const int b = add_block(point + (1 - share) * along, 2, speed + random_.vector());
       rows.add_point(a, side, 1 - share);
@@ -115,7 +114,7 @@ class MixedScene : public RowScene {
   }
 
   RandomNumbers random_;
-  std::vector<Vector3<double>> position_;
+  std::vector<Vector3d> position_;
   std::vector<char> turns_;
   std::vector<SymmetricTensor<double>> inertia_;
 };
@@ -123,8 +122,8 @@ class MixedScene : public RowScene {
 TEST(SolverInvariants, MomentaAreKeptWithFrictionAcrossGapsAndThickness) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     MixedScene scene(seed, 0.4, 3);
-    const Vector3<double> linear = scene.linear_momentum();
-    const Vector3<double> angular = scene.angular_momentum();
+    const Vector3d linear = scene.linear_momentum();
+    const Vector3d angular = scene.angular_momentum();
     const double size = scene.size_of_motion();
     solve(scene, {.max_iterations = 3 + static_cast<int>(seed), .tolerance = 1e-12});
     double sliding = 0;
@@ -191,7 +190,7 @@ TEST(SolverInvariants, OrderOfRowsDoesNotMatter) {
     EXPECT_LT(norm(scene.blocks[b].velocity - shuffled.blocks[b].velocity), 1e-13);
 }
 
-Vector3<double> mirrored(const Vector3<double>& a) { return {-a.x, a.y, a.z}; }
+Vector3d mirrored(const Vector3d& a) { return {-a.x, a.y, a.z}; }
 
 // Both halves of a symmetric scene that touch each other at the mirror.
 TEST(SolverInvariants, MirrorSymmetryIsKept) {
@@ -200,12 +199,11 @@ TEST(SolverInvariants, MirrorSymmetryIsKept) {
   const int half = 100;
   for (int side = 0; side < 2; ++side)
     for (int b = 0; b < half; ++b)
-      scene.blocks.push_back(side == 0
-                                 ? moving(random.between(0.5, 2), random.vector() + Vector3<double>{1, 0, 0})
-                                 : VelocityBlock{mirrored(scene.blocks[index(b)].velocity),
-                                                 scene.blocks[index(b)].inverse_mass});
+      scene.blocks.push_back(side == 0 ? moving(random.between(0.5, 2), random.vector() + Vector3d{1, 0, 0})
+                                       : VelocityBlock{mirrored(scene.blocks[index(b)].velocity),
+                                                       scene.blocks[index(b)].inverse_mass});
   for (int i = 0; i < 150; ++i) {
-    const Vector3<double> normal = random.direction();
+    const Vector3d normal = random.direction();
     const int a = random.below(half);
     const int b = (a + 1 + random.below(half - 1)) % half;
     for (int side = 0; side < 2; ++side) {
@@ -237,7 +235,7 @@ TEST(SolverInvariants, UnfinishedImpulsesDoNoWorkBeyondWhatIsAskedFor) {
     double work = 0, size = 0;
     for (std::size_t i = 0; i < scene.rows.size(); ++i) {
       const ConstraintRow& row = scene.rows.row[i];
-      const Vector3<double> u = scene.relative_velocity(i);
+      const Vector3d u = scene.relative_velocity(i);
       const double of_row = row.impulse * (dot(row.normal, u) - row.target_velocity) + dot(row.friction, u);
       work += of_row;
       size += std::abs(of_row);
@@ -253,7 +251,7 @@ TEST(SolverInvariants, UnfinishedImpulsesDoNoWorkBeyondWhatIsAskedFor) {
 TEST(SolverInvariants, PrescribedComponentsStay) {
   RowScene scene = tangle(5, 300, 500, 0.3);
   RandomNumbers random(6);
-  std::vector<Vector3<double>> before;
+  std::vector<Vector3d> before;
   for (VelocityBlock& block : scene.blocks) {
     const int mask = random.below(8);
     if (mask & 1) block.inverse_mass.xx = 0;
@@ -355,7 +353,7 @@ TEST(SolverInvariants, RowsThatStillChangeAreSolvedAlone) {
   scene.rows.add_point(0, Side::second);
   RandomNumbers random(7);
   for (int i = 0; i < 2000; ++i) {
-    const Vector3<double> normal = random.direction();
+    const Vector3d normal = random.direction();
     const auto light = static_cast<int>(scene.blocks.size());
     scene.blocks.push_back(moving(1, -1 * normal + random.vector(0.3)));
     scene.rows.add_row(normal, 0, 0.3);
@@ -432,9 +430,9 @@ TEST(SolverInvariants, RowsMayBeAdded) {
     EXPECT_NEAR(row.impulse * (along - row.target_velocity), 0, 1e-9);
   }
   // The velocities are the free ones and what the impulses do, no more.
-  std::vector<Vector3<double>> given(all.blocks.size(), Vector3<double>{0, 0, 0});
+  std::vector<Vector3d> given(all.blocks.size(), Vector3d{0, 0, 0});
   for (const ConstraintRow& row : later.rows.row)
-    RowMap(later.rows, row).spread(impulse_of(row), [&](int b, const Vector3<double>& impulse) {
+    RowMap(later.rows, row).spread(impulse_of(row), [&](int b, const Vector3d& impulse) {
       given[index(b)] = given[index(b)] + impulse;
     });
   for (std::size_t b = 0; b < all.blocks.size(); ++b)

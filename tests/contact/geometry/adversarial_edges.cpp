@@ -8,8 +8,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 MovingEdge random_edge(Random& random, double motion) {
@@ -78,7 +76,7 @@ EdgeQuery edges_of_lattice(Random& random) {
   for (MovingEdge* edge : {&query.a, &query.b}) {
     for (std::size_t k = 0; k < 2; ++k) {
       edge->start[k] = lattice_vector(random, most);
-      edge->displacement[k] = random.coin() ? lattice_vector(random, most) : Vector3d(0, 0, 0);
+      edge->displacement[k] = random.coin() ? lattice_vector(random, most) : Vector3d{0, 0, 0};
     }
   }
   return aimed(query, 0.25 * random.integer(0, 4), 0.25 * random.integer(0, 4), 0.125 * random.integer(0, 8));
@@ -116,7 +114,7 @@ EdgeQuery grazing(Random& random) {
 EdgeQuery parallel(Random& random) {
   EdgeQuery query;
   const Vector3d direction = lattice_vector(random, 2);
-  const Vector3d turn = random.coin() ? lattice_vector(random, 2) : Vector3d(0, 0, 0);
+  const Vector3d turn = random.coin() ? lattice_vector(random, 2) : Vector3d{0, 0, 0};
   const double stretch = random.coin() ? 0 : 1;
   for (MovingEdge* edge : {&query.a, &query.b}) {
     const double length = 0.25 * random.integer(-4, 4);
@@ -154,8 +152,8 @@ EdgeQuery coplanar(Random& random) {
   for (MovingEdge* edge : {&query.a, &query.b}) {
     for (Segment* ends : {&edge->start, &edge->displacement}) {
       for (Vector3d& v : *ends) {
-        if (odd) v.x() += random.integer(-63, 63);
-        v.z() = level ? 0 : v.x() + 2 * v.y();
+        if (odd) v.x += random.integer(-63, 63);
+        v.z = level ? 0 : v.x + 2 * v.y;
       }
     }
   }
@@ -213,9 +211,7 @@ EdgeQuery any_aimed(Random& random) {
   }
 }
 
-double size_of(const EdgeQuery& query) {
-  return std::max(along(query.a, 0).norm(), along(query.b, 0).norm());
-}
+double size_of(const EdgeQuery& query) { return std::max(norm(along(query.a, 0)), norm(along(query.b, 0))); }
 
 // Multiples of a power of two keep lattice hits exact; others are rounded like any mesh far away.
 EdgeQuery far_from_origin(Random& random) {
@@ -247,7 +243,7 @@ EdgeQuery fast(Random& random) {
 
 EdgeQuery still(Random& random) {
   EdgeQuery query = any_aimed(random);
-  const Vector3d common = random.coin() ? Vector3d(0, 0, 0) : lattice_vector(random, 1000);
+  const Vector3d common = random.coin() ? Vector3d{0, 0, 0} : lattice_vector(random, 1000);
   const double time = 0.125 * random.integer(0, 8);
   for (MovingEdge* edge : {&query.a, &query.b}) {
     for (std::size_t k = 0; k < 2; ++k) {
@@ -268,7 +264,7 @@ EdgeQuery at_reach(Random& random) {
   EdgeQuery query = adversarial_edges(family, random);
   const double reach = size_of(query) * random.power_of_ten(-6, 0);
   add_radius(query, reach, random);
-  if (random.coin()) shift(query.a, unit_or(random.vector(1), Vector3d(1, 0, 0)) * reach);
+  if (random.coin()) shift(query.a, unit_or(random.vector(1), Vector3d{1, 0, 0}) * reach);
   return query;
 }
 
@@ -280,11 +276,11 @@ EdgeQuery past_at_reach(Random& random) {
   const double on_a = random.integer(0, 2) == 0 ? random.integer(0, 1) : random.uniform(0, 1);
   const double on_b = random.integer(0, 2) == 0 ? random.integer(0, 1) : random.uniform(0, 1);
   query = aimed(query, on_a, on_b, time);
-  Vector3d offset = along(query.a, time).cross(along(query.b, time));
-  if (random.integer(0, 3) == 0) offset = along(query.b, time).cross(random.vector(1));
-  offset = unit_or(offset, Vector3d(1, 0, 0));
+  Vector3d offset = cross(along(query.a, time), along(query.b, time));
+  if (random.integer(0, 3) == 0) offset = cross(along(query.b, time), random.vector(1));
+  offset = unit_or(offset, Vector3d{1, 0, 0});
   const Vector3d relative = (1 - on_a) * query.a.displacement[0] + on_a * query.a.displacement[1];
-  for (Vector3d& displacement : query.a.displacement) displacement -= offset * relative.dot(offset);
+  for (Vector3d& displacement : query.a.displacement) displacement -= offset * dot(relative, offset);
   query = aimed(query, on_a, on_b, time);
   const double reach = random.power_of_ten(-6, 0);
   const double little = random.power_of_ten(-17, -2) * (random.coin() ? 1 : -1);

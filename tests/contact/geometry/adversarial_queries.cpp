@@ -8,8 +8,6 @@
 
 namespace brio {
 
-using Eigen::Vector3d;
-
 namespace {
 
 using Weights = std::array<double, 4>;
@@ -45,7 +43,7 @@ Weights at_corner(int k) {
 constexpr Weights at_centroid = {0.25, 0.25, 0.25, 0.25};
 
 Vector3d point_at(const MovingFace& face, const Weights& weights, double time) {
-  Vector3d point = Vector3d::Zero();
+  Vector3d point{};
   for (std::size_t k = 0; k < 4; ++k) point += weights[k] * (face.start[k] + time * face.displacement[k]);
   return point;
 }
@@ -115,7 +113,7 @@ Query lattice(Random& random) {
   const int most = random.integer(1, 4);
   for (std::size_t k = 0; k < 4; ++k) {
     query.face.start[k] = lattice_vector(random, most);
-    query.face.displacement[k] = random.coin() ? lattice_vector(random, most) : Vector3d(0, 0, 0);
+    query.face.displacement[k] = random.coin() ? lattice_vector(random, most) : Vector3d{0, 0, 0};
   }
   Weights weights;
   const int k = random.integer(0, 3);
@@ -184,8 +182,7 @@ Query any_aimed(Random& random) {
 
 double size_of(const Query& query) {
   double size = 0;
-  for (std::size_t k = 1; k < 4; ++k)
-    size = std::max(size, (query.face.start[k] - query.face.start[0]).norm());
+  for (std::size_t k = 1; k < 4; ++k) size = std::max(size, norm(query.face.start[k] - query.face.start[0]));
   return size;
 }
 
@@ -242,7 +239,7 @@ Query fast(Random& random) {
   query.node = aimed(query.face, target, random.uniform(0, 1), random.vector(speed));
   if (random.coin()) return query;
   for (Vector3d& displacement : query.face.displacement) displacement -= query.node.displacement;
-  query.node.displacement.setZero();
+  query.node.displacement = {};
   query.node.start = point_at(query.face, target, random.uniform(0, 1));
   return query;
 }
@@ -252,8 +249,8 @@ Query coplanar(Random& random) {
   // x and y at will, z = 0 or z = x + 2 y for all: an exact plane.
   const bool level = random.coin();
   const auto flatten = [&](Vector3d& v) {
-    if (random.integer(0, 7) == 0) v.x() += random.integer(-63, 63);
-    v.z() = level ? 0 : v.x() + 2 * v.y();
+    if (random.integer(0, 7) == 0) v.x += random.integer(-63, 63);
+    v.z = level ? 0 : v.x + 2 * v.y;
   };
   for (Vector3d& x : query.face.start) flatten(x);
   for (Vector3d& x : query.face.displacement) flatten(x);
@@ -264,7 +261,7 @@ Query coplanar(Random& random) {
 
 Query still(Random& random) {
   Query query = any_aimed(random);
-  const Vector3d common = random.coin() ? Vector3d(0, 0, 0) : lattice_vector(random, 1000);
+  const Vector3d common = random.coin() ? Vector3d{0, 0, 0} : lattice_vector(random, 1000);
   const double time = 0.125 * random.integer(0, 8);
   query.node.start += time * query.node.displacement;
   query.node.displacement = common;

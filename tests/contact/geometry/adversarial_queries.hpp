@@ -15,6 +15,11 @@ struct Query {
 };
 
 /// Numbers that are the same with every standard library.
+inline Vector3d rounded_to(const Vector3d& a, double multiple) {
+  return {std::round(a.x / multiple) * multiple, std::round(a.y / multiple) * multiple,
+          std::round(a.z / multiple) * multiple};
+}
+
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -25,7 +30,7 @@ class Random {
     return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }
   bool coin() { return (engine_() >> 63) != 0; }
-  Eigen::Vector3d vector(double size) {
+  Vector3d vector(double size) {
     const double x = uniform(-size, size);
     const double y = uniform(-size, size);
     return {x, y, uniform(-size, size)};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "src/base/tensor.hpp"
 #include "tests/contact/geometry/exact_polynomial.hpp"
 
 namespace brio::exact {
@@ -43,7 +44,7 @@ class Scaled {
     std::frexp(value, &exponent);
     unit_ = std::min(unit_, exponent - 53);
   }
-  void note(const Eigen::Vector3d& v) {
+  void note(const Vector3d& v) {
     for (int k = 0; k < 3; ++k) note(v[k]);
   }
   Integer operator()(double value) const {
@@ -55,9 +56,7 @@ class Scaled {
     mpz_mul_2exp(integer.get_mpz_t(), integer.get_mpz_t(), static_cast<unsigned>(exponent - 53 - unit_ + 2));
     return integer;
   }
-  IntegerVector operator()(const Eigen::Vector3d& v) const {
-    return {(*this)(v[0]), (*this)(v[1]), (*this)(v[2])};
-  }
+  IntegerVector operator()(const Vector3d& v) const { return {(*this)(v[0]), (*this)(v[1]), (*this)(v[2])}; }
 
  private:
   int unit_ = 0;

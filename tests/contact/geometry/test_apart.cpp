@@ -12,7 +12,7 @@ namespace {
 
 template <class T>
 void put(MovingPair<T>& pair, const Query& query, int lane) {
-  const auto one = [&](Vector3<T>& to, const Eigen::Vector3d& from) {
+  const auto one = [&](Vector3<T>& to, const Vector3d& from) {
     if constexpr (NumberTraits<T>::lanes == 1) {
       to = {from[0], from[1], from[2]};
     } else {
@@ -65,11 +65,10 @@ TEST(SurelyApart, LanesAgreeWithOneAtATime) {
 
 TEST(SurelyApart, ReachIsPartOfTheFace) {
   Query query;
-  query.face.start = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0.25), Eigen::Vector3d(1, 1, 0.5),
-                      Eigen::Vector3d(0, 1, 0.25)};
-  query.face.displacement.fill(Eigen::Vector3d::Zero());
-  const Eigen::Vector3d normal = Eigen::Vector3d(-1, -1, 4).normalized();
-  query.node = {Eigen::Vector3d(0.5, 0.5, 0.25) + 0.1 * normal, Eigen::Vector3d::Zero()};
+  query.face.start = {Vector3d{0, 0, 0}, Vector3d{1, 0, 0.25}, Vector3d{1, 1, 0.5}, Vector3d{0, 1, 0.25}};
+  query.face.displacement.fill(Vector3d{});
+  const Vector3d normal = normalized(Vector3d{-1, -1, 4});
+  query.node = {Vector3d{0.5, 0.5, 0.25} + 0.1 * normal, Vector3d{}};
   MovingPair<double> pair;
   put(pair, query, 0);
   EXPECT_TRUE(surely_apart(pair, 0.099999));

@@ -10,15 +10,14 @@
 #include <cmath>
 
 #include "tests/contact/geometry/adversarial_queries.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
-const FaceVertices unit_square = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 1, 0)};
-const FaceVertices right_triangle = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0),
-                                     Vector3d(0, 1, 0)};
+const FaceVertices unit_square = {Vector3d{0, 0, 0}, Vector3d{1, 0, 0}, Vector3d{1, 1, 0}, Vector3d{0, 1, 0}};
+const FaceVertices right_triangle = {Vector3d{0, 0, 0}, Vector3d{1, 0, 0}, Vector3d{0, 1, 0},
+                                     Vector3d{0, 1, 0}};
 
 struct Region {
   Vector3d node;
@@ -29,20 +28,20 @@ struct Region {
 
 void expect_region(const FaceVertices& face, const Region& region) {
   const ClosestPoint closest = closest_point_on_quad(region.node, face);
-  EXPECT_NEAR((closest.point - region.point).norm(), 0, 1e-15);
-  EXPECT_NEAR((closest.separation - (region.node - region.point)).norm(), 0, 1e-15);
-  EXPECT_NEAR(closest.squared_distance, (region.node - region.point).squaredNorm(), 1e-14);
+  EXPECT_NEAR(norm(closest.point - region.point), 0, 1e-15);
+  EXPECT_NEAR(norm(closest.separation - (region.node - region.point)), 0, 1e-15);
+  EXPECT_NEAR(closest.squared_distance, squared_norm(region.node - region.point), 1e-14);
   EXPECT_EQ(closest.feature, region.feature);
   EXPECT_EQ(closest.index, region.index);
-  EXPECT_NEAR(closest.normal.z(), 1, 1e-15);
-  Vector3d by_weights = Vector3d::Zero();
+  EXPECT_NEAR(closest.normal.z, 1, 1e-15);
+  Vector3d by_weights{};
   double sum = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     by_weights += closest.weights[k] * face[k];
     sum += closest.weights[k];
   }
   EXPECT_NEAR(sum, 1, 1e-15);
-  EXPECT_NEAR((by_weights - region.point).norm(), 0, 1e-15);
+  EXPECT_NEAR(norm(by_weights - region.point), 0, 1e-15);
 }
 
 TEST(ClosestPoint, RegionsOfASquare) {
@@ -88,7 +87,7 @@ FaceVertices random_face(Random& random) {
 double searched_distance(const Vector3d& node, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   double s0 = 0.5;
   double t0 = 0.5;
-  double best = (a - node).norm();
+  double best = norm(a - node);
   for (double reach = 0.5; reach > 1e-9; reach *= 0.5) {
     double s_best = s0;
     double t_best = t0;
@@ -96,7 +95,7 @@ double searched_distance(const Vector3d& node, const Vector3d& a, const Vector3d
       for (int j = -8; j <= 8; ++j) {
         const double s = std::clamp(s0 + reach * i / 8, 0.0, 1.0);
         const double t = std::clamp(t0 + reach * j / 8, 0.0, 1.0);
-        const double distance = ((1 - s) * a + s * ((1 - t) * b + t * c) - node).norm();
+        const double distance = norm((1 - s) * a + s * ((1 - t) * b + t * c) - node);
         if (distance >= best) continue;
         best = distance;
         s_best = s;
@@ -122,9 +121,9 @@ TEST(ClosestPoint, NoPointOfTheFaceIsCloser) {
     const double distance = std::sqrt(closest.squared_distance);
     EXPECT_LE(distance, searched + 1e-15) << i;
     EXPECT_GE(distance, searched - 1e-6) << i;
-    Vector3d by_weights = Vector3d::Zero();
+    Vector3d by_weights{};
     for (std::size_t k = 0; k < 4; ++k) by_weights += closest.weights[k] * face[k];
-    EXPECT_NEAR((by_weights - closest.point).norm(), 0, 1e-15);
+    EXPECT_NEAR(norm(by_weights - closest.point), 0, 1e-15);
   }
 }
 
@@ -143,9 +142,9 @@ TEST(ClosestPoint, GoingTowardsAVertexDoesNotLessenTheDistance) {
                            closest.weights[2] * triangle[2];
     for (const Vector3d& vertex : triangle) {
       const Vector3d way = vertex - point;
-      const double downhill = -way.dot(closest.offset);
+      const double downhill = -dot(way, closest.offset);
       if (downhill <= 0) continue;
-      const double less = std::max(0.0, closest.squared_distance - downhill * downhill / way.squaredNorm());
+      const double less = std::max(0.0, closest.squared_distance - downhill * downhill / squared_norm(way));
       most = std::max(most, std::sqrt(closest.squared_distance) - std::sqrt(less));
     }
   }
@@ -153,23 +152,23 @@ TEST(ClosestPoint, GoingTowardsAVertexDoesNotLessenTheDistance) {
 }
 
 TEST(ClosestPoint, ZeroAreaIsASegmentOrAPoint) {
-  const FaceVertices segment = {Vector3d(0, 0, 0), Vector3d(1, 1, 1), Vector3d(2, 2, 2), Vector3d(2, 2, 2)};
+  const FaceVertices segment = {Vector3d{0, 0, 0}, Vector3d{1, 1, 1}, Vector3d{2, 2, 2}, Vector3d{2, 2, 2}};
   const ClosestPoint on_segment = closest_point_on_quad({1, 1, 4}, segment);
-  EXPECT_NEAR((on_segment.point - Vector3d(2, 2, 2)).norm(), 0, 1e-15);
-  EXPECT_EQ(on_segment.normal, Vector3d(0, 0, 0));
+  EXPECT_NEAR(norm(on_segment.point - Vector3d{2, 2, 2}), 0, 1e-15);
+  EXPECT_EQ(on_segment.normal, (Vector3d{0, 0, 0}));
   FaceVertices point;
-  point.fill(Vector3d(1, 2, 3));
+  point.fill(Vector3d{1, 2, 3});
   const ClosestPoint on_point = closest_point_on_quad({1, 2, 5}, point);
   EXPECT_EQ(on_point.squared_distance, 4);
-  EXPECT_EQ(on_point.point, Vector3d(1, 2, 3));
+  EXPECT_EQ(on_point.point, (Vector3d{1, 2, 3}));
 }
 
 TEST(ClosestPoint, FarFromTheOriginTheSeparationIsAsGoodAsTheInput) {
   FaceVertices face = unit_square;
-  const Vector3d far(1048576, -2097152, 1048576);  // unit squares stay exact here
+  const Vector3d far{1048576, -2097152, 1048576};  // unit squares stay exact here
   for (Vector3d& vertex : face) vertex += far;
-  const ClosestPoint closest = closest_point_on_quad(far + Vector3d(0.5, 0.25, 0.125), face);
-  EXPECT_EQ(closest.separation, Vector3d(0, 0, 0.125));
+  const ClosestPoint closest = closest_point_on_quad(far + Vector3d{0.5, 0.25, 0.125}, face);
+  EXPECT_EQ(closest.separation, (Vector3d{0, 0, 0.125}));
 }
 
 TEST(ClosestPoint, TurnsMirrorsAndRenumbersWithTheFace) {
@@ -178,30 +177,29 @@ TEST(ClosestPoint, TurnsMirrorsAndRenumbersWithTheFace) {
   for (int i = 0; i < 2000; ++i) {
     FaceVertices face;
     for (std::size_t k = 0; k < 4; ++k) face[k] = unit_square[k] + random.vector(0.2);
-    const Vector3d node = Vector3d(0.5, 0.5, 0) + random.vector(1);
+    const Vector3d node = Vector3d{0.5, 0.5, 0} + random.vector(1);
     const ClosestPoint closest = closest_point_on_quad(node, face);
-    const Eigen::Matrix3d turn =
-        Eigen::Quaterniond(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1.1)
-            .normalized()
-            .toRotationMatrix();
+    const Tensor<double> turn = rotation_matrix(normalized(
+        Quaternion<double>{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1.1}));
     FaceVertices turned;
     FaceVertices mirrored;
     FaceVertices renumbered;
     for (std::size_t k = 0; k < 4; ++k) {
       turned[k] = turn * face[k];
-      mirrored[k] = face[(4 - k) % 4].cwiseProduct(Vector3d(1, 1, -1));
+      mirrored[k] = componentwise_product(face[(4 - k) % 4], Vector3d{1, 1, -1});
       renumbered[k] = face[(k + 1) % 4];
     }
     const ClosestPoint of_turned = closest_point_on_quad(turn * node, turned);
-    EXPECT_NEAR((of_turned.point - turn * closest.point).norm(), 0, 1e-14);
+    EXPECT_NEAR(norm(of_turned.point - turn * closest.point), 0, 1e-14);
     same += of_turned.sub_triangle == closest.sub_triangle;  // not where two share the closest point
     if (of_turned.sub_triangle == closest.sub_triangle) {
-      EXPECT_NEAR((of_turned.normal - turn * closest.normal).norm(), 0, 1e-13);
+      EXPECT_NEAR(norm(of_turned.normal - turn * closest.normal), 0, 1e-13);
     }
-    const ClosestPoint of_mirrored = closest_point_on_quad(node.cwiseProduct(Vector3d(1, 1, -1)), mirrored);
-    EXPECT_NEAR((of_mirrored.point - closest.point.cwiseProduct(Vector3d(1, 1, -1))).norm(), 0, 1e-15);
+    const ClosestPoint of_mirrored =
+        closest_point_on_quad(componentwise_product(node, Vector3d{1, 1, -1}), mirrored);
+    EXPECT_NEAR(norm(of_mirrored.point - componentwise_product(closest.point, Vector3d{1, 1, -1})), 0, 1e-15);
     const ClosestPoint of_renumbered = closest_point_on_quad(node, renumbered);
-    EXPECT_NEAR((of_renumbered.point - closest.point).norm(), 0, 1e-15);
+    EXPECT_NEAR(norm(of_renumbered.point - closest.point), 0, 1e-15);
     EXPECT_EQ(of_renumbered.feature, closest.feature);
     if (closest.feature != Feature::interior) {
       EXPECT_EQ((of_renumbered.index + 1) % 4, closest.index);

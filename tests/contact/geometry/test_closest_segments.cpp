@@ -11,14 +11,13 @@
 
 #include "tests/contact/geometry/adversarial_edges.hpp"
 #include "tests/contact/geometry/exact_edges.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
-
-using Eigen::Vector3d;
 using enum SegmentFeature;
 
-const Segment along_x = {Vector3d(0, 0, 0), Vector3d(4, 0, 0)};
+const Segment along_x = {Vector3d{0, 0, 0}, Vector3d{4, 0, 0}};
 
 struct Expected {
   Segment b;
@@ -33,39 +32,39 @@ void expect_points(const Expected& expected) {
     EXPECT_NEAR(closest.parameters[k], expected.parameters[k], 1e-15);
     EXPECT_EQ(closest.features[k], expected.features[k]);
   }
-  EXPECT_NEAR((closest.offset - expected.offset).norm(), 0, 1e-15);
-  EXPECT_NEAR(closest.squared_distance, expected.offset.squaredNorm(), 1e-14);
+  EXPECT_NEAR(norm(closest.offset - expected.offset), 0, 1e-15);
+  EXPECT_NEAR(closest.squared_distance, squared_norm(expected.offset), 1e-14);
 }
 
 TEST(ClosestSegments, Regions) {
-  expect_points({{Vector3d(1, -1, 2), Vector3d(1, 3, 2)}, {0.25, 0.25}, {inside, inside}, {0, 0, -2}});
-  expect_points({{Vector3d(1, 1, 2), Vector3d(1, 3, 5)}, {0.25, 0}, {inside, first_end}, {0, -1, -2}});
-  expect_points({{Vector3d(3, -3, 0), Vector3d(3, -1, 0)}, {0.75, 1}, {inside, second_end}, {0, 1, 0}});
-  expect_points({{Vector3d(-1, -1, 1), Vector3d(-1, 3, 1)}, {0, 0.25}, {first_end, inside}, {1, 0, -1}});
-  expect_points({{Vector3d(5, -1, 0), Vector3d(5, 1, 0)}, {1, 0.5}, {second_end, inside}, {-1, 0, 0}});
-  expect_points({{Vector3d(-2, 1, 0), Vector3d(-1, 1, 0)}, {0, 1}, {first_end, second_end}, {1, -1, 0}});
-  expect_points({{Vector3d(6, 1, 1), Vector3d(7, 2, 3)}, {1, 0}, {second_end, first_end}, {-2, -1, -1}});
-  expect_points({{Vector3d(1, -1, 0), Vector3d(1, 1, 0)}, {0.25, 0.5}, {inside, inside}, {0, 0, 0}});
+  expect_points({{Vector3d{1, -1, 2}, Vector3d{1, 3, 2}}, {0.25, 0.25}, {inside, inside}, {0, 0, -2}});
+  expect_points({{Vector3d{1, 1, 2}, Vector3d{1, 3, 5}}, {0.25, 0}, {inside, first_end}, {0, -1, -2}});
+  expect_points({{Vector3d{3, -3, 0}, Vector3d{3, -1, 0}}, {0.75, 1}, {inside, second_end}, {0, 1, 0}});
+  expect_points({{Vector3d{-1, -1, 1}, Vector3d{-1, 3, 1}}, {0, 0.25}, {first_end, inside}, {1, 0, -1}});
+  expect_points({{Vector3d{5, -1, 0}, Vector3d{5, 1, 0}}, {1, 0.5}, {second_end, inside}, {-1, 0, 0}});
+  expect_points({{Vector3d{-2, 1, 0}, Vector3d{-1, 1, 0}}, {0, 1}, {first_end, second_end}, {1, -1, 0}});
+  expect_points({{Vector3d{6, 1, 1}, Vector3d{7, 2, 3}}, {1, 0}, {second_end, first_end}, {-2, -1, -1}});
+  expect_points({{Vector3d{1, -1, 0}, Vector3d{1, 1, 0}}, {0.25, 0.5}, {inside, inside}, {0, 0, 0}});
 }
 
 TEST(ClosestSegments, ParallelOnesMeetInTheMiddleOfWhatTheyShare) {
-  expect_points({{Vector3d(2, 0, 3), Vector3d(6, 0, 3)}, {0.75, 0.25}, {inside, inside}, {0, 0, -3}});
-  expect_points({{Vector3d(6, 0, 3), Vector3d(2, 0, 3)}, {0.75, 0.75}, {inside, inside}, {0, 0, -3}});
-  expect_points({{Vector3d(1, 1, 0), Vector3d(2, 1, 0)}, {0.375, 0.5}, {inside, inside}, {0, -1, 0}});
-  expect_points({{Vector3d(3, 0, 0), Vector3d(9, 0, 0)}, {0.875, 1.0 / 12}, {inside, inside}, {0, 0, 0}});
-  expect_points({{Vector3d(4, 0, 0), Vector3d(9, 0, 0)}, {1, 0}, {second_end, first_end}, {0, 0, 0}});
-  expect_points({{Vector3d(5, 0, 1), Vector3d(9, 0, 1)}, {1, 0}, {second_end, first_end}, {-1, 0, -1}});
+  expect_points({{Vector3d{2, 0, 3}, Vector3d{6, 0, 3}}, {0.75, 0.25}, {inside, inside}, {0, 0, -3}});
+  expect_points({{Vector3d{6, 0, 3}, Vector3d{2, 0, 3}}, {0.75, 0.75}, {inside, inside}, {0, 0, -3}});
+  expect_points({{Vector3d{1, 1, 0}, Vector3d{2, 1, 0}}, {0.375, 0.5}, {inside, inside}, {0, -1, 0}});
+  expect_points({{Vector3d{3, 0, 0}, Vector3d{9, 0, 0}}, {0.875, 1.0 / 12}, {inside, inside}, {0, 0, 0}});
+  expect_points({{Vector3d{4, 0, 0}, Vector3d{9, 0, 0}}, {1, 0}, {second_end, first_end}, {0, 0, 0}});
+  expect_points({{Vector3d{5, 0, 1}, Vector3d{9, 0, 1}}, {1, 0}, {second_end, first_end}, {-1, 0, -1}});
 }
 
 TEST(ClosestSegments, WithoutLengthTheyArePoints) {
-  const Vector3d above(1, 0, 2);
+  const Vector3d above{1, 0, 2};
   const ClosestSegments to_point = closest_points_of_segments(along_x, {above, above});
   EXPECT_EQ(to_point.parameters[0], 0.25);
-  EXPECT_EQ(to_point.offset, Vector3d(0, 0, -2));
+  EXPECT_EQ(to_point.offset, (Vector3d{0, 0, -2}));
   const ClosestSegments points =
-      closest_points_of_segments({above, above}, {Vector3d(1, 0, 0), Vector3d(1, 0, 0)});
-  EXPECT_EQ(points.offset, Vector3d(0, 0, 2));
-  EXPECT_EQ(points.normal, Vector3d(0, 0, 0));
+      closest_points_of_segments({above, above}, {Vector3d{1, 0, 0}, Vector3d{1, 0, 0}});
+  EXPECT_EQ(points.offset, (Vector3d{0, 0, 2}));
+  EXPECT_EQ(points.normal, (Vector3d{0, 0, 0}));
 }
 
 EdgeQuery any_edges(Random& random) {
@@ -84,7 +83,7 @@ double searched_distance(const Segment& a, const Segment& b) {
       for (int j = -8; j <= 8; ++j) {
         const double s = std::clamp(s0 + reach * i / 8, 0.0, 1.0);
         const double t = std::clamp(t0 + reach * j / 8, 0.0, 1.0);
-        const double distance = (((1 - s) * a[0] + s * a[1]) - ((1 - t) * b[0] + t * b[1])).norm();
+        const double distance = norm(((1 - s) * a[0] + s * a[1]) - ((1 - t) * b[0] + t * b[1]));
         if (distance >= best) continue;
         best = distance;
         s_best = s;
@@ -116,11 +115,11 @@ TEST(ClosestSegments, RightToRoundingByExactArithmetic) {
   Random random(32);
   for (int i = 0; i < 30000; ++i) {
     const EdgeQuery query = any_edges(random);
-    MovingEdge a{query.a.start, {Vector3d::Zero(), Vector3d::Zero()}};
-    MovingEdge b{query.b.start, {Vector3d::Zero(), Vector3d::Zero()}};
+    MovingEdge a{query.a.start, {Vector3d{}, Vector3d{}}};
+    MovingEdge b{query.b.start, {Vector3d{}, Vector3d{}}};
     double scale = 0;
     for (std::size_t k = 0; k < 4; ++k)
-      scale = std::max(scale, (a.start[k / 2] - b.start[k % 2]).lpNorm<Eigen::Infinity>());
+      scale = std::max(scale, maximum_norm(a.start[k / 2] - b.start[k % 2]));
     const double rounding = 10 * 0x1p-53 * scale;
     const ClosestSegments closest = closest_points_of_segments(a.start, b.start);
     const double distance = std::sqrt(closest.squared_distance);
@@ -160,13 +159,13 @@ TEST(ClosestSegments, ExchangeMirrorAndUnitGiveTheSameBits) {
     exchanged.normal = -exchanged.normal;
     expect_same(closest, exchanged);
 
-    const Vector3d mirror(1, -1, 1);
+    const Vector3d mirror{1, -1, 1};
     const auto seen = [&](const Segment& s) {
-      return Segment{s[0].cwiseProduct(mirror), s[1].cwiseProduct(mirror)};
+      return Segment{componentwise_product(s[0], mirror), componentwise_product(s[1], mirror)};
     };
     ClosestSegments mirrored = closest_points_of_segments(seen(a), seen(b));
-    mirrored.offset = mirrored.offset.cwiseProduct(mirror);
-    mirrored.normal = -mirrored.normal.cwiseProduct(mirror);
+    mirrored.offset = componentwise_product(mirrored.offset, mirror);
+    mirrored.normal = -componentwise_product(mirrored.normal, mirror);
     expect_same(closest, mirrored);
 
     const double unit = 0x1p-30;
@@ -185,23 +184,21 @@ TEST(ClosestSegments, TurnsAndMovesWithTheSegments) {
   for (int i = 0; i < 2000; ++i) {
     const Segment a = {random.vector(1), random.vector(1)};
     const Segment b = {random.vector(1), random.vector(1)};
-    const Eigen::Matrix3d turn =
-        Eigen::Quaterniond(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1.1)
-            .normalized()
-            .toRotationMatrix();
+    const Tensor<double> turn = rotation_matrix(normalized(
+        Quaternion<double>{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1.1}));
     const ClosestSegments closest = closest_points_of_segments(a, b);
     const ClosestSegments turned =
         closest_points_of_segments({turn * a[0], turn * a[1]}, {turn * b[0], turn * b[1]});
-    const double sine = closest.normal.norm() / ((a[1] - a[0]).norm() * (b[1] - b[0]).norm());
-    EXPECT_NEAR((turned.offset - turn * closest.offset).norm(), 0, 1e-15 / sine) << i;
+    const double sine = norm(closest.normal) / (norm(a[1] - a[0]) * norm(b[1] - b[0]));
+    EXPECT_NEAR(norm(turned.offset - turn * closest.offset), 0, 1e-15 / sine) << i;
     EXPECT_NEAR(std::sqrt(turned.squared_distance), std::sqrt(closest.squared_distance), 4e-15) << i;
     // Far away, by a shift that keeps all digits.
     Segment near_a, near_b, far_a, far_b;
     for (std::size_t k = 0; k < 2; ++k) {
-      near_a[k] = (a[k] * 1024).array().round() / 1024;
-      near_b[k] = (b[k] * 1024).array().round() / 1024;
-      far_a[k] = near_a[k] + Vector3d(1048576, -2097152, 4194304);
-      far_b[k] = near_b[k] + Vector3d(1048576, -2097152, 4194304);
+      near_a[k] = rounded_to(a[k], 1.0 / 1024);
+      near_b[k] = rounded_to(b[k], 1.0 / 1024);
+      far_a[k] = near_a[k] + Vector3d{1048576, -2097152, 4194304};
+      far_b[k] = near_b[k] + Vector3d{1048576, -2097152, 4194304};
     }
     expect_same(closest_points_of_segments(near_a, near_b), closest_points_of_segments(far_a, far_b));
   }

@@ -12,18 +12,17 @@
 #include "contact/geometry/edges_apart.hpp"
 #include "tests/contact/geometry/adversarial_edges.hpp"
 #include "tests/contact/geometry/exact_edges.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
-
-using Eigen::Vector3d;
 using enum SegmentFeature;
 
 MovingEdge edge(const Vector3d& first, const Vector3d& second, const Vector3d& motion, double radius = 0) {
   return {{first, second}, {motion, motion}, radius};
 }
 
-const Vector3d rest = Vector3d::Zero();
+const Vector3d rest{};
 const MovingEdge along_x = edge({-1, 0, 0}, {1, 0, 0}, rest);
 
 TEST(EdgeCheck, CrossedEdgesMeetWhenTheirHeightIsUsedUp) {
@@ -34,7 +33,7 @@ TEST(EdgeCheck, CrossedEdgesMeetWhenTheirHeightIsUsedUp) {
   EXPECT_NEAR(contact->parameters[1], 0.75, 5e-14);
   EXPECT_EQ(contact->features[0], inside);
   EXPECT_EQ(contact->features[1], inside);
-  EXPECT_NEAR((contact->normal - Vector3d(0, 0, 1)).norm(), 0, 5e-14);
+  EXPECT_NEAR(norm(contact->normal - Vector3d{0, 0, 1}), 0, 5e-14);
   EXPECT_NEAR(contact->distance, 0, 5e-14);
 }
 
@@ -43,7 +42,7 @@ TEST(EdgeCheck, TheNormalPointsToTheSideThatTheFirstComesFrom) {
     for (const double turn : {1.0, -1.0}) {
       const auto contact = edge_check(edge({0, -turn, from}, {0, turn, from}, {0, 0, -2 * from}), along_x);
       ASSERT_TRUE(contact);
-      EXPECT_NEAR(contact->normal.z(), from, 5e-14);
+      EXPECT_NEAR(contact->normal.z, from, 5e-14);
       EXPECT_EQ(contact->side, from * turn < 0 ? 1 : -1);
     }
   }
@@ -62,13 +61,13 @@ TEST(EdgeCheck, WithRadiiContactBeginsAtTheirSum) {
   ASSERT_TRUE(contact);
   EXPECT_NEAR(contact->time, 0.7, 5e-14);
   EXPECT_NEAR(contact->distance, 0.3, 5e-14);
-  EXPECT_NEAR((contact->normal - Vector3d(0, 0, 1)).norm(), 0, 5e-14);
+  EXPECT_NEAR(norm(contact->normal - Vector3d{0, 0, 1}), 0, 5e-14);
   // Past the end by 0.18 it is a sphere's cap: at the height 0.24.
   const auto beside = edge_check(edge({1.18, -1, 1}, {1.18, 1, 1}, {0, 0, -1}, 0.1), thick);
   ASSERT_TRUE(beside);
   EXPECT_NEAR(beside->time, 0.76, 5e-14);
   EXPECT_EQ(beside->features[1], second_end);
-  EXPECT_NEAR((beside->normal - Vector3d(0.6, 0, 0.8)).norm(), 0, 1e-13);
+  EXPECT_NEAR(norm(beside->normal - Vector3d{0.6, 0, 0.8}), 0, 1e-13);
   EXPECT_FALSE(edge_check(edge({1.301, -1, 1}, {1.301, 1, 1}, {0, 0, -1}, 0.1), thick));
 }
 
@@ -79,7 +78,7 @@ TEST(EdgeCheck, ParallelEdgesMeetInTheMiddleOfWhatTheyShare) {
     EXPECT_NEAR(contact->time, 0.5 - 0.5 * radius, 5e-14);
     EXPECT_NEAR(contact->parameters[0], 0.125, 5e-14);
     EXPECT_NEAR(contact->parameters[1], 0.75, 5e-14);
-    EXPECT_NEAR((contact->normal - Vector3d(0, 0, 1)).norm(), 0, 5e-14);
+    EXPECT_NEAR(norm(contact->normal - Vector3d{0, 0, 1}), 0, 5e-14);
     EXPECT_EQ(contact->side, 0);
   }
 }
@@ -90,7 +89,7 @@ TEST(EdgeCheck, InOneLineTheyMeetEndOnEnd) {
   EXPECT_NEAR(contact->time, 0.5, 5e-14);
   EXPECT_EQ(contact->features[0], second_end);
   EXPECT_EQ(contact->features[1], second_end);
-  EXPECT_NEAR((contact->normal - Vector3d(1, 0, 0)).norm(), 0, 5e-14);
+  EXPECT_NEAR(norm(contact->normal - Vector3d{1, 0, 0}), 0, 5e-14);
   EXPECT_FALSE(edge_check(edge({3, 0, 0}, {2, 0, 0}, {-0.999, 0, 0}), along_x));
 }
 
@@ -100,26 +99,26 @@ TEST(EdgeCheck, InOnePlaneAnEndMeetsTheInside) {
   EXPECT_NEAR(contact->time, 0.5, 5e-14);
   EXPECT_EQ(contact->features[0], first_end);
   EXPECT_NEAR(contact->parameters[1], 0.75, 5e-14);
-  EXPECT_NEAR((contact->normal - Vector3d(0, 1, 0)).norm(), 0, 5e-14);
+  EXPECT_NEAR(norm(contact->normal - Vector3d{0, 1, 0}), 0, 5e-14);
   EXPECT_EQ(contact->side, 0);
 }
 
 TEST(EdgeCheck, ATurningEdgeIsMetWhereTheChordMotionPutsIt) {
   // The end at x = 1 comes up from z = -1 to 1: the height at x is (2 t - 1) (x + 1) / 2.
   MovingEdge lifted = along_x;
-  lifted.start[1].z() = -1;
-  lifted.displacement[1].z() = 2;
+  lifted.start[1].z = -1;
+  lifted.displacement[1].z = 2;
   const auto contact = edge_check(edge({0, -1, 0.25}, {0, 1, 0.25}, rest), lifted);
   ASSERT_TRUE(contact);
   EXPECT_NEAR(contact->time, 0.75, 1e-13);
-  EXPECT_GT(contact->normal.z(), 0);
+  EXPECT_GT(contact->normal.z, 0);
 }
 
 TEST(EdgeCheck, TouchingAtTheStartIsContactAtTimeZero) {
   const auto crossed = edge_check(edge({0, -1, 0}, {0, 1, 0}, {0, 0, 1}), along_x);
   ASSERT_TRUE(crossed);
   EXPECT_EQ(crossed->time, 0);
-  EXPECT_NEAR(std::abs(crossed->normal.z()), 1, 1e-15);
+  EXPECT_NEAR(std::abs(crossed->normal.z), 1, 1e-15);
   EXPECT_EQ(crossed->side, 0);
   const auto shared = edge_check(edge({1, 0, 0}, {3, 1, 0}, {0, 0, 1}), along_x);
   ASSERT_TRUE(shared);
@@ -137,7 +136,7 @@ EdgeQuery any_edges(Random& random) {
 // As any_edges, but multiples of 2^-10.
 EdgeQuery rounded_edges(Random& random) {
   EdgeQuery query{edge(rest, rest, rest), edge(rest, rest, rest)};
-  const auto place = [&] { return Vector3d((1024 * random.vector(1)).array().round() / 1024); };
+  const auto place = [&] { return rounded_to(random.vector(1), 1.0 / 1024); };
   for (MovingEdge* e : {&query.a, &query.b})
     for (std::size_t k = 0; k < 2; ++k) {
       e->start[k] = place();
@@ -183,8 +182,8 @@ TEST(EdgeCheck, ExchangeMirrorAndUnitGiveTheSameBits) {
     }
     expect_same(contact, exchanged);
 
-    const Vector3d mirror(1, 1, -1);
-    const auto reflect = [&](const Vector3d& v) { return Vector3d(v.cwiseProduct(mirror)); };
+    const Vector3d mirror{1, 1, -1};
+    const auto reflect = [&](const Vector3d& v) { return Vector3d(componentwise_product(v, mirror)); };
     auto mirrored = edge_check(changed(query.a, reflect), changed(query.b, reflect));
     if (mirrored) {
       const bool from_side = mirrored->time == 0 && mirrored->side == 0;  // then of either sign
@@ -217,8 +216,8 @@ TEST(EdgeCheck, OriginAndFrameAreNotSeen) {
     EdgeQuery away = home;
     for (MovingEdge* e : {&away.a, &away.b})
       for (std::size_t k = 0; k < 2; ++k) {
-        e->start[k] += Vector3d(1e6, -2e6, 5e5);
-        e->displacement[k] += Vector3d(-1000, 3000, 500);
+        e->start[k] += Vector3d{1e6, -2e6, 5e5};
+        e->displacement[k] += Vector3d{-1000, 3000, 500};
       }
     const auto here = edge_check(home.a, home.b);
     expect_same(here, edge_check(away.a, away.b));
@@ -232,10 +231,8 @@ TEST(EdgeCheck, TurnsWithTheEdges) {
   int reported = 0;
   for (int i = 0; i < 5000; ++i) {
     const EdgeQuery query = rounded_edges(random);
-    const Eigen::Matrix3d turn =
-        Eigen::Quaterniond(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1.1)
-            .normalized()
-            .toRotationMatrix();
+    const Tensor<double> turn = rotation_matrix(normalized(
+        Quaternion<double>{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1.1}));
     const auto rotate = [&](const Vector3d& v) { return Vector3d(turn * v); };
     const auto contact = edge_check(query.a, query.b);
     const auto turned = edge_check(changed(query.a, rotate), changed(query.b, rotate));
@@ -248,7 +245,7 @@ TEST(EdgeCheck, TurnsWithTheEdges) {
     EXPECT_TRUE(exact::within(query.a, query.b, turned->time, tolerance)) << i;
     EXPECT_NEAR(turned->time, contact->time, 1e-6) << i;
     EXPECT_EQ(turned->side, contact->side) << i;
-    EXPECT_NEAR((turned->normal - rotate(contact->normal)).norm(), 0, 1e-5) << i;
+    EXPECT_NEAR(norm(turned->normal - rotate(contact->normal)), 0, 1e-5) << i;
   }
   EXPECT_GT(reported, 500);
 }
@@ -300,7 +297,7 @@ TEST(EdgesSurelyApart, SeesParallelEdgesApartOfWhichTheBoxesOverlap) {
   const EdgeQuery query{edge({0, 0, 0}, {1, 1, 1}, rest), edge({0.3, -0.2, -0.1}, {1.3, 0.8, 0.9}, rest)};
   MovingEdgePair<double> pair;
   put(pair, query, 0);
-  const double distance = Vector3d(0.3, -0.2, -0.1).norm();  // it is at right angles to both
+  const double distance = norm(Vector3d{0.3, -0.2, -0.1});  // it is at right angles to both
   EXPECT_TRUE(surely_apart(pair, 0.999999 * distance));
   EXPECT_FALSE(surely_apart(pair, 1.000001 * distance));
 }

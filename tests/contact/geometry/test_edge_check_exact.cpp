@@ -15,8 +15,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 struct EdgeTally {
   int queries = 0;
   int touching = 0;  // by exact arithmetic
@@ -74,15 +72,15 @@ bool side_was_seen(const EdgeQuery& query, const EdgeContact& contact) {
 
 // A unit vector; without a distance, along the common perpendicular to the side that a comes from.
 bool normal_is_right(const EdgeQuery& query, const EdgeContact& contact, double tolerance) {
-  if (std::abs(contact.normal.norm() - 1) > 1e-14) return false;
+  if (std::abs(norm(contact.normal) - 1) > 1e-14) return false;
   const bool insides =
       contact.features[0] == SegmentFeature::inside && contact.features[1] == SegmentFeature::inside;
   if (!insides || contact.side == 0 || contact.distance > 8 * tolerance) return true;
   const Vector3d a = place_along(query.a, contact.time);
   const Vector3d b = place_along(query.b, contact.time);
-  const Vector3d perpendicular = a.cross(b);
-  if (perpendicular.norm() < 1e-6 * a.norm() * b.norm()) return true;
-  return contact.side * contact.normal.dot(perpendicular) > (1 - 1e-9) * perpendicular.norm();
+  const Vector3d perpendicular = cross(a, b);
+  if (norm(perpendicular) < 1e-6 * norm(a) * norm(b)) return true;
+  return contact.side * dot(contact.normal, perpendicular) > (1 - 1e-9) * norm(perpendicular);
 }
 
 void judge(const EdgeQuery& query, EdgeTally& tally) {
@@ -102,7 +100,7 @@ void judge(const EdgeQuery& query, EdgeTally& tally) {
   tally.beyond += !near;
   tally.sided += contact->side != 0;
   tally.wrong_side += contact->side != 0 && !side_was_seen(query, *contact);
-  const bool has_normal = !contact->normal.isZero(0);
+  const bool has_normal = !is_zero(contact->normal);
   tally.without_normal += !has_normal;
   tally.wrong_normal += has_normal ? !normal_is_right(query, *contact, tolerance)
                                    : contact->time > 0 || contact->distance > tolerance;

@@ -7,19 +7,17 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
-const Vector3d rest = Vector3d::Zero();
+const Vector3d rest{};
 
 MovingFace still(const FaceVertices& vertices) { return {vertices, {rest, rest, rest, rest}}; }
 
-const FaceVertices unit_face = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 1, 0)};
+const FaceVertices unit_face = {Vector3d{0, 0, 0}, Vector3d{1, 0, 0}, Vector3d{1, 1, 0}, Vector3d{0, 1, 0}};
 
 TEST(VelocityCheck, AFallingNodeMeetsAFlatFaceWhenItsHeightIsUsedUp) {
   const auto contact = velocity_check({{0.25, 0.125, 0.5}, {0, 0, -2}}, still(unit_face));
   ASSERT_TRUE(contact);
   EXPECT_NEAR(contact->time, 0.25, 1e-14);
-  EXPECT_NEAR(contact->normal.z(), 1, 1e-15);
+  EXPECT_NEAR(contact->normal.z, 1, 1e-15);
   EXPECT_EQ(contact->side, 1);
   Vector3d point = rest;
   double sum = 0;
@@ -28,7 +26,7 @@ TEST(VelocityCheck, AFallingNodeMeetsAFlatFaceWhenItsHeightIsUsedUp) {
     sum += contact->weights[k];
   }
   EXPECT_NEAR(sum, 1, 1e-15);
-  EXPECT_NEAR((point - Vector3d(0.25, 0.125, 0)).norm(), 0, 1e-14);
+  EXPECT_NEAR(norm(point - Vector3d{0.25, 0.125, 0}), 0, 1e-14);
 }
 
 TEST(VelocityCheck, FromBehindTheSideIsNegative) {
@@ -55,7 +53,7 @@ TEST(VelocityCheck, WithReachContactBeginsAtThatDistance) {
 
 TEST(VelocityCheck, ATriangleIsAQuadThatRepeatsItsThirdVertex) {
   const MovingFace triangle =
-      still({Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 1, 0)});
+      still({Vector3d{0, 0, 0}, Vector3d{1, 0, 0}, Vector3d{0, 1, 0}, Vector3d{0, 1, 0}});
   const auto contact = velocity_check({{0.25, 0.25, 1}, {0, 0, -1}}, triangle);
   ASSERT_TRUE(contact);
   EXPECT_NEAR(contact->weights[0], 0.5, 1e-14);
@@ -68,8 +66,8 @@ TEST(VelocityCheck, ARotatingFaceIsMetWhereTheChordMotionPutsIt) {
   // surface at x = 0.5 rises as -0.5 + t.
   MovingFace face = still(unit_face);
   for (const std::size_t k : {1, 2}) {
-    face.start[k].z() = -1;
-    face.displacement[k].z() = 2;
+    face.start[k].z = -1;
+    face.displacement[k].z = 2;
   }
   const auto contact = velocity_check({{0.5, 0.25, 0.25}, rest}, face);
   ASSERT_TRUE(contact);

@@ -14,8 +14,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 struct Tally {
   int queries = 0;
   int touching = 0;  // by exact arithmetic

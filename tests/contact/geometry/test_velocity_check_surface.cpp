@@ -11,22 +11,20 @@
 #include "src/base/index.hpp"
 #include "tests/contact/geometry/adversarial_queries.hpp"
 #include "tests/contact/geometry/exact_judge.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 // How everything is seen: turned, shifted by many sizes, and moving along.
 struct Frame {
-  Eigen::Matrix3d turn;
+  Tensor<double> turn;
   Vector3d shift;
   Vector3d motion;
 
   explicit Frame(Random& random) {
-    turn = Eigen::Quaterniond(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1.1)
-               .normalized()
-               .toRotationMatrix();
+    turn = rotation_matrix(normalized(
+        Quaternion<double>{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), 1.1}));
     shift = random.vector(random.coin() ? 0 : 1e6);
     motion = random.vector(random.coin() ? 0 : 1e3);
   }
@@ -75,10 +73,10 @@ TEST(VelocityCheckSurface, AFanLetsNothingThrough) {
     const MovingNode& spoke = vertices[index(1 + 2 * random.integer(0, quads - 1))];
     const double share = random.integer(0, 3) == 0 ? 0 : random.uniform(0, 0.4);
     const double time = random.uniform(0.2, 0.8);
-    const Vector3d drift(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0);
+    const Vector3d drift{random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0};
     MovingNode node{share * spoke.start - time * drift, drift};
-    node.start.z() = 3;
-    node.displacement.z() = -6;
+    node.start.z = 3;
+    node.displacement.z = -6;
 
     const Frame frame(random);
     for (MovingNode& vertex : vertices) vertex = frame(vertex);
@@ -103,11 +101,11 @@ TEST(VelocityCheckSurface, AStripLetsNothingThrough) {
     const auto rung = index(2 * random.integer(1, 3));  // an edge between two faces
     const double share = random.uniform(0.3, 0.7);
     const double time = random.uniform(0.2, 0.8);
-    const Vector3d drift(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 0);
+    const Vector3d drift{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), 0};
     MovingNode node{(1 - share) * vertices[rung].start + share * vertices[rung + 1].start - time * drift,
                     drift};
-    node.start.z() = 3;
-    node.displacement.z() = -6;
+    node.start.z = 3;
+    node.displacement.z = -6;
 
     const Frame frame(random);
     for (MovingNode& vertex : vertices) vertex = frame(vertex);
@@ -127,7 +125,7 @@ TEST(VelocityCheckSurface, ReachIsEnteredFirstAtTheReportedTime) {
     const Query query = adversarial_query(static_cast<Family>(random.integer(0, 4)), random);
     double size = 0;
     for (std::size_t k = 1; k < 4; ++k)
-      size = std::max(size, (query.face.start[k] - query.face.start[0]).norm());
+      size = std::max(size, norm(query.face.start[k] - query.face.start[0]));
     const double reach = size * random.power_of_ten(-4, 0);
     const double tolerance = touch_tolerance(query.node, query.face, reach);
     const auto contact = velocity_check(query.node, query.face, reach);
@@ -164,7 +162,7 @@ TEST(VelocityCheckSurface, OriginAndFrameAreNotSeen) {
   Random random(24);
   for (int i = 0; i < 2000; ++i) {
     const auto tenths = [&] { return 0x1p-10 * random.integer(-1024, 1024); };
-    const auto place = [&] { return Vector3d(tenths(), tenths(), tenths()); };
+    const auto place = [&] { return Vector3d{tenths(), tenths(), tenths()}; };
     Query home;
     home.node = {place(), place()};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -172,8 +170,8 @@ TEST(VelocityCheckSurface, OriginAndFrameAreNotSeen) {
       home.face.displacement[k] = place();
     }
     Query away = home;
-    const Vector3d shift(1e6, -2e6, 5e5);
-    const Vector3d motion(-1000, 3000, 500);
+    const Vector3d shift{1e6, -2e6, 5e5};
+    const Vector3d motion{-1000, 3000, 500};
     away.node.start += shift;
     away.node.displacement += motion;
     for (std::size_t k = 0; k < 4; ++k) {

@@ -15,8 +15,6 @@
 namespace brio::test {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr int pairs_of_family = 5000;
 constexpr Continuation everywhere{.edge = {true, true, true}, .corner = {true, true, true}};
 
@@ -45,7 +43,7 @@ double distance(const SegmentAndTriangle& pair) {
 double size_of(const SegmentAndTriangle& pair) {
   double size = 0;
   for (const Vector3d& end : pair.segment)
-    for (const Vector3d& corner : pair.triangle) size = std::max(size, (end - corner).norm());
+    for (const Vector3d& corner : pair.triangle) size = std::max(size, norm(end - corner));
   return size;
 }
 

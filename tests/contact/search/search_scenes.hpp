@@ -14,7 +14,7 @@ namespace brio {
 
 struct SearchScene {
   std::string name;
-  std::vector<Vector3<double>> points{};
+  std::vector<Vector3d> points{};
   std::vector<CaptureBox> boxes;
 };
 
@@ -23,10 +23,10 @@ class SceneMaker {
   explicit SceneMaker(unsigned seed) : random_(seed) {}
 
   double uniform(double lower, double upper) { return lower + (upper - lower) * unit_(random_); }
-  Vector3<double> in_cube(double half_edge) {
+  Vector3d in_cube(double half_edge) {
     return {uniform(-half_edge, half_edge), uniform(-half_edge, half_edge), uniform(-half_edge, half_edge)};
   }
-  static CaptureBox around(const Vector3<double>& centre, double half_edge) {
+  static CaptureBox around(const Vector3d& centre, double half_edge) {
     return {{centre.x - half_edge, centre.y - half_edge, centre.z - half_edge},
             {centre.x + half_edge, centre.y + half_edge, centre.z + half_edge}};
   }
@@ -62,7 +62,7 @@ class SceneMaker {
   SearchScene debris(int clusters, int points_each) {
     SearchScene scene{"debris", {}, {}};
     for (int c = 0; c < clusters; ++c) {
-      const Vector3<double> centre = in_cube(1e6);
+      const Vector3d centre = in_cube(1e6);
       for (int i = 0; i < points_each; ++i) {
         scene.points.push_back(centre + in_cube(5));
         scene.boxes.push_back(around(centre + in_cube(5), uniform(0, 1.5)));
@@ -75,7 +75,7 @@ class SceneMaker {
     SearchScene scene{"graded", {}, {}};
     for (int i = 0; i < points; ++i) {
       const double scale = std::pow(10.0, uniform(-12, 12));
-      const Vector3<double> point = Vector3<double>{0.3, -0.7, 1.1} + in_cube(scale);
+      const Vector3d point = Vector3d{0.3, -0.7, 1.1} + in_cube(scale);
       scene.points.push_back(point);
       scene.boxes.push_back(around(point, uniform(0, 1) * scale));
     }

@@ -67,7 +67,7 @@ TYPED_TEST(EveryStrategy, FindsTheSameWithTheSameWorkForAnyNumberOfThreads) {
 }
 
 TYPED_TEST(EveryStrategy, TakesNothingAndSingles) {
-  const Vector3<double> point{1, 2, 3};
+  const Vector3d point{1, 2, 3};
   const CaptureBox box = SceneMaker::around(point, 0);
   this->find({.name = "nothing", .points = {}, .boxes = {}});
   EXPECT_EQ(this->pairs.first, std::vector<int>{0});

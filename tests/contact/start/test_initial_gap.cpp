@@ -6,6 +6,7 @@
 #include "contact/surface/face_geometry.hpp"
 #include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
+#include "tests/rotation_about.hpp"
 
 // The start of contact by distances: what touches or overlaps a little is moved apart to its radii.
 
@@ -20,7 +21,8 @@ class RestingScene {
   std::vector<Vector3d> extra;  ///< nodes of beams and particles
   Nodes nodes;
   ContactScene scene;
-  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  Tensor<double> turn = identity<double>();
+  Vector3d shift{};
   std::vector<InitialOverlap> report;
   std::vector<Vector3d> start;
 
@@ -36,7 +38,7 @@ class RestingScene {
     nodes = Nodes(first + extra.size(), false);
     nodes.prescribed = AlignedBuffer<std::uint8_t>(nodes.size());
     for (std::size_t n = 0; n < nodes.size(); ++n) {
-      const Vector3d x = frame * (n < first ? model.x(static_cast<int>(n)) : extra[n - first]);
+      const Vector3d x = turn * (n < first ? model.x(static_cast<int>(n)) : extra[n - first]) + shift;
       std::copy(x.data(), x.data() + 3, nodes.record[n].position);
       nodes.record[n].velocity[0] = 7;
       start.push_back(x);
@@ -52,7 +54,7 @@ class RestingScene {
   Vector3d moved(int n) const { return x(n) - start[index(n)]; }
   double most_moved() const {
     double most = 0;
-    for (int n = 0; n < static_cast<int>(nodes.size()); ++n) most = std::max(most, moved(n).norm());
+    for (int n = 0; n < static_cast<int>(nodes.size()); ++n) most = std::max(most, norm(moved(n)));
     return most;
   }
   double skin() const { return scene.features.skin; }
@@ -95,9 +97,9 @@ void expect_made(const RestingScene& scene, double overlap = 0) {
 
 TEST(InitialGap, IsMadeBetweenBricksThatTouch) {
   for (const Vector3d& at :
-       {Vector3d(0, 0, 2), Vector3d(0.5, 0, 2), Vector3d(0.3, 0.7, 2), Vector3d(2, 0, 2),  // along an edge
-        Vector3d(2, 0.3, 2), Vector3d(2, 2, 2), Vector3d(1, 1, 2), Vector3d(1.9, 0.2, 2)}) {
-    SCOPED_TRACE(at.transpose());
+       {Vector3d{0, 0, 2}, Vector3d{0.5, 0, 2}, Vector3d{0.3, 0.7, 2}, Vector3d{2, 0, 2},  // along an edge
+        Vector3d{2, 0.3, 2}, Vector3d{2, 2, 2}, Vector3d{1, 1, 2}, Vector3d{1.9, 0.2, 2}}) {
+    SCOPED_TRACE(testing::PrintToString(at));
     RestingScene scene;
     scene.box({0, 0, 0}, {2, 2, 2}, {2, 2, 2});
     scene.box(at, {2, 2, 2}, {2, 2, 2});
@@ -126,10 +128,11 @@ TEST(InitialGap, IsTheSameInAnyFrame) {
   const std::pair<double, Vector3d> frames[] = {{0, {1, 2, 3}}, {1e3, {-1, 0.3, 0.2}}, {1e3, {0, 0, 1}}};
   for (const auto& [far, axis] : frames) {
     RestingScene turned;
-    turned.frame = Eigen::Translation3d(far, 2 * far, -far) * Eigen::AngleAxisd(0.7, axis.normalized());
+    turned.turn = rotation_about(0.7, axis);
+    turned.shift = {far, 2 * far, -far};
     make(turned);
     for (int n = 0; n < static_cast<int>(scene.nodes.size()); ++n)
-      EXPECT_LT((turned.moved(n) - turned.frame.linear() * scene.moved(n)).norm(), 1e-2 * scene.skin()) << n;
+      EXPECT_LT(norm(turned.moved(n) - turned.turn * scene.moved(n)), 1e-2 * scene.skin()) << n;
   }
 }
 
@@ -141,9 +144,9 @@ TEST(InitialGap, IsSharedByBothAlongTheNormal) {
   scene.begin();
   for (int n = 4; n < 12; ++n) {
     const double way = n < 8 ? -scene.skin() : scene.skin();
-    EXPECT_LT((scene.moved(n) - Vector3d(0, 0, way)).norm(), 1e-7) << n;
+    EXPECT_LT(norm(scene.moved(n) - Vector3d{0, 0, way}), 1e-7) << n;
   }
-  for (int n : {0, 1, 2, 3, 12, 13, 14, 15}) EXPECT_EQ(scene.moved(n), Vector3d::Zero()) << n;
+  for (int n : {0, 1, 2, 3, 12, 13, 14, 15}) EXPECT_EQ(scene.moved(n), (Vector3d{})) << n;
 }
 
 TEST(InitialGap, IsMadeInAStackOfTenEachAQuarterBeside) {
@@ -185,24 +188,26 @@ TEST(InitialGap, IsMadeWhereBlocksOverlapByATenthOfAnEdge) {
   EXPECT_NEAR(scene.report.front().depth, 0.1, 1e-12);
 }
 
+double sum_of_magnitudes(const Vector3d& a) { return std::abs(a.x) + std::abs(a.y) + std::abs(a.z); }
+
 /// Of two cubes of two units, one turned and shifted: the least overlap along the normals of faces and of
 /// pairs of edges, and the direction from the first to the second along which it is.
-std::pair<double, Vector3d> least_overlap(const Eigen::Matrix3d& turn, const Vector3d& shift) {
+std::pair<double, Vector3d> least_overlap(const Tensor<double>& turn, const Vector3d& shift) {
   double least = 1e9;
-  Vector3d along = Vector3d::Zero();
+  Vector3d along{};
   const auto consider = [&](const Vector3d& axis) {
-    if (axis.norm() < 1e-6) return;
-    const Vector3d unit = axis.normalized();
-    const double reach = unit.lpNorm<1>() + (turn.transpose() * unit).lpNorm<1>();
-    const double overlap = reach - std::abs(unit.dot(shift));
+    if (norm(axis) < 1e-6) return;
+    const Vector3d unit = normalized(axis);
+    const double reach = sum_of_magnitudes(unit) + sum_of_magnitudes(transposed_times(turn, unit));
+    const double overlap = reach - std::abs(dot(unit, shift));
     if (overlap >= least) return;
     least = overlap;
-    along = unit.dot(shift) < 0 ? Vector3d(-unit) : unit;
+    along = dot(unit, shift) < 0 ? -unit : unit;
   };
   for (int i = 0; i < 3; ++i) {
-    consider(Vector3d::Unit(i));
-    consider(turn.col(i));
-    for (int j = 0; j < 3; ++j) consider(Vector3d::Unit(i).cross(turn.col(j)));
+    consider(identity<double>().row(i));
+    consider(turn.column(i));
+    for (int j = 0; j < 3; ++j) consider(cross(identity<double>().row(i), turn.column(j)));
   }
   return {least, along};
 }
@@ -213,9 +218,9 @@ TEST(InitialGap, IsMadeBetweenCubesAtAnyAngle) {
   const auto random = [&] { return std::uniform_real_distribution<double>(-1, 1)(engine); };
   for (int trial = 0; trial < 60; ++trial) {
     SCOPED_TRACE(trial);
-    const Eigen::Matrix3d turn =
-        Eigen::Quaterniond(random(), random(), random(), random()).normalized().toRotationMatrix();
-    Vector3d shift(2 * random(), 2 * random(), 2.5);
+    const Tensor<double> turn =
+        rotation_matrix(normalized(Quaternion<double>{random(), random(), random(), random()}));
+    Vector3d shift{2 * random(), 2 * random(), 2.5};
     const double depth = trial % 4 == 0 ? 0 : 0.04 * (1 + random());
     for (int round = 0; round < 50; ++round) {
       const auto [overlap, along] = least_overlap(turn, shift);
@@ -224,7 +229,7 @@ TEST(InitialGap, IsMadeBetweenCubesAtAnyAngle) {
     RestingScene scene;
     scene.box({-1, -1, -1}, {2, 2, 2}, {2, 2, 2});
     scene.model.add_box({2, 2, 2}, {2, 2, 2}, 1, [&](const Vector3d& x) -> Vector3d {
-      return turn * (x - Vector3d(1, 1, 1)) + shift;
+      return turn * (x - Vector3d{1, 1, 1}) + shift;
     });
     scene.begin();
     expect_made(scene, depth);
@@ -345,8 +350,9 @@ TEST(InitialGap, OfMirrorImagesIsAMirrorImage) {
   scene.box({-1, 0, 0}, {2, 1, 0.5}, {4, 2, 1});
   scene.box({-1.3, 0.1, 0.5}, {1, 0.8, 0.5}, {2, 2, 1});
   const Map mirrored = [](const Vector3d& x) -> Vector3d { return {0.3 + x[0], 0.1 + x[1], 0.48 + x[2]}; };
-  scene.model.add_box({2, 2, 1}, {1, 0.8, 0.5}, 1,
-                      [&](const Vector3d& x) -> Vector3d { return mirrored(x) + Vector3d(0, 0, 0.02); });
+  scene.model.add_box({2, 2, 1}, {1, 0.8, 0.5}, 1, [&](const Vector3d& x) -> Vector3d {
+    return mirrored(x) + Vector3d{0, 0, 0.02};
+  });
   scene.box({-0.7, 0.3, 0.98}, {1.4, 1, 0.5}, {2, 1, 1});
   scene.begin();
   expect_made(scene, 0.02);

@@ -2,6 +2,7 @@
 
 #include "src/base/index.hpp"
 #include "tests/contact/spring_model.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio::test {
 namespace {
@@ -11,7 +12,7 @@ void overlap_blocks(SpringModel& model, double depth, double limit, int across =
   model.add_box({across, across, 3}, {1.0 * across, 1.0 * across, 3}, 1, shifted({0, 0, 0}));
   const double aside = 0.5 * (across - 3);
   model.add_box({2, 2, 2}, {2, 2, 2}, 1, [&](const Vector3d& x) -> Vector3d {
-    return Eigen::AngleAxisd(0.3, Vector3d::UnitZ()) * x + Vector3d(0.8 + aside, 0.4 + aside, 3 - depth);
+    return rotation_about(0.3, Vector3d{0, 0, 1}) * x + Vector3d{0.8 + aside, 0.4 + aside, 3 - depth};
   });
   ContactOptions options;
   options.initial_overlap_limit = limit;
@@ -82,7 +83,7 @@ TEST(InitialOverlap, HeldPartStaysWhereItIs) {
   overlap_blocks(model, 0.1, 0.2);
   model.hold(0, 64);
   make_initial_gap(model.scene, model.nodes, team);
-  EXPECT_EQ(model.x(63), Vector3d(3, 3, 3));
+  EXPECT_EQ(model.x(63), (Vector3d{3, 3, 3}));
   double lowest = 10;
   for (int n = 64; n < model.count(); ++n) lowest = std::min(lowest, model.x(n)[2]);
   EXPECT_NEAR(lowest, 3 + 2 * model.scene.features.skin, 1e-8);

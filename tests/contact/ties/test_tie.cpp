@@ -4,12 +4,10 @@
 #include <random>
 
 #include "contact/ties/tie.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
-
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 class Tied : public testing::Test {
  protected:
@@ -17,14 +15,14 @@ class Tied : public testing::Test {
   Vector3d vector(double size = 1) { return {number(size), number(size), number(size)}; }
   FaceVertices quad() {
     const Vector3d o = vector(3);
-    const Vector3d a = Vector3d(1, 0, 0) + vector(0.2);
-    const Vector3d b = Vector3d(0, 1, 0) + vector(0.2);
+    const Vector3d a = Vector3d{1, 0, 0} + vector(0.2);
+    const Vector3d b = Vector3d{0, 1, 0} + vector(0.2);
     return {o, o + a, o + a + b + vector(0.1), o + b};
   }
   FaceVertices triangle() {
     const Vector3d o = vector(3);
-    const Vector3d c = o + Vector3d(0, 1, 0) + vector(0.2);
-    return {o, o + Vector3d(1, 0, 0) + vector(0.2), c, c};
+    const Vector3d c = o + Vector3d{0, 1, 0} + vector(0.2);
+    return {o, o + Vector3d{1, 0, 0} + vector(0.2), c, c};
   }
   FaceVertices face(int i) { return i % 4 == 0 ? triangle() : quad(); }
   // A node above an inner point of a face.
@@ -55,7 +53,7 @@ TEST_F(Tied, NodeIsHeldWhereItIs) {
     const Vector3d node = node_over(face, gap);
     const auto tie = project(node, face);
     ASSERT_TRUE(tie.has_value());
-    EXPECT_LT((tied_position(*tie, face) - node).norm(), 1e-12);
+    EXPECT_LT(norm(tied_position(*tie, face) - node), 1e-12);
     EXPECT_NEAR(tie->gap, gap, 1e-12);
     double sum = 0;
     for (double weight : tie->weight) sum += weight;
@@ -79,14 +77,14 @@ TEST_F(Tied, ForcesHaveTheMomentOfTheForce) {
     const auto tie = project(node, face);
     ASSERT_TRUE(tie.has_value());
     const Vector3d force = vector(10);
-    Vector3d sum = Vector3d::Zero(), moment = Vector3d::Zero();
+    Vector3d sum{}, moment = Vector3d{};
     const auto share = spread(*tie, face, force);
     for (std::size_t k = 0; k < 4; ++k) {
       sum += share[k];
-      moment += face[k].cross(share[k]);
+      moment += cross(face[k], share[k]);
     }
-    EXPECT_LT((sum - force).norm(), 1e-13 * 10);
-    EXPECT_LT((moment - node.cross(force)).norm(), 1e-11);
+    EXPECT_LT(norm(sum - force), 1e-13 * 10);
+    EXPECT_LT(norm(moment - cross(node, force)), 1e-11);
   }
 }
 
@@ -107,11 +105,11 @@ TEST_F(Tied, ForcesHaveThePowerOfTheForce) {
     double power = 0;
     Vector3d rate = tie->gap * normal_rate(*tie, face, velocity);
     for (std::size_t k = 0; k < 4; ++k) {
-      power += share[k].dot(velocity[k]);
+      power += dot(share[k], velocity[k]);
       rate += tie->weight[k] * velocity[k];
     }
-    EXPECT_NEAR(power, force.dot(rate), 1e-12 * 100);
-    EXPECT_NEAR(power, force.dot(tied_position(*tie, after) - tied_position(*tie, before)) / (2 * h), 1e-6);
+    EXPECT_NEAR(power, dot(force, rate), 1e-12 * 100);
+    EXPECT_NEAR(power, dot(force, tied_position(*tie, after) - tied_position(*tie, before)) / (2 * h), 1e-6);
   }
 }
 
@@ -123,10 +121,10 @@ TEST_F(Tied, NoCornerMovesTheNodeFurtherThanItsShare) {
     const auto share = largest_share(*tie, face);
     for (std::size_t k = 0; k < 4; ++k) {
       if (k >= 2 && is_triangle(face)) continue;
-      const Vector3d direction = vector().normalized();
+      const Vector3d direction = normalized(vector());
       FaceVertices moved = face;
       moved[k] += 1e-6 * direction;
-      EXPECT_LT((tied_position(*tie, moved) - tied_position(*tie, face)).norm(), 1e-6 * (share[k] + 1e-4));
+      EXPECT_LT(norm(tied_position(*tie, moved) - tied_position(*tie, face)), 1e-6 * (share[k] + 1e-4));
     }
   }
 }
@@ -135,11 +133,10 @@ TEST_F(Tied, TurnIsARotation) {
   for (int i = 0; i < 1000; ++i) {
     const Vector3d rotation = vector(i % 2 == 0 ? 3 : 1e-9);
     const Vector3d arm = vector();
-    const Matrix3d exact = rotation.norm() > 1e-6
-                               ? Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix()
-                               : Matrix3d(Matrix3d::Identity());
-    EXPECT_LT((turned_by(rotation, arm) - exact * arm).norm(), rotation.norm() > 1e-6 ? 1e-14 : 1e-8);
-    EXPECT_NEAR(turned_by(rotation, arm).norm(), arm.norm(), 1e-15 * 10);
+    const Tensor<double> exact =
+        norm(rotation) > 1e-6 ? test::rotation_about(norm(rotation), rotation) : identity<double>();
+    EXPECT_LT(norm(turned_by(rotation, arm) - exact * arm), norm(rotation) > 1e-6 ? 1e-14 : 1e-8);
+    EXPECT_NEAR(norm(turned_by(rotation, arm)), norm(arm), 1e-15 * 10);
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-Part plate(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Vector centre,
+Part plate(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Vector3d centre,
            double thickness = 0.05) {
   Shell4 shell;
   shell.thickness = thickness;
@@ -32,7 +32,7 @@ Connection merged(std::string first, std::string second, double tolerance = 1e-6
   return Merge{{std::move(first), std::move(second)}, tolerance, "deck.yaml:3:5"};
 }
 
-NodalForce push(std::string set, Vector force) {
+NodalForce push(std::string set, Vector3d force) {
   NodalForce load;
   load.where.set = std::move(set);
   load.force = force;
@@ -49,7 +49,7 @@ Deck one_plate() {
   return deck;
 }
 /// The same in two halves.
-Deck two_plates(Vector shift = {0, 0, 0}, double tolerance = 1e-6) {
+Deck two_plates(Vector3d shift = {0, 0, 0}, double tolerance = 1e-6) {
   Deck deck = one_plate();
   deck.parts = {plate("left", {1, 1}, {4, 4}, {-0.5, 0, 0}),
                 plate("right", {1, 1}, {4, 4}, {0.5 + shift[0], shift[1], shift[2]})};

@@ -13,7 +13,6 @@ namespace brio {
 namespace {
 
 using namespace test;
-using Eigen::Vector3d;
 
 enum class Joint { merged, tied };
 
@@ -91,14 +90,14 @@ TEST(RigidJoints, ConserveMomentumAndEnergyInFlight) {
         balance_momentum(m, momentum(m.nodes));
         ASSERT_LE(m.momentum.linear_imbalance(), 1e-12);
         ASSERT_LE(m.momentum.angular_imbalance(), 1e-12);
-        const Eigen::Matrix3d turn = head.attitude.toRotationMatrix();
+        const Tensor<double> turn = rotation_matrix(head.attitude);
         for (const std::size_t i : head.joint) {
-          const Vector3d x(m.nodes.record[index(head.node[i])].position);
-          farthest = std::max(farthest, (x - head.centre - turn * head.arm[i]).norm());
+          const Vector3d x = vector_at(m.nodes.record[index(head.node[i])].position);
+          farthest = std::max(farthest, norm(x - head.centre - turn * head.arm[i]));
         }
       });
       EXPECT_LE(farthest, 1e-14);
-      EXPECT_GT(2 * std::acos(std::abs(head.attitude.w())), 0.5);
+      EXPECT_GT(2 * std::acos(std::abs(head.attitude.w)), 0.5);
       EXPECT_LE(model.energy.error_max, 2e-3);
       EXPECT_LE(std::abs(model.energy.internal), 0.1 * energy);
       EXPECT_EQ(observe_end(model).contact.last_resort_uses, 0);
@@ -177,13 +176,13 @@ TEST(RigidJoints, AShellIsClampedToARigidPart) {
 Deck struck_pad(Joint joint, bool excluded, bool from_side) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
-  const Vector place = from_side ? Vector{0.75, 0.1, 0.3} : Vector{0.3, 0.1, 0.7};
+  const Vector3d place = from_side ? Vector3d{0.75, 0.1, 0.3} : Vector3d{0.3, 0.1, 0.7};
   deck.parts = {box("block", {1, 1, 0.5}, {2, 2, 1}, {0, 0, 0}, Rigid{}),
                 box("pad", {1, 1, 0.25}, {joint == Joint::merged ? 2 : 3, 2, 1}, {0, 0, 0.375}, hex8()),
                 box("hammer", {0.3, 0.3, 0.3}, {2, 2, 2}, place, hex8())};
   deck.connections = {joint == Joint::merged ? Connection(Merge{{"block", "pad"}, 1e-6, ""})
                                              : Connection(tied("pad.zmin", "block"))};
-  deck.initial_conditions = {moving("hammer", from_side ? Vector{-10, 1, 0} : Vector{0, 1, -10})};
+  deck.initial_conditions = {moving("hammer", from_side ? Vector3d{-10, 1, 0} : Vector3d{0, 1, -10})};
   deck.contact.emplace();
   deck.contact->options.friction = 0.3;
   if (excluded) deck.contact->exclude = {"block"};
@@ -207,7 +206,7 @@ TEST(RigidJoints, AnImpactOnJoinedElementsMovesTheRigidPart) {
           ASSERT_LE(m.momentum.angular_imbalance(), 1e-12);
         });
         EXPECT_LT(model.rigid.motion[0].velocity[from_side ? 0 : 2], -0.3);
-        EXPECT_GT(model.rigid.motion[0].angular_velocity.norm(), 0.1);
+        EXPECT_GT(norm(model.rigid.motion[0].angular_velocity), 0.1);
         EXPECT_LE(model.energy.error_max, 1e-2);
       }
 }

@@ -10,13 +10,12 @@
 #include "src/output/observe.hpp"
 #include "tests/core/build/tied_scene.hpp"
 #include "tests/core/scene.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
 
 using namespace test;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 Vector3d place_of(const Model& model, std::size_t part, std::size_t mesh_node) {
   return position(model.nodes, model.parts[part].node[mesh_node]);
@@ -43,7 +42,7 @@ double stretched_unevenness(Deck deck) {
   pull.components[0].curve.points = {{0, 2 * rate}};
   deck.boundary_conditions.push_back(pull);
   Model model = build_model(deck);
-  set_velocities(model, {0, 0, rate}, rate * Vector3d(0, 0, 1) * Vector3d(0, 0, 1).transpose());
+  set_velocities(model, {0, 0, rate}, diagonal({0, 0, rate}));
   ThreadTeam team(1);
   run(model, deck, team);
   double least = HUGE_VAL, largest = -HUGE_VAL;
@@ -94,7 +93,7 @@ double reflection(std::array<int, 3> first, std::array<int, 3> second, bool tie_
   double left = 0, all = 0;
   for (std::size_t p = 0; p < 2; ++p)
     for (int node : model.parts[p].node) {
-      const double energy = model.nodes.mass[index(node)] * velocity(model.nodes, node).squaredNorm();
+      const double energy = model.nodes.mass[index(node)] * squared_norm(velocity(model.nodes, node));
       all += energy;
       if (p == 0) left += energy;
     }
@@ -120,8 +119,9 @@ struct Conserved {
 /// Throw, spin and squeeze a scene; largest errors over its run.
 Conserved thrown(const Deck& deck, double spin, double squeeze) {
   Model model = build_model(deck);
-  Matrix3d gradient;
-  gradient << squeeze, -spin, 0.3 * spin, spin, 0.5 * squeeze, -0.7 * spin, -0.3 * spin, 0.7 * spin, -squeeze;
+  const Tensor<double> gradient{{{squeeze, -spin, 0.3 * spin},
+                                 {spin, 0.5 * squeeze, -0.7 * spin},
+                                 {-0.3 * spin, 0.7 * spin, -squeeze}}};
   set_velocities(model, {3, -1, 2}, gradient);
   Conserved errors;
   Momentum start;
@@ -202,8 +202,8 @@ TEST(Ties, OfTiesKeepMomentumAndEnergy) {
 void expect_held(const Deck& deck, double spin, double squeeze) {
   Model model = build_model(deck);
   std::vector<TiedNode> start = model.ties.node;
-  Matrix3d gradient;
-  gradient << squeeze, -spin, 0, spin, squeeze, 0.5 * spin, 0, -0.5 * spin, -squeeze;
+  const Tensor<double> gradient{
+      {{squeeze, -spin, 0}, {spin, squeeze, 0.5 * spin}, {0, -0.5 * spin, -squeeze}}};
   set_velocities(model, {3, -1, 2}, gradient);
   ThreadTeam team(1);
   run(model, deck, team);
@@ -215,7 +215,7 @@ void expect_held(const Deck& deck, double spin, double squeeze) {
     for (std::size_t k = 0; k < 4; ++k) face[k] = position(model.nodes, tie.corner[k]);
     const Vector3d x = position(model.nodes, tie.node);
     if (tie.turning) {
-      EXPECT_NEAR((x - point_on(tie, face)).norm(), start[i].tie.arm.norm(), 1e-11);
+      EXPECT_NEAR(norm(x - point_on(tie, face)), norm(start[i].tie.arm), 1e-11);
       continue;
     }
     const auto found = project(x, face);
@@ -238,32 +238,29 @@ TEST(TiesSlow, HoldForAHundredThousandSteps) {
 // ---- symmetry
 
 Rotation turn() { return {{1, 2, 3}, 37}; }
-Matrix3d turn_matrix() {
-  return Eigen::AngleAxisd(37 * M_PI / 180, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-}
+Tensor<double> turn_matrix() { return rotation_about(37 * M_PI / 180, Vector3d{1, 2, 3}); }
 
-Model ran(Deck deck, const Matrix3d& frame, int threads = 1) {
+Model ran(Deck deck, const Tensor<double>& frame, int threads = 1) {
   Model model = build_model(deck);
-  Matrix3d gradient;
-  gradient << 5, -20, 3, 10, 4, -6, 7, 8, -9;
-  set_velocities(model, Vector3d::Zero(), frame * gradient * frame.transpose());
+  const Tensor<double> gradient{{{5, -20, 3}, {10, 4, -6}, {7, 8, -9}}};
+  set_velocities(model, Vector3d{}, frame * gradient * transposed(frame));
   ThreadTeam team(threads);
   run(model, deck, team);
   return model;
 }
 
 void expect_same_in_another_frame(const Deck& deck) {
-  const Model reference = ran(deck, Matrix3d::Identity());
+  const Model reference = ran(deck, identity<double>());
   Deck other = deck;
-  const Matrix3d frame = turn_matrix();
+  const Tensor<double> frame = turn_matrix();
   for (Part& part : other.parts) {
-    const Vector3d moved = frame * Vector3d(part.placement.translate.data());
+    const Vector3d moved = frame * part.placement.translate;
     part.placement = {turn(), {moved[0], moved[1], moved[2]}};
   }
   const Model turned = ran(other, frame);
   for (std::size_t p = 0; p < deck.parts.size(); ++p)
     for (std::size_t i = 0; i < reference.parts[p].node.size(); ++i)
-      EXPECT_LT((frame * place_of(reference, p, i) - place_of(turned, p, i)).norm(), 1e-9);
+      EXPECT_LT(norm(frame * place_of(reference, p, i) - place_of(turned, p, i)), 1e-9);
 }
 
 TEST(Ties, AreTheSameInAnotherFrame) {
@@ -275,8 +272,8 @@ TEST(Ties, AreTheSameInAnotherFrame) {
 TEST(Ties, AreTheSameInAMirror) {
   Deck deck = two_boxes({2, 2, 2}, {3, 3, 3}, 0.1);
   deck.time.end = 5e-3;
-  const Model reference = ran(deck, Matrix3d::Identity());
-  Matrix3d mirror = Matrix3d::Identity();
+  const Model reference = ran(deck, identity<double>());
+  Tensor<double> mirror = identity<double>();
   mirror(0, 0) = -1;
   const Model mirrored = ran(deck, mirror);
   const Model start = build_model(deck);
@@ -285,19 +282,19 @@ TEST(Ties, AreTheSameInAMirror) {
       std::size_t image = 0;
       double closest = HUGE_VAL;
       for (std::size_t j = 0; j < start.parts[p].node.size(); ++j) {
-        const double distance = (mirror * place_of(start, p, i) - place_of(start, p, j)).norm();
+        const double distance = norm(mirror * place_of(start, p, i) - place_of(start, p, j));
         if (distance < closest) image = j;
         closest = std::min(closest, distance);
       }
-      EXPECT_LT((mirror * place_of(reference, p, i) - place_of(mirrored, p, image)).norm(), 1e-9);
+      EXPECT_LT(norm(mirror * place_of(reference, p, i) - place_of(mirrored, p, image)), 1e-9);
     }
 }
 
 TEST(Ties, AreTheSameBitsForAnyNumberOfThreads) {
   for (const Deck& deck : {two_boxes({3, 3, 3}, {7, 7, 7}, 0.1), stiffened_panel()}) {
-    const Model reference = ran(deck, Matrix3d::Identity());
+    const Model reference = ran(deck, identity<double>());
     for (int threads : {2, 4}) {
-      const Model model = ran(deck, Matrix3d::Identity(), threads);
+      const Model model = ran(deck, identity<double>(), threads);
       for (std::size_t i = 0; i < model.nodes.size(); ++i)
         for (int axis = 0; axis < 3; ++axis)
           ASSERT_EQ(model.nodes.record[i].position[axis], reference.nodes.record[i].position[axis]);

@@ -15,7 +15,6 @@ namespace brio {
 namespace {
 
 using namespace test;
-using Eigen::Vector3d;
 
 void expect_balanced(Model& model, double tolerance) {
   model.momentum.now = momentum(model.nodes).total;
@@ -110,7 +109,7 @@ Deck torn(const std::string& soft_part, FreeNodes free_nodes, bool contact) {
 double kinetic(const Nodes& nodes) {
   double sum = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    sum += 0.5 * nodes.mass[i] * velocity(nodes, static_cast<int>(i)).squaredNorm();
+    sum += 0.5 * nodes.mass[i] * squared_norm(velocity(nodes, static_cast<int>(i)));
   return sum;
 }
 
@@ -150,8 +149,7 @@ TEST(TiesThatEnd, AreReleasedWithEnergyAndMomentumBalanced) {
 TEST(TiesThatEnd, LeaveTheOthersAsTheyAre) {
   const Deck deck = two_boxes({2, 2, 2}, {3, 3, 3}, 0.1);
   Model model = build_model(deck);
-  Eigen::Matrix3d gradient;
-  gradient << 5, -20, 3, 10, 4, -6, 7, 8, -9;
+  const Tensor<double> gradient{{{5, -20, 3}, {10, 4, -6}, {7, 8, -9}}};
   set_velocities(model, {1, 2, 3}, gradient);
   const Momentum before = momentum(model.nodes);
   const double energy_before = kinetic(model.nodes);
@@ -195,7 +193,7 @@ Deck failing(const TieFailure& failure) {
 }
 
 /// On the upper side, growing to `force` a node at the end of the run.
-Deck pulled(const TieFailure& failure, Vector force) {
+Deck pulled(const TieFailure& failure, Vector3d force) {
   Deck deck = failing(failure);
   NodalForce pull;
   pull.where.set = "fine.zmax";
@@ -220,8 +218,8 @@ double time_of_failure(const Deck& deck, Model& model) {
 TEST(TiesThatFail, ComeOffAtTheirTensionOrShear) {
   const double end = failing({}).time.end;
   for (const bool contact : {false, true})
-    for (const auto& [failure, force] : {std::pair(TieFailure{.normal_force = 6e3}, Vector{0, 0, 1e4}),
-                                         std::pair(TieFailure{.shear_force = 6e3}, Vector{1e4, 0, 0})}) {
+    for (const auto& [failure, force] : {std::pair(TieFailure{.normal_force = 6e3}, Vector3d{0, 0, 1e4}),
+                                         std::pair(TieFailure{.shear_force = 6e3}, Vector3d{1e4, 0, 0})}) {
       SCOPED_TRACE(std::to_string(force[0]) + (contact ? " contact" : ""));
       Deck deck = pulled(failure, force);
       if (contact) deck.contact.emplace();

@@ -14,15 +14,13 @@ namespace brio {
 namespace {
 
 using namespace test;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 // ---- parts that are tied do not meet where they are
 
 void expect_no_contact(Deck deck, double rate) {
-  Matrix3d gradient;
-  gradient << 0.2 * rate, -rate, 0.3 * rate, rate, 0.1 * rate, -0.5 * rate, -0.3 * rate, 0.5 * rate,
-      -0.2 * rate;
+  const Tensor<double> gradient{{{0.2 * rate, -rate, 0.3 * rate},
+                                 {rate, 0.1 * rate, -0.5 * rate},
+                                 {-0.3 * rate, 0.5 * rate, -0.2 * rate}}};
   std::vector<Vector3d> reference;
   for (const bool contact : {false, true}) {
     if (contact) deck.contact.emplace();
@@ -33,7 +31,7 @@ void expect_no_contact(Deck deck, double rate) {
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
       const Vector3d x = position(model.nodes, static_cast<int>(i));
       if (contact)
-        EXPECT_EQ((x - reference[i]).norm(), 0);
+        EXPECT_EQ(norm(x - reference[i]), 0);
       else
         reference.push_back(x);
     }
@@ -82,7 +80,7 @@ struct Hit {
 };
 
 /// A box falls on the middle of the scene.
-Hit hit(Deck deck, Vector centre, Vector velocity, int threads = 1) {
+Hit hit(Deck deck, Vector3d centre, Vector3d velocity, int threads = 1) {
   Part ball = box("ball", {0.3, 0.3, 0.3}, {2, 2, 2}, centre, hex8());
   ball.placement.rotate = Rotation{{1, 2, 0}, 20};
   deck.parts.push_back(ball);
@@ -147,9 +145,9 @@ TEST(TiesInContact, HeldNodesThatAreRubbedKeepMomentum) {
   Model model = build_model(deck);
   ThreadTeam team(1);
   double linear = 0;
-  const Vector start = momentum_of(model);
+  const Vector3d start = momentum_of(model);
   run(model, deck, team, [&](Model& m) {
-    const Vector now = momentum_of(m);
+    const Vector3d now = momentum_of(m);
     for (std::size_t i = 0; i < 3; ++i) linear = std::max(linear, std::abs(now[i] - start[i]));
   });
   EXPECT_LT(linear, 1e-12 * 1000 * 0.027 * 25);

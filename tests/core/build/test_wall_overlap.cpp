@@ -9,7 +9,7 @@ namespace {
 
 using namespace test;
 
-RigidWall wall_at(Vector point, Vector normal, Vector velocity = {}) {
+RigidWall wall_at(Vector3d point, Vector3d normal, Vector3d velocity = {}) {
   RigidWall wall;
   wall.point = point;
   wall.normal = normal;
@@ -24,7 +24,7 @@ Deck body_in_wall(Kind kind, double depth, bool upright = false) {
   Part part = body(kind, "body");
   if (upright) part.placement.rotate = Rotation{{0, 1, 0}, 90};
   double lowest = HUGE_VAL;
-  for (const Vector& x : generate_mesh(part.mesh, part.placement).position) lowest = std::min(lowest, x[2]);
+  for (const Vector3d& x : generate_mesh(part.mesh, part.placement).position) lowest = std::min(lowest, x[2]);
   deck.parts = {part};
   deck.boundary_conditions = {wall_at({0, 0, lowest + depth}, {0, 0, 3})};
   deck.time.end = 2e-3;

@@ -27,13 +27,12 @@ inline Deck two_boxes(std::array<int, 3> coarse, std::array<int, 3> fine, double
 }
 
 /// Velocities of a linear field, with tied nodes at their positions.
-inline void set_velocities(Model& model, const Eigen::Vector3d& constant, const Eigen::Matrix3d& gradient) {
-  using Eigen::Vector3d;
-  const Vector3d spin(0.5 * (gradient(2, 1) - gradient(1, 2)), 0.5 * (gradient(0, 2) - gradient(2, 0)),
-                      0.5 * (gradient(1, 0) - gradient(0, 1)));
+inline void set_velocities(Model& model, const Vector3d& constant, const Tensor<double>& gradient) {
+  const Vector3d spin{0.5 * (gradient(2, 1) - gradient(1, 2)), 0.5 * (gradient(0, 2) - gradient(2, 0)),
+                      0.5 * (gradient(1, 0) - gradient(0, 1))};
   Nodes& nodes = model.nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vector3d v = constant + gradient * Vector3d(nodes.record[i].position);
+    const Vector3d v = constant + gradient * vector_at(nodes.record[i].position);
     for (int axis = 0; axis < 3; ++axis) {
       nodes.record[i].velocity[axis] = v[axis];
       if (nodes.has_rotations()) nodes.angular_velocity[i].component[axis] = spin[axis];
@@ -42,15 +41,15 @@ inline void set_velocities(Model& model, const Eigen::Vector3d& constant, const 
   carry_velocities(model.ties, nodes, 0);
   double energy = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    energy += 0.5 * nodes.mass[i] * velocity(nodes, static_cast<int>(i)).squaredNorm();
+    energy += 0.5 * nodes.mass[i] * squared_norm(velocity(nodes, static_cast<int>(i)));
     if (nodes.has_rotations())
       energy +=
-          0.5 * nodes.rotational_inertia[i] * Vector3d(nodes.angular_velocity[i].component).squaredNorm();
+          0.5 * nodes.rotational_inertia[i] * squared_norm(vector_at(nodes.angular_velocity[i].component));
   }
   model.energy.kinetic_start = energy;
 }
 
-inline Part plate(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Vector centre,
+inline Part plate(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Vector3d centre,
                   double thickness) {
   Shell4 shell;
   shell.thickness = thickness;

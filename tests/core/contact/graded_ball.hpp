@@ -18,12 +18,12 @@ inline Mesh quarter_of_graded_ball(double radius, int across, double fineness) {
   for (auto& [x, y, z] : ball.position) {
     // From the highest point; inverted, so that the surface is the plane at depth 1/2 and the lowest point
     // its origin.
-    const auto invert = [](std::array<double, 3> p) {
+    const auto invert = [](Vector3d p) {
       const double square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
-      return std::array<double, 3>{p[0] / square, p[1] / square, p[2] / square};
+      return Vector3d{p[0] / square, p[1] / square, p[2] / square};
     };
     if (z > (1 - 1e-12) * radius) continue;
-    std::array<double, 3> p = invert({x / radius, y / radius, z / radius - 1});
+    Vector3d p = invert({x / radius, y / radius, z / radius - 1});
     p[2] += 0.5;
     const double distance = 2 * std::hypot(p[0], p[1], p[2]);  // 1 at the equator
     const double grading = std::pow(distance / 0.8, 4);
@@ -48,7 +48,7 @@ inline Mesh quarter_of_graded_ball(double radius, int across, double fineness) {
       int& at = number[index(node[k])];
       if (at < 0) {
         at = static_cast<int>(quarter.position.size());
-        std::array<double, 3> p = ball.position[index(node[k])];
+        Vector3d p = ball.position[index(node[k])];
         for (std::size_t axis = 0; axis < 2; ++axis) {
           if (std::abs(p[axis]) > 1e-9 * radius) continue;
           p[axis] = 0;

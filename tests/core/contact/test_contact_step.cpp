@@ -56,7 +56,7 @@ Collision collide(const Deck& deck) {
   result.left_speed = mean_velocity(model, 0, 0);
   result.right_speed = mean_velocity(model, 1, 0);
   result.added = model.energy.contact_added_max / model.energy.kinetic_start;
-  const Vector now = momentum_of(model);
+  const Vector3d now = momentum_of(model);
   const double scale = model.momentum.linear_scale;
   result.momentum = std::max({std::abs(now[0]), std::abs(now[1]), std::abs(now[2])}) / scale;
   return result;

@@ -45,7 +45,7 @@ CradleRun swing(const Deck& deck) {
     if (m.contacts[0].step.active > 0) outcome.parted_at = m.times.time;
     const Momentum now = momentum(m.nodes);
     const double first = m.parts[0].mass * first_speed;
-    const Vector error{now.total.linear[0] - first, now.total.linear[1], now.total.linear[2]};
+    const Vector3d error{now.total.linear[0] - first, now.total.linear[1], now.total.linear[2]};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       outcome.momentum = std::max(outcome.momentum, std::abs(error[axis]) / first);
       outcome.angular = std::max(outcome.angular, std::abs(now.total.angular[axis]) / (5 * first));

@@ -62,12 +62,12 @@ double reach(Dropped kind) {
 void stack(Part& lower, Dropped lower_kind, Part& upper, Dropped upper_kind) {
   lower.placement.rotate = Rotation{{0.3, 1, 0}, 11};
   upper.placement.rotate = Rotation{{1, 0.4, 0.7}, 37};
-  const auto by_height = [](const Vector& a, const Vector& b) { return a[2] < b[2]; };
+  const auto by_height = [](const Vector3d& a, const Vector3d& b) { return a[2] < b[2]; };
   const Mesh below = generate_mesh(lower.mesh, lower.placement);
   const Mesh above = generate_mesh(upper.mesh, upper.placement);
-  const Vector lowest = *std::min_element(above.position.begin(), above.position.end(), by_height);
+  const Vector3d lowest = *std::min_element(above.position.begin(), above.position.end(), by_height);
   double top = 0;
-  for (const Vector& x : below.position) top = std::max(top, x[2]);
+  for (const Vector3d& x : below.position) top = std::max(top, x[2]);
   const double height = top + reach(lower_kind) + reach(upper_kind) + 2e-3;
   upper.placement.translate = {0.02 - lowest[0], 0.013 - lowest[1], height - lowest[2]};
 }

@@ -15,7 +15,7 @@ using namespace test;
 
 constexpr double degree = 3.141592653589793 / 180;
 
-Placement placed(Vector centre, Vector axis = {0, 0, 1}, double degrees = 0) {
+Placement placed(Vector3d centre, Vector3d axis = {0, 0, 1}, double degrees = 0) {
   Placement placement;
   placement.translate = centre;
   if (degrees != 0) placement.rotate = Rotation{axis, degrees};
@@ -28,7 +28,7 @@ Part block(std::string name, Placement placement, std::array<int, 3> elements = 
   return part;
 }
 
-Part beam(std::string name, Vector start, Vector end, int elements, double radius = 0.05) {
+Part beam(std::string name, Vector3d start, Vector3d end, int elements, double radius = 0.05) {
   Beam2 element;
   element.section = CircleSection{radius};
   LineMesh mesh;
@@ -47,7 +47,7 @@ Part sheet(std::string name, Placement placement, std::array<int, 2> elements, d
   return {std::move(name), mesh, placement, element, "material"};
 }
 
-Part ball(std::string name, Vector centre) {
+Part ball(std::string name, Vector3d centre) {
   ParticleMesh mesh;
   mesh.sphere = ParticleSphere{0.3, 0.06};
   return {std::move(name), mesh, placed(centre), Particle{}, "material"};

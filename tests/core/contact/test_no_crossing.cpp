@@ -66,11 +66,11 @@ Deck thrown_cubes(int elements, double speed) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> share(-1, 1);
   for (int i = 0; i < 27; ++i) {
-    const Vector place{1.9 * (i % 3 - 1), 1.9 * (i / 3 % 3 - 1), 1.9 * (i / 9 - 1)};
+    const Vector3d place{1.9 * (i % 3 - 1), 1.9 * (i / 3 % 3 - 1), 1.9 * (i / 9 - 1)};
     Part cube = box("cube" + std::to_string(i), {1, 1, 1}, {elements, elements, elements}, {0, 0, 0}, hex8());
     cube.placement.translate = place;
     cube.placement.rotate = Rotation{{share(random), share(random), share(random) + 2}, 40 * share(random)};
-    Vector velocity{};
+    Vector3d velocity{};
     for (std::size_t axis = 0; axis < 3; ++axis)
       velocity[axis] = speed * (-place[axis] / 1.9 + 0.5 * share(random));
     deck.parts.push_back(cube);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/core/scene.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
@@ -17,29 +18,22 @@ constexpr double acceleration_down = 100;  // acceleration of gravity
 
 /// Where a scene is put: turned about an axis, then moved.
 struct Pose {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  Tensor<double> turn = identity<double>();
+  Vector3d shift{};
 
-  Vector along(const Vector& direction) const {
-    const Eigen::Vector3d turned = turn * Eigen::Vector3d(direction[0], direction[1], direction[2]);
-    return {turned[0], turned[1], turned[2]};
-  }
+  Vector3d along(const Vector3d& direction) const { return turn * direction; }
 };
 
-Pose tilted() {
-  return {Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix(),
-          Eigen::Vector3d::Zero()};
-}
-Pose moved(const Eigen::Vector3d& by) { return {Eigen::Matrix3d::Identity(), by}; }
+Pose tilted() { return {rotation_about(0.7, Vector3d{0.3, -0.5, 0.8}), Vector3d{}}; }
+Pose moved(const Vector3d& by) { return {identity<double>(), by}; }
 
 /// The deck as drawn about the origin, set up in a pose.
 Model build_posed(Deck& deck, const Pose& pose) {
   std::vector<Mesh> meshes;
   for (const Part& part : deck.parts) {
     meshes.push_back(generate_mesh(part.mesh, part.placement));
-    for (std::array<double, 3>& x : meshes.back().position) {
-      const Eigen::Vector3d posed = pose.turn * Eigen::Vector3d(x[0], x[1], x[2]) + pose.shift;
-      x = {posed[0], posed[1], posed[2]};
+    for (Vector3d& x : meshes.back().position) {
+      x = pose.turn * x + pose.shift;
     }
   }
   for (InitialCondition& condition : deck.initial_conditions)
@@ -56,7 +50,7 @@ Gravity down() {
   return result;
 }
 
-double speed_along(const Model& model, std::size_t part, const Vector& direction) {
+double speed_along(const Model& model, std::size_t part, const Vector3d& direction) {
   double sum = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) sum += direction[axis] * mean_velocity(model, part, axis);
   return sum;

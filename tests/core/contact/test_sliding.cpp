@@ -24,7 +24,7 @@ Gravity gravity(double acceleration) {
 }
 
 // A block on z = 0 that moves along x; what it lies on is added by the caller.
-Deck sliding_block(const Vector& velocity) {
+Deck sliding_block(const Vector3d& velocity) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
   deck.parts = {box("block", {1, 1, 0.5}, {4, 4, 2}, {0, 0, 0.25}, hex8())};
@@ -49,8 +49,8 @@ Deck on_wall(Deck deck, double friction) {
   return deck;
 }
 
-Vector centre_of(const Model& model, std::size_t part) {
-  Vector sum{};
+Vector3d centre_of(const Model& model, std::size_t part) {
+  Vector3d sum{};
   for (int entry : model.parts[part].node) {
     const auto node = index(entry);
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -66,23 +66,23 @@ struct Slide {
 };
 
 // Slides until well after the block stands.
-Slide slide(Deck deck, const Vector& velocity, double friction) {
+Slide slide(Deck deck, const Vector3d& velocity, double friction) {
   const double speed = std::hypot(velocity[0], velocity[1]);
   const double stop = speed / (friction * gravity_acceleration);
   deck.time.end = 3 * stop;
   Model model = build_model(deck);
   ThreadTeam team(1);
-  const Vector start = centre_of(model, 0);
-  std::array<Vector, 2> rest{};  // means, since the block goes on shaking about its place
+  const Vector3d start = centre_of(model, 0);
+  std::array<Vector3d, 2> rest{};  // means, since the block goes on shaking about its place
   std::array<double, 2> steps{};
   run(model, deck, team, [&](Model& m) {
     if (m.times.time < 1.8 * stop) return;
     const std::size_t half = m.times.time < 2.4 * stop ? 0 : 1;
-    const Vector centre = centre_of(m, 0);
+    const Vector3d centre = centre_of(m, 0);
     for (std::size_t axis = 0; axis < 3; ++axis) rest[half][axis] += centre[axis];
     ++steps[half];
   });
-  const Vector end = centre_of(model, 0);
+  const Vector3d end = centre_of(model, 0);
   Slide result;
   result.distance = ((end[0] - start[0]) * velocity[0] + (end[1] - start[1]) * velocity[1]) / speed;
   result.aside = ((end[1] - start[1]) * velocity[0] - (end[0] - start[0]) * velocity[1]) / speed;
@@ -98,7 +98,7 @@ void expect_coulomb(const Slide& result, double speed, double friction) {
 }
 
 TEST(SlidingBlock, StopsOnAFloorAfterTheDistanceOfCoulomb) {
-  for (const Vector& velocity : {Vector{4, 0, 0}, Vector{2.4, -3.2, 0}}) {
+  for (const Vector3d& velocity : {Vector3d{4, 0, 0}, Vector3d{2.4, -3.2, 0}}) {
     const Slide result = slide(on_floor(sliding_block(velocity), 0.3), velocity, 0.3);
     expect_coulomb(result, 4, 0.3);
   }
@@ -163,7 +163,7 @@ TEST(SlidingBlock, FallsThroughAFloorThatItMustNotTouch) {
 }
 
 TEST(SlidingBlock, PairThatSaysWhatAllDoChangesNoBit) {
-  std::array<Vector, 2> place{};
+  std::array<Vector3d, 2> place{};
   for (std::size_t named = 0; named < 2; ++named) {
     Deck deck = on_floor(sliding_block({4, 1, 0}), 0.3);
     if (named == 1) deck.contact->pairs = {{.parts = {"block", "floor"}, .friction = 0.3}};
@@ -184,7 +184,7 @@ TEST(SlidingBlock, PairOfAPartOutsideOfContactIsRefused) {
 }
 
 TEST(SlidingBlock, StopsOnARigidWallAfterTheDistanceOfCoulomb) {
-  for (const Vector& velocity : {Vector{4, 0, 0}, Vector{2.4, -3.2, 0}}) {
+  for (const Vector3d& velocity : {Vector3d{4, 0, 0}, Vector3d{2.4, -3.2, 0}}) {
     const Slide result = slide(on_wall(sliding_block(velocity), 0.3), velocity, 0.3);
     expect_coulomb(result, 4, 0.3);
   }
@@ -193,10 +193,10 @@ TEST(SlidingBlock, StopsOnARigidWallAfterTheDistanceOfCoulomb) {
 // ---- seams
 
 // Moves the inner nodes of a floor within its plane by up to `share` of an edge, each column alike.
-void jitter(Mesh& mesh, const Vector& low, const Vector& high, double share, double edge) {
+void jitter(Mesh& mesh, const Vector3d& low, const Vector3d& high, double share, double edge) {
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> shift(-share * edge, share * edge);
-  for (std::array<double, 3>& x : mesh.position) {
+  for (Vector3d& x : mesh.position) {
     const double dx = shift(generator), dy = shift(generator);
     const bool inner =
         x[0] > low[0] + 1e-9 && x[0] < high[0] - 1e-9 && x[1] > low[1] + 1e-9 && x[1] < high[1] - 1e-9;

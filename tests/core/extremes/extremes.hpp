@@ -72,11 +72,11 @@ inline double touching_distance(Kind kind) {
 inline Deck impact_of(Part upper, Part lower, double touching, const Material& material = elastic(0.3)) {
   lower.placement.rotate = Rotation{{0.3, 1, 0}, 11};
   upper.placement.rotate = Rotation{{1, 0.4, 0.7}, 37};
-  Vector lowest{0, 0, HUGE_VAL};
-  for (const Vector& x : generate_mesh(upper.mesh, upper.placement).position)
+  Vector3d lowest{0, 0, HUGE_VAL};
+  for (const Vector3d& x : generate_mesh(upper.mesh, upper.placement).position)
     if (x[2] < lowest[2]) lowest = x;
   double top = -HUGE_VAL;
-  for (const Vector& x : generate_mesh(lower.mesh, lower.placement).position) top = std::max(top, x[2]);
+  for (const Vector3d& x : generate_mesh(lower.mesh, lower.placement).position) top = std::max(top, x[2]);
   upper.placement.translate = {0.02 - lowest[0], 0.013 - lowest[1], top + touching - lowest[2]};
   Deck deck;
   deck.materials = {{"material", material}};
@@ -108,12 +108,12 @@ inline Deck all_kinds_at_once() {
   sheet.deletion->inverted = true;
   sheet.deletion->debris_radius = 0.01;
   deck.parts = {sheet};
-  const std::array<Vector, 6> places{{{-0.6, -0.4, 0.4},
-                                      {0, -0.45, 0.4},
-                                      {0.6, -0.4, 0.45},
-                                      {-0.6, 0.4, 0.3},
-                                      {0, 0.4, 0.42},
-                                      {0.6, 0.4, 0.45}}};
+  const std::array<Vector3d, 6> places{{{-0.6, -0.4, 0.4},
+                                        {0, -0.45, 0.4},
+                                        {0.6, -0.4, 0.45},
+                                        {-0.6, 0.4, 0.3},
+                                        {0, 0.4, 0.42},
+                                        {0.6, 0.4, 0.45}}};
   for (std::size_t k = 0; k < all_kinds.size(); ++k) {
     Part part = body(all_kinds[k], name_of_kind(all_kinds[k]));
     part.placement.rotate = Rotation{{1, 0.4, 0.7}, 30};
@@ -140,7 +140,9 @@ struct Units {
 inline constexpr std::array<Units, 4> powers_of_two{
     {{1024, 1, 1}, {1, 0.0078125, 1}, {1, 1, 4096}, {0.0009765625, 0.125, 0.00048828125}}};
 
-inline Vector scaled(const Vector& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
+inline Vector3d scaled(const Vector3d& v, double factor) {
+  return {v[0] * factor, v[1] * factor, v[2] * factor};
+}
 
 inline Material in_units(Material material, const Units& u) {
   std::visit(
@@ -232,8 +234,7 @@ struct Watched {
 
 inline double speed_of(const Model& model, std::size_t part, std::size_t axis) {
   const int rigid = model.parts[part].rigid;
-  return rigid < 0 ? mean_velocity(model, part, axis)
-                   : model.rigid.motion[index(rigid)].velocity[static_cast<Eigen::Index>(axis)];
+  return rigid < 0 ? mean_velocity(model, part, axis) : model.rigid.motion[index(rigid)].velocity[axis];
 }
 
 }  // namespace brio::test

@@ -243,14 +243,15 @@ TEST(ExtremesGrazing, ABlockThatPassesWithinTheGapIsNotHeldUp) {
 TEST(ExtremesSeams, HitsOnNodesEdgesAndCornersOfFourBodiesStop) {
   const FloatingPointTraps traps;
   for (const Kind kind : {Kind::hex8, Kind::shell, Kind::beam, Kind::particles})
-    for (const Vector& aim : {Vector{0, 0, 0}, Vector{0, 0.1, 0}, Vector{0.1, 0.1, 0}, Vector{0.05, 0, 0}}) {
+    for (const Vector3d& aim :
+         {Vector3d{0, 0, 0}, Vector3d{0, 0.1, 0}, Vector3d{0.1, 0.1, 0}, Vector3d{0.05, 0, 0}}) {
       SCOPED_TRACE(testing::Message() << name_of_kind(kind) << " at " << aim[0] << ' ' << aim[1]);
       Deck deck;
       deck.materials = {{"material", elastic(0.3)}};
       Part upper = body(kind, "upper");
       upper.placement.rotate = Rotation{{1, -1, 0}, 54.735610317245346};  // a corner of the cube looks down
-      Vector lowest{0, 0, HUGE_VAL};
-      for (const Vector& x : generate_mesh(upper.mesh, upper.placement).position)
+      Vector3d lowest{0, 0, HUGE_VAL};
+      for (const Vector3d& x : generate_mesh(upper.mesh, upper.placement).position)
         if (x[2] < lowest[2]) lowest = x;
       upper.placement.translate = {aim[0] - lowest[0], aim[1] - lowest[1],
                                    0.01 + touching_distance(kind) - lowest[2]};

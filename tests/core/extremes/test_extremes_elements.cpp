@@ -113,7 +113,7 @@ std::string refusal(Kind kind, const Mesh& mesh) {
 int corner(const Mesh& mesh, int element, int k) {
   return mesh.connectivity[index(element * mesh.nodes_per_element + k)];
 }
-Vector& place(Mesh& mesh, int node) { return mesh.position[index(node)]; }
+Vector3d& place(Mesh& mesh, int node) { return mesh.position[index(node)]; }
 
 struct Damage {
   const char* name;
@@ -159,12 +159,12 @@ TEST(ExtremesBrokenAtTheStart, ShellsAreRefusedByName) {
         Damage{"bow tie", [](Mesh& mesh) { std::swap(mesh.connectivity[20], mesh.connectivity[21]); }},
         Damage{"all in a line",
                [](Mesh& mesh) {
-                 const Vector a = place(mesh, corner(mesh, 5, 0));
+                 const Vector3d a = place(mesh, corner(mesh, 5, 0));
                  for (int k = 1; k < 4; ++k) place(mesh, corner(mesh, 5, k)) = {a[0] + 0.03 * k, a[1], a[2]};
                }},
         Damage{"concave", [](Mesh& mesh) {
-                 Vector& x = place(mesh, corner(mesh, 5, 2));
-                 const Vector& a = place(mesh, corner(mesh, 5, 0));
+                 Vector3d& x = place(mesh, corner(mesh, 5, 2));
+                 const Vector3d& a = place(mesh, corner(mesh, 5, 0));
                  x = {a[0] + 0.01, a[1] + 0.01, 0};
                }}}) {
     Mesh mesh = mesh_of(Kind::shell);
@@ -256,7 +256,7 @@ TEST(ExtremesShape, StronglyWarpedShellsRunAndBalanceEnergy) {
                                  // hundredths otherwise
     Mesh mesh = mesh_of(Kind::shell);
     // Every second node is an edge's length above its neighbours: the corners of a cube.
-    for (Vector& x : mesh.position) x[2] = (std::lround((x[0] + x[1]) / 0.1) % 2 == 0 ? 0.5 : -0.5) * 0.1;
+    for (Vector3d& x : mesh.position) x[2] = (std::lround((x[0] + x[1]) / 0.1) % 2 == 0 ? 0.5 : -0.5) * 0.1;
     InitialCondition kick = moving("body.xmin", {0.3, -0.2, 0.5});
     deck.initial_conditions = {kick};
     Model model = build(deck, {&mesh, 1});

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-Deck seen_from(Deck deck, const Vector& frame, const Vector& place) {
+Deck seen_from(Deck deck, const Vector3d& frame, const Vector3d& place) {
   for (Part& part : deck.parts) {
     bool moves = false;
     for (InitialCondition& condition : deck.initial_conditions) moves |= condition.where.set == part.name;
@@ -29,7 +29,7 @@ Deck seen_from(Deck deck, const Vector& frame, const Vector& place) {
 struct Difference {
   double velocity = 0, position = 0;
 };
-Difference difference(const Model& a, const Model& b, const Vector& frame, const Vector& place) {
+Difference difference(const Model& a, const Model& b, const Vector3d& frame, const Vector3d& place) {
   Difference largest;
   for (std::size_t i = 0; i < a.nodes.size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -88,7 +88,7 @@ std::vector<std::pair<std::string, Deck>> scenes() {
 
 TEST(ExtremesFrame, AThousandTimesTheSpeedOfTheEventSeesTheSameContacts) {
   const FloatingPointTraps traps;
-  const Vector frame{10000, -15000, 12000};
+  const Vector3d frame{10000, -15000, 12000};
   for (const auto& [name, deck] : scenes()) {
     SCOPED_TRACE(name);
     const Watched reference(deck);
@@ -111,7 +111,7 @@ TEST(ExtremesFrame, AThousandTimesTheSpeedOfTheEventSeesTheSameContacts) {
 // An ulp of the position is 1e-10 there, a bit less than 1e-9 of an edge.
 TEST(ExtremesFrame, AMillionSizesAwaySeesTheSameContacts) {
   const FloatingPointTraps traps;
-  const Vector place{1048576, -524288, 786432};
+  const Vector3d place{1048576, -524288, 786432};
   for (const auto& [name, deck] : scenes()) {
     SCOPED_TRACE(name);
     const Watched reference(deck);
@@ -133,7 +133,7 @@ TEST(ExtremesFrame, AMillionSizesAwaySeesTheSameContacts) {
 
 TEST(ExtremesFrame, FastAndFarSeesTheSameContacts) {
   const FloatingPointTraps traps;
-  const Vector frame{10000, -15000, 12000}, place{1048576, -524288, 786432};
+  const Vector3d frame{10000, -15000, 12000}, place{1048576, -524288, 786432};
   for (const auto& [name, deck] : scenes()) {
     SCOPED_TRACE(name);
     const Watched reference(deck);

@@ -192,7 +192,7 @@ TEST(Coarser, ElementsBecomeLongerAndShapesStay) {
                 {"thick", thick, {}, Particle{}, "material"}};
   const Deck coarse = coarser(deck, 2);
   EXPECT_EQ(std::get<BoxMesh>(coarse.parts[0].mesh).elements, (std::array<int, 3>{4, 4, 1}));
-  EXPECT_EQ(std::get<BoxMesh>(coarse.parts[0].mesh).size, (Vector{8, 8, 1}));
+  EXPECT_EQ(std::get<BoxMesh>(coarse.parts[0].mesh).size, (Vector3d{8, 8, 1}));
   EXPECT_EQ(std::get<RodMesh>(coarse.parts[1].mesh).elements, (std::array<int, 2>{6, 30}));
   EXPECT_EQ(std::get<ParticleMesh>(coarse.parts[2].mesh).box->spacing, 0.1);
   EXPECT_EQ(std::get<ParticleMesh>(coarse.parts[3].mesh).box->spacing, 0.2);

@@ -8,14 +8,14 @@
 
 #include "src/base/index.hpp"
 #include "src/deck/mass_properties.hpp"
+#include "src/fields/rotation.hpp"
 #include "tests/core/scene.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
 
 using namespace test;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 using std::numbers::pi;
 
 // A rigid box with edges 1, 2, 3 and density 1000; nothing else.
@@ -28,7 +28,7 @@ Deck lone_box(double end, double step) {
   return deck;
 }
 
-InitialCondition spinning(std::string part, Vector velocity, Vector point, Vector angular_velocity) {
+InitialCondition spinning(std::string part, Vector3d velocity, Vector3d point, Vector3d angular_velocity) {
   InitialCondition condition = moving(std::move(part), velocity);
   condition.spin = Spin{point, angular_velocity};
   return condition;
@@ -37,7 +37,7 @@ InitialCondition spinning(std::string part, Vector velocity, Vector point, Vecto
 Vector3d angular_momentum_of(const Model& model) {
   Momentum sum = momentum(model.nodes);
   add_momentum(model.rigid, sum);
-  return Vector3d(sum.total.angular.data());
+  return sum.total.angular;
 }
 
 // How far the distances between the nodes of a body and its centre are from the initial ones, over the
@@ -45,10 +45,10 @@ Vector3d angular_momentum_of(const Model& model) {
 double distortion(const RigidBody& body, const Nodes& nodes) {
   double worst = 0, size = 0;
   for (std::size_t i = 0; i < body.node.size(); ++i) {
-    const auto x = [&](std::size_t k) { return Vector3d(nodes.record[index(body.node[k])].position); };
+    const auto x = [&](std::size_t k) { return vector_at(nodes.record[index(body.node[k])].position); };
     const std::size_t j = (7 * i + 3) % body.node.size();
-    worst = std::max(worst, std::abs((x(i) - x(j)).norm() - (body.arm[i] - body.arm[j]).norm()));
-    size = std::max(size, body.arm[i].norm());
+    worst = std::max(worst, std::abs(norm(x(i) - x(j)) - norm(body.arm[i] - body.arm[j])));
+    size = std::max(size, norm(body.arm[i]));
   }
   return worst / size;
 }
@@ -56,25 +56,25 @@ double distortion(const RigidBody& body, const Nodes& nodes) {
 TEST(MassProperties, OfABoxAreExactForAnyMesh) {
   Mesh mesh = generate_mesh(BoxMesh{{1, 2, 3}, {3, 2, 2}}, {Rotation{{1, 2, -1}, 40}, {7, -3, 2}});
   // Inner nodes may stand anywhere.
-  for (std::array<double, 3>& x : mesh.position) {
-    const Vector3d from_centre = Vector3d(x.data()) - Vector3d(7, -3, 2);
-    if (from_centre.norm() < 0.3) x[0] += 0.1;
+  for (Vector3d& x : mesh.position) {
+    const Vector3d from_centre = x - Vector3d{7, -3, 2};
+    if (norm(from_centre) < 0.3) x[0] += 0.1;
   }
   const MassProperties found = mass_properties(mesh, 10, 0);
   EXPECT_NEAR(found.mass, 60, 1e-12);
-  EXPECT_LE((found.centre - Vector3d(7, -3, 2)).norm(), 1e-13);
-  const Matrix3d turn = Eigen::AngleAxisd(40 * pi / 180, Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  const Vector3d principal(60 * (4 + 9) / 12.0, 60 * (1 + 9) / 12.0, 60 * (1 + 4) / 12.0);
-  const Matrix3d exact = turn * principal.asDiagonal() * turn.transpose();
-  EXPECT_LE((found.inertia - exact).norm(), 1e-12 * exact.norm());
+  EXPECT_LE(norm(found.centre - Vector3d{7, -3, 2}), 1e-13);
+  const Tensor<double> turn = rotation_about(40 * pi / 180, Vector3d{1, 2, -1});
+  const Vector3d principal{60 * (4 + 9) / 12.0, 60 * (1 + 9) / 12.0, 60 * (1 + 4) / 12.0};
+  const Tensor<double> exact = turn * diagonal(principal) * transposed(turn);
+  EXPECT_LE(norm(found.inertia - exact), 1e-12 * norm(exact));
 }
 
 TEST(MassProperties, OfAShellIncludeItsThickness) {
   const Mesh mesh = generate_mesh(PlateMesh{{2, 3}, {4, 2}}, {std::nullopt, {1, 1, 1}});
   const MassProperties found = mass_properties(mesh, 10, 0.5);
   EXPECT_NEAR(found.mass, 30, 1e-12);
-  const Vector3d principal(30 * (9 + 0.25) / 12, 30 * (4 + 0.25) / 12, 30 * (4 + 9) / 12.0);
-  EXPECT_LE((found.inertia - Matrix3d(principal.asDiagonal())).norm(), 1e-12 * principal.norm());
+  const Vector3d principal{30 * (9 + 0.25) / 12, 30 * (4 + 0.25) / 12, 30 * (4 + 9) / 12.0};
+  EXPECT_LE(norm(found.inertia - diagonal(principal)), 1e-12 * norm(principal));
 }
 
 TEST(MassProperties, InvertedElementIsNamed) {
@@ -102,15 +102,15 @@ TEST(RigidBody, FliesAndTurnsFreely) {
   run(model, deck, team, [&](Model& m) {
     worst = std::max(worst, std::abs(m.energy.relative_error()));
     // Angular momentum grows by the moment of the weight, which is counted as an impulse of loads.
-    const Vector3d expected = start + Vector3d(m.momentum.loads.angular.data());
-    EXPECT_LE((angular_momentum_of(m) - expected).norm(), 1e-12 * start.norm());
+    const Vector3d expected = start + m.momentum.loads.angular;
+    EXPECT_LE(norm(angular_momentum_of(m) - expected), 1e-12 * norm(start));
   });
   const RigidBody& body = model.rigid.body[0];
   // Leapfrog is exact for a parabola.
-  EXPECT_LE((body.centre - Vector3d(5 + 3 * 2, -4, 3 + 20 * 2 - 0.5 * 10 * 4)).norm(), 1e-10);
-  const Vector3d axis = body.attitude._transformVector(Vector3d::UnitX());
+  EXPECT_LE(norm(body.centre - Vector3d{5 + 3 * 2, -4, 3 + 20 * 2 - 0.5 * 10 * 4}), 1e-10);
+  const Vector3d axis = rotated(body.attitude, Vector3d{1, 0, 0});
   // 8 radian, with the phase error of the midpoint rule: a third of the square of half the angle of a step.
-  EXPECT_LE((axis - Vector3d(std::cos(8), std::sin(8), 0)).norm(), 8 * 0.002 * 0.002 / 2.9);
+  EXPECT_LE(norm(axis - Vector3d{std::cos(8), std::sin(8), 0}), 8 * 0.002 * 0.002 / 2.9);
   EXPECT_LE(worst, 1e-12);
   EXPECT_LE(distortion(body, model.nodes), 1e-14);
 }
@@ -130,8 +130,8 @@ void spin_about_the_intermediate_axis(double turn_a_step, int steps) {
   double side = 1;
   look_at_steps(model, steps, 0.1, team, [&](int) {
     worst_energy = std::max(worst_energy, std::abs(model.energy.kinetic / energy - 1));
-    worst_momentum = std::max(worst_momentum, (angular_momentum_of(model) - momentum_at_start).norm());
-    const Vector3d axis = model.rigid.body[0].attitude._transformVector(Vector3d::UnitY());
+    worst_momentum = std::max(worst_momentum, norm(angular_momentum_of(model) - momentum_at_start));
+    const Vector3d axis = rotated(model.rigid.body[0].attitude, Vector3d{0, 1, 0});
     if (axis[1] * side < -0.5) {
       side = -side;
       ++turned_over;
@@ -139,13 +139,17 @@ void spin_about_the_intermediate_axis(double turn_a_step, int steps) {
   });
   EXPECT_GT(turned_over, 5);
   EXPECT_LE(worst_energy, 1e-10);
-  EXPECT_LE(worst_momentum, 1e-12 * momentum_at_start.norm());
+  EXPECT_LE(worst_momentum, 1e-12 * norm(momentum_at_start));
   EXPECT_LE(distortion(model.rigid.body[0], model.nodes), 1e-13);
 }
 
 TEST(RigidBody, TurnsOverAboutItsIntermediateAxisAndKeepsEnergyAndMomentum) {
   spin_about_the_intermediate_axis(0.01, 100000);
   spin_about_the_intermediate_axis(0.5, 100000);
+}
+
+double angle_between(const Quaternion<double>& a, const Quaternion<double>& b) {
+  return norm(rotation_vector(conjugate(a) * b));
 }
 
 TEST(RigidBody, PhaseConvergesWithTheSquareOfTheStep) {
@@ -157,9 +161,9 @@ TEST(RigidBody, PhaseConvergesWithTheSquareOfTheStep) {
     run(model, deck, team);
     return model.rigid.body[0].attitude;
   };
-  const Eigen::Quaterniond fine = attitude_after(1.0 / 16384);
-  const double coarse_error = attitude_after(1.0 / 128).angularDistance(fine);
-  const double error = attitude_after(1.0 / 256).angularDistance(fine);
+  const Quaternion<double> fine = attitude_after(1.0 / 16384);
+  const double coarse_error = angle_between(attitude_after(1.0 / 128), fine);
+  const double error = angle_between(attitude_after(1.0 / 256), fine);
   EXPECT_NEAR(coarse_error / error, 4, 0.05);
 }
 
@@ -170,14 +174,13 @@ TEST(RigidBody, SymmetricTopPrecessesAsEulerSays) {
   Model model = build_model(deck);
   ThreadTeam team(1);
   const double across = model.rigid.body[0].inertia(0, 0), along = model.rigid.body[0].inertia(2, 2);
-  const Vector3d momentum_at_start(across * 2, 0, along * 7);
+  const Vector3d momentum_at_start{across * 2, 0, along * 7};
   run(model, deck, team);
   // The axis of the top goes around the angular momentum at the rate |L| / across.
-  const Vector3d axis = model.rigid.body[0].attitude._transformVector(Vector3d::UnitZ());
+  const Vector3d axis = rotated(model.rigid.body[0].attitude, Vector3d{0, 0, 1});
   const Vector3d expected =
-      Eigen::AngleAxisd(momentum_at_start.norm() / across, momentum_at_start.normalized()) *
-      Vector3d::UnitZ();
-  EXPECT_LE((axis - expected).norm(), 1e-6);
+      rotation_about(norm(momentum_at_start) / across, momentum_at_start) * Vector3d{0, 0, 1};
+  EXPECT_LE(norm(axis - expected), 1e-6);
 }
 
 TEST(RigidBody, OwnMassCentreAndInertiaTakeThePlaceOfThoseOfTheMesh) {
@@ -188,11 +191,10 @@ TEST(RigidBody, OwnMassCentreAndInertiaTakeThePlaceOfThoseOfTheMesh) {
   rigid.centre = {{5.25, -4, 3}};
   deck.parts[0].element = rigid;
   const Model model = build_model(deck);
-  Matrix3d expected;
-  expected << 4, 0.5, 0.125, 0.5, 5, -0.25, 0.125, -0.25, 6;
+  const Tensor<double> expected{{{4, 0.5, 0.125}, {0.5, 5, -0.25}, {0.125, -0.25, 6}}};
   EXPECT_EQ(model.rigid.body[0].mass, 3);
   EXPECT_EQ(model.rigid.body[0].inertia, expected);
-  EXPECT_EQ(model.rigid.body[0].centre, Vector3d(5.25, -4, 3));
+  EXPECT_EQ(model.rigid.body[0].centre, (Vector3d{5.25, -4, 3}));
 
   Rigid heavy;
   heavy.mass = 12000;
@@ -229,7 +231,7 @@ TEST(RigidBody, PressureOnItsSideMovesIt) {
   ThreadTeam team(1);
   run(model, deck, team);
   EXPECT_NEAR(model.rigid.motion[0].velocity[0], 5 * 6 / 6000.0 * 0.0105, 1e-12);
-  EXPECT_LE(model.rigid.motion[0].angular_velocity.norm(), 1e-15);
+  EXPECT_LE(norm(model.rigid.motion[0].angular_velocity), 1e-15);
 }
 
 // ---- prescribed motion
@@ -256,16 +258,13 @@ TEST(PrescribedRigidBody, FollowsItsCurvesAndAccountsForSupports) {
     error = std::max(error, std::abs(m.energy.relative_error()));
     Momentum now = momentum(m.nodes);
     add_momentum(m.rigid, now);
-    const Vector3d angular(now.total.angular.data());
-    EXPECT_LE(
-        (angular - Vector3d(m.momentum.start.angular.data()) - Vector3d(m.momentum.supports.angular.data()))
-            .norm(),
-        1e-11 * now.angular_size);
+    const Vector3d angular = now.total.angular;
+    EXPECT_LE(norm(angular - m.momentum.start.angular - m.momentum.supports.angular),
+              1e-11 * now.angular_size);
   });
   const RigidBody& body = model.rigid.body[0];
-  EXPECT_LE((body.centre - Vector3d(5, -4, 1)).norm(), 1e-12);
-  EXPECT_NEAR(Eigen::AngleAxisd(body.attitude).angle(), 1.5, 1e-9);
-  EXPECT_LE((Eigen::AngleAxisd(body.attitude).axis() - Vector3d::UnitZ()).norm(), 1e-9);
+  EXPECT_LE(norm(body.centre - Vector3d{5, -4, 1}), 1e-12);
+  EXPECT_LE(norm(rotation_vector(body.attitude) - Vector3d{0, 0, 1.5}), 1e-9);
   EXPECT_LE(error, 1e-12);
   EXPECT_LE(distortion(body, model.nodes), 1e-14);
 }
@@ -287,7 +286,7 @@ TEST(PrescribedRigidBody, FreeAlongOneAxisOnlyMovesAlongIt) {
   EXPECT_NEAR(body.centre[0], 5, 1e-14);
   EXPECT_NEAR(body.centre[1], -4, 1e-14);
   EXPECT_NEAR(body.centre[2], 3 + 0.5 * (-10 + 9 / 6000.0) * 0.25, 1e-10);
-  EXPECT_EQ(body.attitude.coeffs(), Eigen::Quaterniond::Identity().coeffs());
+  EXPECT_EQ(body.attitude, no_rotation);
   EXPECT_LE(std::abs(model.energy.relative_error()), 1e-12);
 }
 
@@ -350,7 +349,7 @@ TEST(RigidBodyOnAWall, StopsFlatAndTurnsWhenHitBesideItsCentre) {
 }
 
 TEST(RigidBodyOnAWall, StopsAfterTheDistanceOfCoulomb) {
-  for (const Vector& velocity : {Vector{4, 0, 0}, Vector{2.4, -3.2, 0}}) {
+  for (const Vector3d& velocity : {Vector3d{4, 0, 0}, Vector3d{2.4, -3.2, 0}}) {
     Deck deck = lone_box(0.32, 1e-4);
     deck.parts[0] = box("box", {1, 1, 0.5}, {4, 4, 2}, {0, 0, 0.25}, Rigid{});
     deck.initial_conditions = {moving("box", velocity)};

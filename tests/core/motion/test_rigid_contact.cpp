@@ -14,7 +14,6 @@ namespace brio {
 namespace {
 
 using namespace test;
-using Eigen::Vector3d;
 using std::numbers::pi;
 
 Momentum momentum_with_rigid(const Model& model) {
@@ -30,7 +29,7 @@ Imbalance imbalance(const Model& model) {
   const Momentum now = momentum_with_rigid(model);
   Imbalance worst;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto miss = [&](Vector Impulse::*kind) {
+    const auto miss = [&](Vector3d Impulse::*kind) {
       return std::abs((now.total.*kind)[i] - (model.momentum.start.*kind)[i] -
                       (model.momentum.supports.*kind)[i] - (model.momentum.loads.*kind)[i]);
     };
@@ -49,8 +48,8 @@ Deck askew(const Units& units = {}) {
   Elastic law = elastic(0.3);
   law.density *= units.mass / (units.length * units.length * units.length);
   law.youngs_modulus *= units.mass / (units.length * units.time * units.time);
-  const auto scaled = [](const Vector& v, double factor) {
-    return Vector{v[0] * factor, v[1] * factor, v[2] * factor};
+  const auto scaled = [](const Vector3d& v, double factor) {
+    return Vector3d{v[0] * factor, v[1] * factor, v[2] * factor};
   };
   Deck deck;
   deck.materials = {{"material", law}};
@@ -128,7 +127,7 @@ TEST(RigidContact, AllocatesNothingInTheStep) {
   wall.point = {0, 0, -0.22};
   wall.friction = 0.2;
   deck.boundary_conditions = {wall};
-  for (Vector* velocity : {&deck.initial_conditions[0].velocity, &deck.initial_conditions[1].velocity})
+  for (Vector3d* velocity : {&deck.initial_conditions[0].velocity, &deck.initial_conditions[1].velocity})
     (*velocity)[2] = -10;
   Model model = build_model(deck);
   ThreadTeam team(2);
@@ -180,7 +179,7 @@ TEST(BarOnAHeavyRigidBlock, ReboundsAsFromAWall) {
     Model reference = build_model(on_wall);
     ThreadTeam team(1);
     Rebound expected;
-    Vector last{};
+    Vector3d last{};
     run(reference, on_wall, team, [&](Model& m) {
       if (m.momentum.walls.linear != last) expected.parted_at = m.times.time;
       last = m.momentum.walls.linear;

@@ -68,12 +68,12 @@ TEST(SpringSets, JoinNodesOfMeshesThatDoNotMatch) {
   deck.springs[0].from = all_of("mass");
   deck.springs[0].to = all_of("wall");
   const Model model = build_model(deck);
-  const auto place = [&](int node) { return Eigen::Vector3d(model.nodes.record[index(node)].position); };
+  const auto place = [&](int node) { return vector_at(model.nodes.record[index(node)].position); };
   ASSERT_EQ(model.springs.spring.size(), 6u * 8 * 5);
   for (const SpringInRun& spring : model.springs.spring) {
     double least = 1e9;
     for (const int node : model.parts[1].node)
-      least = std::min(least, (place(node) - place(spring.end[0].node)).norm());
+      least = std::min(least, norm(place(node) - place(spring.end[0].node)));
     EXPECT_EQ(spring.length, least);
   }
 }
@@ -132,7 +132,7 @@ TEST(SpringSets, BreakOneByOneAtTheirShareOfTheStrength) {
 TEST(SpringSets, JoinASetWithOneNode) {
   Deck deck = mounted(SpringValues::total);
   deck.springs[0].pairing.reset();
-  deck.springs[0].to = {.point = Vector{-0.9, 0, 0}, .part = "wall"};
+  deck.springs[0].to = {.point = Vector3d{-0.9, 0, 0}, .part = "wall"};
   deck.springs[0].stiffness = 0;
   deck.springs[0].force = {{-1, -90}, {0, 0}, {1, 9}};
   deck.springs[0].damping = 18;
@@ -172,7 +172,7 @@ TEST(SpringSets, OfUnequalSizeAreRefusedInOrder) {
 }
 
 TEST(SpringSets, SayWhatTheyAccept) {
-  Spring spring{.name = "mount", .from = all_of("a.b"), .to = {.point = Vector{0, 0, 0}}};
+  Spring spring{.name = "mount", .from = all_of("a.b"), .to = {.point = Vector3d{0, 0, 0}}};
   spring.stiffness = 1;
   EXPECT_EQ(spring.fault(), "");
   spring.pairing = SpringPairing::order;

@@ -23,12 +23,12 @@ constexpr double box_inertia = box_mass * 2 / 12.;  // about z
 constexpr double twist = 2e4;                       // moment per angle
 const double hinge_rate = std::sqrt(twist / box_inertia);
 
-SpringEnd near(Vector point, std::optional<std::string> part = {}) {
+SpringEnd near(Vector3d point, std::optional<std::string> part = {}) {
   return {.point = point, .part = std::move(part)};
 }
-SpringEnd ground(Vector point = {5, 5, 5}) { return {.point = point, .fixed = true}; }
+SpringEnd ground(Vector3d point = {5, 5, 5}) { return {.point = point, .fixed = true}; }
 
-Spring torsional(SpringEnd from, SpringEnd to, Vector axis) {
+Spring torsional(SpringEnd from, SpringEnd to, Vector3d axis) {
   Spring made{.name = "hinge", .from = std::move(from), .to = std::move(to)};
   made.axis = axis;
   made.stiffness = twist;
@@ -36,11 +36,11 @@ Spring torsional(SpringEnd from, SpringEnd to, Vector axis) {
   return made;
 }
 
-Part heavy_box(std::string name, Vector centre) {
+Part heavy_box(std::string name, Vector3d centre) {
   return box(std::move(name), {1, 1, 0.5}, {2, 2, 2}, centre, Rigid{});
 }
 
-InitialCondition thrown_and_spinning(std::string part, Vector centre, Vector velocity, Vector spin) {
+InitialCondition thrown_and_spinning(std::string part, Vector3d centre, Vector3d velocity, Vector3d spin) {
   InitialCondition condition = moving(std::move(part), velocity);
   condition.spin = Spin{centre, spin};
   return condition;
@@ -60,8 +60,8 @@ Deck pendulum(double spin, double periods) {
 }
 
 double angle_of_box(const Model& model) {
-  const Eigen::Quaterniond& q = model.rigid.body[0].attitude;
-  return 2 * std::atan2(q.z(), q.w());
+  const Quaternion<double>& q = model.rigid.body[0].attitude;
+  return 2 * std::atan2(q.z, q.w);
 }
 
 /// Largest difference of the angle of the box from x(t); the spring has the angle of the box.
@@ -180,7 +180,7 @@ TEST(TorsionalSprings, TheAxisTurnsWithItsFirstEnd) {
   ThreadTeam team(1);
   run(model, deck, team);
   const SpringInRun& hinge = model.springs.spring[0];
-  EXPECT_NEAR((hinge.direction - Eigen::Vector3d(0, -1, 0)).norm(), 0, 1e-6);
+  EXPECT_NEAR(norm(hinge.direction - Vector3d{0, -1, 0}), 0, 1e-6);
   EXPECT_NEAR(hinge.elongation, 0, 1e-12);  // the turn is across the axis
 }
 

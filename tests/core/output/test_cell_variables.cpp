@@ -76,12 +76,12 @@ TEST(CellVariables, AllStandsForTheDefaultWhatFollowsFromItAndHistories) {
 
 /// Values of a cell after one step from rest, with the spins given by place.
 std::vector<double> after_a_step(const Deck& deck, const std::string& name, std::size_t cell,
-                                 const std::function<Vector(const double*)>& spin,
-                                 const std::function<Vector(const double*)>& velocity, double& step) {
+                                 const std::function<Vector3d(const double*)>& spin,
+                                 const std::function<Vector3d(const double*)>& velocity, double& step) {
   Model model = build_model(deck);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     NodeRecord& node = model.nodes.record[i];
-    const Vector w = spin(node.position), v = velocity(node.position);
+    const Vector3d w = spin(node.position), v = velocity(node.position);
     std::copy_n(w.begin(), 3, model.nodes.angular_velocity[i].component);
     std::copy_n(v.begin(), 3, node.velocity);
   }
@@ -99,9 +99,9 @@ std::vector<double> after_a_step(const Deck& deck, const std::string& name, std:
 
 constexpr double young = 1e9, thickness = 0.1, curving = 1e-3;
 
-Vector at_rest(const double*) { return {0, 0, 0}; }
+Vector3d at_rest(const double*) { return {0, 0, 0}; }
 /// Of a part that is bent about y, with a rate of curvature: fibres above are stretched along x.
-Vector bending(const double* x) { return {0, curving * x[0], 0}; }
+Vector3d bending(const double* x) { return {0, curving * x[0], 0}; }
 
 Deck shell_deck(int points, const Material& material = elastic(0.3)) {
   Deck deck;
@@ -133,7 +133,7 @@ TEST(CellVariables, OfABentShellAreThoseOfAPlate) {
   const double expected = stretch * std::pow(thickness, 3) / 12 * curving * step;
   EXPECT_NEAR(moment[0], expected, 1e-6 * expected);
   EXPECT_NEAR(moment[1], 0.3 * expected, 1e-6 * expected);
-  const auto pull = [](const double* x) { return Vector{curving * x[0], 0, 0}; };
+  const auto pull = [](const double* x) { return Vector3d{curving * x[0], 0, 0}; };
   const auto force = after_a_step(shell_deck(5), "membrane_force", 0, at_rest, pull, step);
   EXPECT_NEAR(force[0], stretch * thickness * curving * step, 1e-5 * force[0]);
   EXPECT_NEAR(force[1], 0.3 * force[0], 1e-6 * force[0]);
@@ -141,7 +141,7 @@ TEST(CellVariables, OfABentShellAreThoseOfAPlate) {
 
 // Of odd rules there is a point in the middle, which bending does not strain.
 TEST(CellVariables, OfTheMiddleOfAShellAreThoseOfItsMembrane) {
-  const auto pull = [](const double* x) { return Vector{curving * x[0], 0, 0}; };
+  const auto pull = [](const double* x) { return Vector3d{curving * x[0], 0, 0}; };
   double step = 0;
   const auto middle = after_a_step(shell_deck(5), "stress_middle", 0, bending, pull, step);
   const double expected = young / (1 - 0.09) * curving * step;
@@ -161,7 +161,7 @@ TEST(CellVariables, PlasticStrainOfAShellIsToldBySide) {
   law.hardening_constant = 1e8;
   law.hardening_exponent = 1;
   // Stretched as much as bent: the middle of the bottom half is at rest.
-  const auto pull = [](const double* x) { return Vector{0.5 * thickness * curving * x[0], 0, 0}; };
+  const auto pull = [](const double* x) { return Vector3d{0.5 * thickness * curving * x[0], 0, 0}; };
   double step = 0;
   const auto top = after_a_step(shell_deck(5, law), "equivalent_plastic_strain_top", 0, bending, pull, step);
   const auto bottom =
@@ -179,7 +179,7 @@ Deck beam_deck() {
   deck.materials = {{"material", elastic(0.3)}};
   Beam2 beam;
   beam.section = RectangleSection{0.02, 0.05};
-  beam.orientation = Vector{0, 0, 1};
+  beam.orientation = Vector3d{0, 0, 1};
   LineMesh mesh;
   mesh.start = {-0.5, 0, 0};
   mesh.end = {0.5, 0, 0};
@@ -191,11 +191,11 @@ Deck beam_deck() {
 
 TEST(CellVariables, OfABeamAreThoseOfItsSection) {
   double step = 0;
-  const auto pull = [](const double* x) { return Vector{curving * x[0], 0, 0}; };
+  const auto pull = [](const double* x) { return Vector3d{curving * x[0], 0, 0}; };
   const auto force = after_a_step(beam_deck(), "beam_force", 0, at_rest, pull, step);
   EXPECT_NEAR(force[0], young * 0.02 * 0.05 * curving * step, 1e-4 * force[0]);
   EXPECT_NEAR(force[1], 0, 1e-9 * force[0]);
-  const auto turn = [](const double* x) { return Vector{curving * x[0], curving * x[0], 0}; };
+  const auto turn = [](const double* x) { return Vector3d{curving * x[0], curving * x[0], 0}; };
   const auto moment = after_a_step(beam_deck(), "beam_moment", 0, turn, at_rest, step);
   // Timoshenko & Goodier, torsion of a rectangle: J = a b^3 (1/3 - 0.21 b/a (1 - (b/a)^4 / 12)).
   const double second_moment = 0.02 * std::pow(0.05, 3) / 12;

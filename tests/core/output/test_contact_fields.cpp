@@ -90,21 +90,21 @@ TEST(ContactFields, PressureOfARestingBlockCarriesItsWeight) {
 TEST(ContactFields, AreaIsThatOfFacesThatAreBeneath) {
   const Model block = build_model(deck_of_block(0.02));
   const ContactScene& scene = block.contacts.front();
-  const auto area_at = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& direction) {
+  const auto area_at = [&](const Vector3d& x, const Vector3d& direction) {
     for (const int node : block.parts[0].node)
-      if ((Eigen::Vector3d(block.nodes.record[index(node)].position) - x).norm() < 0.01) {
+      if (norm(vector_at(block.nodes.record[index(node)].position) - x) < 0.01) {
         double all = 0;
         return pushed_area(scene.surface, block.nodes, scene.surface.slave(node), direction, all);
       }
-    ADD_FAILURE() << x;
+    ADD_FAILURE() << testing::PrintToString(x);
     return 0.0;
   };
   const double face = edge * edge / (cells * cells), side = edge / cells * 0.25;
-  const Eigen::Vector3d up(0, 0, 1), slanted = Eigen::Vector3d(3, 0, 4) / 5;
+  const Vector3d up{0, 0, 1}, slanted = Vector3d{3, 0, 4} / 5;
   EXPECT_NEAR(area_at({0, 0, 0.02}, up), face, 1e-12);
   EXPECT_NEAR(area_at({edge / 2, 0, 0.02}, up), face / 2, 1e-12);
   EXPECT_NEAR(area_at({edge / 2, edge / 2, 0.02}, up), face / 4, 1e-12);
-  EXPECT_NEAR(area_at({edge / 2, 0, 0.02}, Eigen::Vector3d(-1, 0, 0)), side / 2, 1e-12);
+  EXPECT_NEAR(area_at({edge / 2, 0, 0.02}, Vector3d{-1, 0, 0}), side / 2, 1e-12);
   EXPECT_NEAR(area_at({-edge / 2, 0, 0.02}, slanted), 0.8 * face / 2 + 0.6 * side / 2, 1e-12);
   EXPECT_EQ(area_at({0, 0, 0.52}, up), 0);
 }

@@ -44,20 +44,20 @@ std::map<std::string, double> forces_of(const Model& model) {
   for (std::size_t i = 0; i < columns.size(); ++i) values[columns[i]] = row.at(i);
   return values;
 }
-Vector vector_of(const std::map<std::string, double>& values, const std::string& name,
-                 const std::array<const char*, 3>& endings = {"_x", "_y", "_z"}) {
+Vector3d vector_of(const std::map<std::string, double>& values, const std::string& name,
+                   const std::array<const char*, 3>& endings = {"_x", "_y", "_z"}) {
   return {values.at(name + endings[0]), values.at(name + endings[1]), values.at(name + endings[2])};
 }
 
-Vector momentum_of_part(const Model& model, std::size_t part) {
-  Vector sum{};
+Vector3d momentum_of_part(const Model& model, std::size_t part) {
+  Vector3d sum{};
   for (const int node : model.parts[part].node)
     for (std::size_t i = 0; i < 3; ++i)
       sum[i] += model.nodes.mass[index(node)] * model.nodes.record[index(node)].velocity[i];
   return sum;
 }
 
-void expect_near(const Vector& a, const Vector& b, double tolerance, const std::string& what) {
+void expect_near(const Vector3d& a, const Vector3d& b, double tolerance, const std::string& what) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << what << ", axis " << i;
 }
 
@@ -83,20 +83,20 @@ TEST(Forces, ContactAndReactionsAreTheChangesOfMomentum) {
   const Deck deck = oblique_impact();
   Model model = build_model(deck);
   ThreadTeam team(2);
-  Vector block = momentum_of_part(model, 0), plate = momentum_of_part(model, 1), supports{};
+  Vector3d block = momentum_of_part(model, 0), plate = momentum_of_part(model, 1), supports{};
   double largest = 0;
   run(model, deck, team, [&](Model& now) {
     const auto values = forces_of(now);
     const double duration = now.forces->duration;
     const auto impulse = [&](const std::string& name) {
-      Vector force = vector_of(values, name);
+      Vector3d force = vector_of(values, name);
       for (double& component : force) component *= duration;
       return force;
     };
-    const Vector on_block = impulse("contact.block.plate");
-    Vector reactions = impulse("reaction.west");
-    add_to(reactions, impulse("reaction.east"));
-    const Vector block_now = momentum_of_part(now, 0), plate_now = momentum_of_part(now, 1);
+    const Vector3d on_block = impulse("contact.block.plate");
+    Vector3d reactions = impulse("reaction.west");
+    reactions += impulse("reaction.east");
+    const Vector3d block_now = momentum_of_part(now, 0), plate_now = momentum_of_part(now, 1);
     const double scale = 1e-12 * 8 * 25;  // of m v
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(block_now[i] - block[i], on_block[i], scale);
@@ -155,8 +155,8 @@ TEST(Forces, AWallReturnsTheMomentumItTakes) {
     Model model = build_model(deck);
     ThreadTeam team(1);
     run(model, deck, team);
-    const Vector force = vector_of(forces_of(model), "reaction.floor");
-    Vector change = model.momentum.walls.linear;
+    const Vector3d force = vector_of(forces_of(model), "reaction.floor");
+    Vector3d change = model.momentum.walls.linear;
     for (double& component : change) component /= model.forces->duration;
     expect_near(force, change, 1e-9, "wall");
     EXPECT_GT(force[2], 0);
@@ -294,8 +294,8 @@ TEST(Forces, FrictionIsWhatActsAlongASurface) {
   double largest = 0;
   run(model, deck, team, [&](Model& now) {
     const auto values = forces_of(now);
-    const Vector force = vector_of(values, "contact.block.floor"),
-                 friction = vector_of(values, "contact.block.floor.friction");
+    const Vector3d force = vector_of(values, "contact.block.floor"),
+                   friction = vector_of(values, "contact.block.floor.friction");
     const double scale = 1e-6 * std::max(1.0, force[2]);  // the normal is that of points that are near
     EXPECT_NEAR(friction[0], force[0], scale);
     EXPECT_NEAR(friction[1], force[1], scale);

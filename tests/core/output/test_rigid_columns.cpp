@@ -15,7 +15,7 @@ using namespace test;
 
 // A cube that flies and turns about an axis that is none of its own: all of its axes are principal.
 TEST(RigidColumns, OfAFreeCubeAreThoseOfUniformMotion) {
-  const Vector velocity{3, -2, 1}, spin{1, 2, 2};  // 3 radians a second
+  const Vector3d velocity{3, -2, 1}, spin{1, 2, 2};  // 3 radians a second
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
   deck.parts = {box("wall", {1, 1, 1}, {1, 1, 1}, {9, 9, 9}, hex8()),
@@ -42,7 +42,7 @@ TEST(RigidColumns, OfAFreeCubeAreThoseOfUniformMotion) {
     double angle = std::remainder(3 * t, 2 * std::numbers::pi);
     turned_back = turned_back || angle < 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(row.at(i), Vector({0.5, 0.25, -2})[i] + velocity[i] * t, 1e-12) << t;
+      EXPECT_NEAR(row.at(i), (Vector3d{0.5, 0.25, -2})[i] + velocity[i] * t, 1e-12) << t;
       EXPECT_NEAR(row.at(3 + i), (angle - lag) * spin[i] / 3, 1e-3 * lag + 1e-11) << t;
     }
   });

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -15,7 +14,6 @@ namespace brio {
 namespace {
 
 using namespace test;
-using Eigen::Vector3d;
 
 constexpr double twist_rate = 1e3, beam_length = 0.5;
 
@@ -41,9 +39,9 @@ Deck twisted_beam() {
   return deck;
 }
 
-Vector3d vector_at(const Snapshot& snapshot, std::size_t point) {
+Vector3d rotation_at(const Snapshot& snapshot, std::size_t point) {
   for (const FieldArray& field : snapshot.point_fields)
-    if (field.name == "rotation") return Vector3d(&field.values[3 * point]);
+    if (field.name == "rotation") return vector_at(&field.values[3 * point]);
   ADD_FAILURE() << "no rotation";
   return {};
 }
@@ -61,11 +59,11 @@ TEST(RotationField, OfATwistedBeamIsTheAngleOfItsEnds) {
   look_at_steps(model, 60, 1e9, team, [&](int) {
     const Snapshot& now = observer.observe(model);
     const double angle = twist_rate * model.times.time;
-    EXPECT_LT((vector_at(now, 0) - about_x(0.9 * angle)).norm(), 1e-12) << model.step;
-    EXPECT_LT((vector_at(now, 1) - about_x(angle)).norm(), 1e-12) << model.step;
+    EXPECT_LT(norm(rotation_at(now, 0) - about_x(0.9 * angle)), 1e-12) << model.step;
+    EXPECT_LT(norm(rotation_at(now, 1) - about_x(angle)), 1e-12) << model.step;
     EXPECT_NEAR(now.cell_fields.back().values[0], 0.1 * angle / beam_length, 1e-12) << model.step;
     for (std::size_t point = 2; point < 10; ++point)
-      EXPECT_TRUE(std::isnan(vector_at(now, point).x())) << "of a solid";
+      EXPECT_TRUE(std::isnan(rotation_at(now, point).x)) << "of a solid";
     largest = angle;
   });
   EXPECT_GT(largest, 1.1 * std::numbers::pi);
@@ -75,16 +73,16 @@ TEST(RotationField, OfATwistedBeamIsTheAngleOfItsEnds) {
 TEST(RotationField, ComposesTurns) {
   Model model = build_model(twisted_beam());
   ThreadTeam team(1);
-  for (const Vector3d& axis : {Vector3d(1, 0, 0), Vector3d(0, 0, 1)})
+  for (const Vector3d& axis : {Vector3d{1, 0, 0}, Vector3d{0, 0, 1}})
     for (int step = 0; step < 100; ++step) {
       const Vector3d spin = 0.5 * std::numbers::pi * axis;
       std::copy_n(spin.data(), 3, model.nodes.angular_velocity[0].component);
       turn(model.rotations, model.nodes, 0.01, team);
     }
   const Quaternion<double>& q = model.rotations[0];
-  const Eigen::Quaterniond expected = Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitZ()) *
-                                      Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitX());
-  EXPECT_LT(rotation_vector(expected.conjugate() * Eigen::Quaterniond(q.w, q.x, q.y, q.z)).norm(), 1e-13);
+  const Quaternion<double> expected =
+      rotation_by({0, 0, 0.5 * std::numbers::pi}) * rotation_by({0.5 * std::numbers::pi, 0, 0});
+  EXPECT_LT(norm(rotation_vector(conjugate(expected) * q)), 1e-13);
 }
 
 TEST(RotationField, IsPartOfTheStateAndOnlyThereIfNamed) {

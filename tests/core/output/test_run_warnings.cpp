@@ -8,7 +8,7 @@
 namespace brio::test {
 namespace {
 
-Deck block_of_particles(Vector size, ParticleFrame kernel) {
+Deck block_of_particles(Vector3d size, ParticleFrame kernel) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
   deck.parts = {particles("block", box_of_particles(size, 1), particle(kernel))};

@@ -8,31 +8,26 @@
 #include "src/fields/strain.hpp"
 #include "src/output/observe.hpp"
 #include "tests/core/scene.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio {
 namespace {
 
 using namespace test;
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
-Matrix3d to_matrix(const std::vector<double>& s, std::size_t first = 0) {
+Tensor<double> to_matrix(const std::vector<double>& s, std::size_t first = 0) {
   const double* a = s.data() + first;
-  Matrix3d matrix;
-  matrix << a[0], a[3], a[5], a[3], a[1], a[4], a[5], a[4], a[2];
+  const Tensor<double> matrix{{{a[0], a[3], a[5]}, {a[3], a[1], a[4]}, {a[5], a[4], a[2]}}};
   return matrix;
-}
-Matrix3d rotation(double angle, const Vector3d& axis) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }
 
 /// Strains of all cells once the nodes are where the matrix takes them.
-std::vector<double> strain_after(const Deck& deck, const Matrix3d& deformation) {
+std::vector<double> strain_after(const Deck& deck, const Tensor<double>& deformation) {
   Model model = build_model(deck);
   const std::vector<std::string> wanted{"strain"};
   FieldObserver observer(model, wanted);
   for (NodeRecord& node : model.nodes.record) {
-    const Vector3d x = deformation * Vector3d(node.position);
+    const Vector3d x = deformation * vector_at(node.position);
     std::copy_n(x.data(), 3, node.position);
   }
   const FieldArray& field = observer.observe(model).cell_fields.back();
@@ -41,14 +36,14 @@ std::vector<double> strain_after(const Deck& deck, const Matrix3d& deformation) 
 }
 
 /// Rates of all cells where nodes are where the matrix takes them, with the velocities of a gradient.
-std::vector<double> strain_rate(const Deck& deck, const Matrix3d& deformation, const Matrix3d& gradient,
-                                double step = 0) {
+std::vector<double> strain_rate(const Deck& deck, const Tensor<double>& deformation,
+                                const Tensor<double>& gradient, double step = 0) {
   Model model = build_model(deck);
   const std::vector<std::string> wanted{"strain_rate"};
   FieldObserver observer(model, wanted);
   model.times.next = step;
   for (NodeRecord& node : model.nodes.record) {
-    const Vector3d x = deformation * Vector3d(node.position), v = gradient * x;
+    const Vector3d x = deformation * vector_at(node.position), v = gradient * x;
     std::copy_n(x.data(), 3, node.position);
     std::copy_n(v.data(), 3, node.velocity);
   }
@@ -78,22 +73,22 @@ Deck plate_deck() {
   return deck;
 }
 
-void expect_equal(const Matrix3d& a, const Matrix3d& b) {
-  EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 1e-13) << a << "\n\n" << b;
+void expect_equal(const Tensor<double>& a, const Tensor<double>& b) {
+  EXPECT_LT(norm(a - b), 1e-13) << testing::PrintToString(a.m) << "\n\n" << testing::PrintToString(b.m);
 }
 
 TEST(Strain, IsNoneOfARotation) {
-  const Matrix3d turned = rotation(2, {1, 2, 3});
+  const Tensor<double> turned = rotation_about(2, {1, 2, 3});
   for (const Deck& deck : {brick_deck(), plate_deck()})
     for (const double component : strain_after(deck, turned)) EXPECT_NEAR(component, 0, 1e-14);
 }
 
 // ln V of R U is R ln U R^T.
 TEST(Strain, OfAStretchIsItsLogarithmOnTheAxesThatTurn) {
-  const Matrix3d turned = rotation(1, {3, -1, 2});
-  const Matrix3d stretch = Vector3d(1.5, 0.8, 2).asDiagonal();
-  const Matrix3d expected =
-      turned * Vector3d(std::log(1.5), std::log(0.8), std::log(2)).asDiagonal() * turned.transpose();
+  const Tensor<double> turned = rotation_about(1, {3, -1, 2});
+  const Tensor<double> stretch = diagonal(Vector3d{1.5, 0.8, 2});
+  const Tensor<double> expected =
+      turned * diagonal(Vector3d{std::log(1.5), std::log(0.8), std::log(2)}) * transposed(turned);
   const std::vector<double> strain = strain_after(brick_deck(), turned * stretch);
   ASSERT_EQ(strain.size(), 12U);
   expect_equal(to_matrix(strain), expected);
@@ -102,13 +97,13 @@ TEST(Strain, OfAStretchIsItsLogarithmOnTheAxesThatTurn) {
 
 // The thickness of a plate that is only moved stays: its normal keeps its length.
 TEST(Strain, OfAShellHasThatOfItsThickness) {
-  const Matrix3d turned = rotation(1, {3, -1, 2});
-  const Matrix3d stretch = Vector3d(1.5, 0.8, 1).asDiagonal();
-  const Matrix3d expected =
-      turned * Vector3d(std::log(1.5), std::log(0.8), 0).asDiagonal() * turned.transpose();
+  const Tensor<double> turned = rotation_about(1, {3, -1, 2});
+  const Tensor<double> stretch = diagonal(Vector3d{1.5, 0.8, 1});
+  const Tensor<double> expected =
+      turned * diagonal(Vector3d{std::log(1.5), std::log(0.8), 0}) * transposed(turned);
   expect_equal(to_matrix(strain_after(plate_deck(), turned * stretch)), expected);
-  const std::array<Vector3d, 4> corners{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0),
-                                        Vector3d(0, 1, 0)};
+  const std::array<Vector3d, 4> corners{Vector3d{0, 0, 0}, Vector3d{1, 0, 0}, Vector3d{1, 1, 0},
+                                        Vector3d{0, 1, 0}};
   const SymmetricTensor<double> thinner = logarithmic_strain(deformation_of_shell(corners, corners, 0.5));
   EXPECT_NEAR(thinner.zz, std::log(0.5), 1e-14);
   EXPECT_NEAR(thinner.xx, 0, 1e-14);
@@ -118,13 +113,13 @@ TEST(Strain, OfAShellHasThatOfItsThickness) {
 // angle whose tangent is 2/g.
 TEST(Strain, OfSimpleShear) {
   for (const double g : {0.1, 1.0, 5.0}) {
-    Matrix3d shear = Matrix3d::Identity();
+    Tensor<double> shear = identity<double>();
     shear(0, 1) = g;
     const double principal = std::asinh(g / 2), angle = 0.5 * std::atan2(2, g);
-    const Vector3d direction(std::cos(angle), std::sin(angle), 0),
-        across(-std::sin(angle), std::cos(angle), 0);
+    const Vector3d direction{std::cos(angle), std::sin(angle), 0},
+        across{-std::sin(angle), std::cos(angle), 0};
     expect_equal(to_matrix(strain_after(brick_deck(), shear)),
-                 principal * (direction * direction.transpose() - across * across.transpose()));
+                 principal * (outer_product(direction, direction) - outer_product(across, across)));
   }
 }
 
@@ -132,15 +127,15 @@ TEST(Strain, IsNotANumberInBeamsAndRigidParts) {
   Deck deck = brick_deck();
   Beam2 beam;
   beam.section = RectangleSection{0.02, 0.05};
-  beam.orientation = Vector{0, 0, 1};
+  beam.orientation = Vector3d{0, 0, 1};
   LineMesh mesh;
   mesh.start = {-5, 0, 0};
   mesh.end = {-4, 0, 0};
   mesh.elements = 1;
   deck.parts.push_back({"beam", mesh, {}, beam, "material"});
   deck.parts.push_back(box("rigid", {1, 1, 1}, {1, 1, 1}, {-9, 0, 0}, Rigid{}));
-  for (const std::vector<double>& values : {strain_after(deck, Matrix3d::Identity()),
-                                            strain_rate(deck, Matrix3d::Identity(), Matrix3d::Zero())}) {
+  for (const std::vector<double>& values :
+       {strain_after(deck, identity<double>()), strain_rate(deck, identity<double>(), Tensor<double>{})}) {
     ASSERT_EQ(values.size(), 24U);
     for (std::size_t i = 0; i < 24; ++i) EXPECT_EQ(std::isnan(values[i]), i >= 12) << i;
   }
@@ -150,40 +145,38 @@ TEST(Strain, IsNotANumberInBeamsAndRigidParts) {
 
 // D of a velocity gradient is its symmetric part, whatever the shape by then.
 TEST(StrainRate, OfSimpleShearAndStretching) {
-  Matrix3d shape = Vector3d(1.3, 0.7, 1.1).asDiagonal(), shear = Matrix3d::Zero();
+  Tensor<double> shape = diagonal(Vector3d{1.3, 0.7, 1.1}), shear{};
   shape(0, 2) = 0.4;
   shear(0, 1) = 300;
-  const Matrix3d stretching = Vector3d(50, -20, 7).asDiagonal();
-  for (const Matrix3d& gradient : {shear, stretching, Matrix3d(shear + stretching)}) {
+  const Tensor<double> stretching = diagonal(Vector3d{50, -20, 7});
+  for (const Tensor<double>& gradient : {shear, stretching, Tensor<double>(shear + stretching)}) {
     const std::vector<double> rate = strain_rate(brick_deck(), shape, gradient);
     ASSERT_EQ(rate.size(), 12U);
     for (const std::size_t cell : {0U, 6U})
-      EXPECT_LT((to_matrix(rate, cell) - 0.5 * (gradient + gradient.transpose())).cwiseAbs().maxCoeff(),
-                1e-12 * 300);
+      EXPECT_LT(norm(to_matrix(rate, cell) - 0.5 * (gradient + transposed(gradient))), 1e-12 * 300);
   }
 }
 
 // In the plane of a plate that was turned; its normal turns with it and is not stretched.
 TEST(StrainRate, OfAShellIsThatOfItsMiddleSurface) {
-  const Matrix3d turned = rotation(1, {3, -1, 2});
-  Matrix3d within = Vector3d(50, -20, 0).asDiagonal(), across = Matrix3d::Zero(), thinning = across;
+  const Tensor<double> turned = rotation_about(1, {3, -1, 2});
+  Tensor<double> within = diagonal(Vector3d{50, -20, 0}), across{}, thinning{};
   within(0, 1) = within(1, 0) = 30;
   across(2, 0) = 70, across(0, 2) = -11;
   thinning(2, 2) = -90;
   const std::vector<double> rate =
-      strain_rate(plate_deck(), turned, turned * (within + across + thinning) * turned.transpose());
-  EXPECT_LT((to_matrix(rate) - turned * within * turned.transpose()).cwiseAbs().maxCoeff(), 1e-12 * 100);
+      strain_rate(plate_deck(), turned, turned * (within + across + thinning) * transposed(turned));
+  EXPECT_LT(norm(to_matrix(rate) - turned * within * transposed(turned)), 1e-12 * 100);
 }
 
 TEST(StrainRate, IsNoneOfARotation) {
-  Matrix3d spin;
-  spin << 0, -300, 200, 300, 0, -100, -200, 100, 0;
+  const Tensor<double> spin{{{0, -300, 200}, {300, 0, -100}, {-200, 100, 0}}};
   for (const Deck& deck : {brick_deck(), plate_deck()}) {
-    for (const double component : strain_rate(deck, rotation(2, {1, 2, 3}), spin))
+    for (const double component : strain_rate(deck, rotation_about(2, {1, 2, 3}), spin))
       EXPECT_NEAR(component, 0, 1e-12 * 300);
     // Nor of one by a step of any size: half a radian in 1e-3.
-    const Matrix3d secant = (rotation(0.5, {1, 2, 3}) - Matrix3d::Identity()) / 1e-3;
-    for (const double component : strain_rate(deck, Matrix3d::Identity(), secant, 1e-3))
+    const Tensor<double> secant = 1e3 * (rotation_about(0.5, {1, 2, 3}) - identity<double>());
+    for (const double component : strain_rate(deck, identity<double>(), secant, 1e-3))
       EXPECT_NEAR(component, 0, 1e-12 * 500);
   }
 }

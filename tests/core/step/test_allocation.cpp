@@ -72,7 +72,7 @@ Deck can_under_covered_block() {
   return deck;
 }
 
-Part thrown_beam(std::string name, Vector start, Vector end) {
+Part thrown_beam(std::string name, Vector3d start, Vector3d end) {
   Beam2 beam;
   beam.section = CircleSection{.radius = 0.05};
   return {std::move(name), LineMesh{start, end, 4}, {}, beam, "material"};
@@ -87,7 +87,7 @@ Deck lines_on_lines(double speed) {
   edge.placement = {.rotate = Rotation{{1, 0, 0}, 45}, .translate = {0, -0.4, -std::sqrt(0.125)}};
   Shell4 shell;
   shell.thickness = 0.05;
-  const auto sheet = [&](std::string name, Vector size, Rotation turn, Vector centre) {
+  const auto sheet = [&](std::string name, Vector3d size, Rotation turn, Vector3d centre) {
     PlateMesh mesh;
     mesh.size = {size[0], size[1]};
     mesh.elements = {4, 2};

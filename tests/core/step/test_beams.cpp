@@ -28,7 +28,7 @@ Beam2 round_beam(double radius) {
   return beam;
 }
 
-Part line(std::string name, Vector start, Vector end, int elements, const Beam2& beam) {
+Part line(std::string name, Vector3d start, Vector3d end, int elements, const Beam2& beam) {
   return {std::move(name), LineMesh{start, end, elements}, {}, beam, "material"};
 }
 
@@ -40,7 +40,7 @@ Deck one_line(const Part& part, double end, const Material& material = elastic()
   return deck;
 }
 
-NodalForce push(std::string set, Vector force) {
+NodalForce push(std::string set, Vector3d force) {
   NodalForce load;
   load.where.set = std::move(set);
   load.force = force;

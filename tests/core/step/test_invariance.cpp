@@ -17,13 +17,13 @@ struct Units {
 };
 
 // Two bars of different meshes that collide askew with friction, seen from a frame, at a place, in units.
-Deck collision(const Units& units = {}, const Vector& frame = {}, const Vector& place = {}) {
+Deck collision(const Units& units = {}, const Vector3d& frame = {}, const Vector3d& place = {}) {
   const double speed = units.length / units.time;
   Elastic law = elastic(0.3);
   law.density *= units.mass / (units.length * units.length * units.length);
   law.youngs_modulus *= units.mass / (units.length * units.time * units.time);
-  const auto scaled = [](const Vector& v, double factor, const Vector& shift) {
-    return Vector{v[0] * factor + shift[0], v[1] * factor + shift[1], v[2] * factor + shift[2]};
+  const auto scaled = [](const Vector3d& v, double factor, const Vector3d& shift) {
+    return Vector3d{v[0] * factor + shift[0], v[1] * factor + shift[1], v[2] * factor + shift[2]};
   };
   Deck deck;
   deck.materials = {{"material", law}};
@@ -56,7 +56,7 @@ struct Watched {
 struct Difference {
   double velocity = 0, position = 0;
 };
-Difference difference(const Model& a, const Model& b, const Vector& frame, const Vector& place) {
+Difference difference(const Model& a, const Model& b, const Vector3d& frame, const Vector3d& place) {
   Difference result;
   for (std::size_t i = 0; i < a.nodes.size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -96,7 +96,7 @@ TEST(Invariance, PowersOfTwoInLengthTimeAndMassGiveTheSameBits) {
 // Elastic bodies that slide with Coulomb friction are unstable (Adams 1995): rounding grows by 3.5 in 0.05 ms
 // while they do, so that with friction the end comes early.
 TEST(Invariance, FrameAtAThousandTimesTheSpeedOfTheImpactSeesTheSameContacts) {
-  const Vector frame{10000, -8000, 6000};
+  const Vector3d frame{10000, -8000, 6000};
   for (const bool has_friction : {false, true}) {
     Deck at_rest = collision(), moving_on = collision({}, frame);
     for (Deck* deck : {&at_rest, &moving_on}) {
@@ -119,7 +119,7 @@ TEST(Invariance, FrameAtAThousandTimesTheSpeedOfTheImpactSeesTheSameContacts) {
 
 // Positions have an ulp of 1e-10 there, and an element an edge of 0.05.
 TEST(Invariance, PlaceAMillionSizesAwaySeesTheSameImpact) {
-  const Vector place{1048576, -524288, 786432};
+  const Vector3d place{1048576, -524288, 786432};
   const Watched reference(collision());
   const Watched other(collision({}, {}, place));
   const Difference found = difference(reference.model, other.model, {}, place);
@@ -150,9 +150,9 @@ TEST(Invariance, TwoHundredTurnsOfAFreeCubeKeepEnergyAndAngularMomentum) {
     const TurningCube cube(30, 200, rate);
     Model model = build_model(cube.deck);
     ThreadTeam team(1);
-    const Vector start = momentum(model.nodes).total.angular;
+    const Vector3d start = momentum(model.nodes).total.angular;
     run(model, cube.deck, team);
-    const Vector end = momentum(model.nodes).total.angular;
+    const Vector3d end = momentum(model.nodes).total.angular;
     for (std::size_t axis = 0; axis < 3; ++axis)
       EXPECT_NEAR(end[axis], start[axis], 1e-9 * std::sqrt(dot(start, start)));
     EXPECT_LE(model.energy.error_max, 5e-4);

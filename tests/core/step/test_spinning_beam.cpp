@@ -64,7 +64,7 @@ class SpinningBeam {
     means.energy /= samples;
     means.length /= samples;
     means.spin /= samples;
-    const Vector now = momentum(model_.nodes).total.angular;
+    const Vector3d now = momentum(model_.nodes).total.angular;
     means.momentum = now[2] / start_;
     means.across = std::max(std::abs(now[0]), std::abs(now[1])) / start_;
     return means;

@@ -25,7 +25,7 @@ Deck bar(int elements, double velocity, const Hex8& element) {
   return deck;
 }
 
-RigidWall wall(Vector point, Vector normal) {
+RigidWall wall(Vector3d point, Vector3d normal) {
   RigidWall result;
   result.point = point;
   result.normal = normal;

@@ -95,7 +95,7 @@ TEST(SkewContact, AnEdgeOfTwoPlanesThatIsStruckStaysOnBoth) {
         continue;
       largest = std::max({largest, std::abs(v[1]), std::abs(s * v[0] - c * v[1] - 1)});
       const int slave = now.contacts[0].surface.slave(static_cast<int>(i));
-      struck += now.contacts[0].normal_impulse[index(slave)].norm();
+      struck += norm(now.contacts[0].normal_impulse[index(slave)]);
     }
   });
   EXPECT_GT(struck, 0);
@@ -108,7 +108,7 @@ TEST(SkewContact, AnEdgeOfTwoPlanesThatIsStruckStaysOnBoth) {
   EXPECT_LT(model.momentum.angular_imbalance(), 1e-13);
   // Reactions, those of contact among them, are along the normals of their planes and sum to those of all
   // supports.
-  const std::vector<Vector> reactions = reactions_of(model);
+  const std::vector<Vector3d> reactions = reactions_of(model);
   const double size = std::sqrt(dot(reactions[2], reactions[2]));
   EXPECT_GT(std::abs(reactions[0][0]), 1e-2 * size);
   EXPECT_GT(std::abs(reactions[1][1]), 1e-2 * size);
@@ -119,7 +119,7 @@ TEST(SkewContact, AnEdgeOfTwoPlanesThatIsStruckStaysOnBoth) {
                 1e-12 * size);
 }
 
-Part panel(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Vector centre) {
+Part panel(std::string name, std::array<double, 2> size, std::array<int, 2> elements, Vector3d centre) {
   Shell4 shell;
   shell.thickness = 0.02;
   Part part{std::move(name), PlateMesh{size, elements}, {}, shell, "material"};

@@ -27,7 +27,7 @@ PrescribedMotion moved(std::string set, MotionKind kind, int axis, Curve curve, 
   return motion;
 }
 
-NodalForce pushing(std::string set, Vector force) {
+NodalForce pushing(std::string set, Vector3d force) {
   NodalForce load;
   load.where.set = std::move(set);
   load.force = force;
@@ -35,7 +35,7 @@ NodalForce pushing(std::string set, Vector force) {
   return load;
 }
 
-NodalMoment turning(std::string set, Vector moment) {
+NodalMoment turning(std::string set, Vector3d moment) {
   NodalMoment load;
   load.where.set = std::move(set);
   load.moment = moment;
@@ -150,7 +150,7 @@ TEST(SkewSupports, TwoPlanesLeaveTheirEdgeOnlyTheLineOfBoth) {
   EXPECT_LT(model.momentum.linear_imbalance(), 1e-13);
   EXPECT_LT(model.momentum.angular_imbalance(), 1e-13);
   // Each plane pushes along its own normal.
-  const Vector first = model.forces->reactions[0].impulse, second = model.forces->reactions[1].impulse;
+  const Vector3d first = model.forces->reactions[0].impulse, second = model.forces->reactions[1].impulse;
   const double size = std::sqrt(dot(first, first) + dot(second, second));
   EXPECT_GT(std::abs(first[1]), 0.1 * size);
   EXPECT_NEAR(first[0], 0, 1e-13 * size);
@@ -171,16 +171,16 @@ TEST(SkewSupports, TheFirstImpulseIsTheLeastThatGivesBothComponents) {
   const double c = 0.5, s = std::sqrt(3.0) / 2;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const double* v = model.nodes.record[i].velocity;
-    Eigen::Vector3d expected(-3, -5, 7);
-    const Eigen::Vector3d n(s, -c, 0);
+    Vector3d expected{-3, -5, 7};
+    const Vector3d n{s, -c, 0};
     const int held = model.nodes.prescribed_translations(i);
     const bool on_first = std::abs(model.nodes.record[i].position[1]) < 1e-9;
     if (held == 3) {
-      expected = Eigen::Vector3d(2 / s, 0, 7);
+      expected = Vector3d{2 / s, 0, 7};
     } else if (held != 0) {
-      expected = on_first ? Eigen::Vector3d(-3, 0, 7) : Eigen::Vector3d(expected + (2 - n.dot(expected)) * n);
+      expected = on_first ? Vector3d{-3, 0, 7} : expected + (2 - dot(n, expected)) * n;
     }
-    EXPECT_LT((Eigen::Vector3d(v) - expected).norm(), 1e-14 * 10) << i;
+    EXPECT_LT(norm(vector_at(v) - expected), 1e-14 * 10) << i;
   }
 }
 
@@ -195,7 +195,7 @@ struct TubeSector {
     deck.parts = {box("wall", {1, 1, 1}, {8, around, 1}, {0.5, 0.5, 0.5}, element)};
     meshes = {generate_mesh(deck.parts[0].mesh, deck.parts[0].placement)};
     const double angle = degrees * std::numbers::pi / 180;
-    for (std::array<double, 3>& x : meshes[0].position) {
+    for (Vector3d& x : meshes[0].position) {
       const double r = 1 + 0.5 * x[0], phi = angle * x[1];
       x = {r * std::cos(phi), r * std::sin(phi), 0.1 * x[2]};
     }
@@ -224,20 +224,20 @@ TEST(SkewSupports, AThirdOfAQuarterTubeMovesAsTheQuarter) {
   test::run(other, sector.deck, team);
   EXPECT_EQ(one.step, other.step);
   double largest = 0, apart = 0;
-  std::map<std::array<long, 3>, Eigen::Vector3d> start_of;
+  std::map<std::array<long, 3>, Vector3d> start_of;
   for (std::size_t i = 0; i < quarter.meshes[0].position.size(); ++i) {
     const auto& x = quarter.meshes[0].position[i];
     const auto rounded = [](double v) { return std::lround(1e6 * v); };
     start_of[{rounded(x[0]), rounded(x[1]), rounded(x[2])}] =
-        Eigen::Vector3d(one.nodes.record[index(one.parts[0].node[i])].position);
+        vector_at(one.nodes.record[index(one.parts[0].node[i])].position);
   }
   for (std::size_t i = 0; i < sector.meshes[0].position.size(); ++i) {
     const auto& x = sector.meshes[0].position[i];
     const auto rounded = [](double v) { return std::lround(1e6 * v); };
-    const Eigen::Vector3d end(other.nodes.record[index(other.parts[0].node[i])].position);
+    const Vector3d end = vector_at(other.nodes.record[index(other.parts[0].node[i])].position);
     const auto& in_quarter = start_of.at({rounded(x[0]), rounded(x[1]), rounded(x[2])});
-    largest = std::max(largest, (end - Eigen::Vector3d(x.data())).norm());
-    apart = std::max(apart, (end - in_quarter).norm());
+    largest = std::max(largest, norm(end - x));
+    apart = std::max(apart, norm(end - in_quarter));
   }
   EXPECT_GT(largest, 1e-3);
   EXPECT_LE(apart, 1e-10);
@@ -269,7 +269,7 @@ TEST(SkewSupports, ASectorAtRestUnderPressureIsThatOfLame) {
     EXPECT_NEAR(u, exact, 0.01 * exact) << r;
     EXPECT_NEAR(std::atan2(end[1], end[0]), std::atan2(x[1], x[0]), 1e-7);
   }
-  const Vector at_end = model.forces->reactions[3].impulse;
+  const Vector3d at_end = model.forces->reactions[3].impulse;
   const double size = std::sqrt(dot(at_end, at_end)) / model.forces->duration;
   EXPECT_NEAR(size, p * a * 0.1, 0.01 * p * a * 0.1);
   const double phi = std::numbers::pi / 6;
@@ -308,10 +308,10 @@ TEST(SkewSupports, AnArcOfShellsMovesAsTheWholeRing) {
       const auto& x = part[0].position[i];
       const auto& y = whole[0].position[j];
       if (std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]) > 1e-9) continue;
-      const Eigen::Vector3d a(other.nodes.record[index(other.parts[0].node[i])].position);
-      const Eigen::Vector3d b(one.nodes.record[index(one.parts[0].node[j])].position);
-      moved = std::max(moved, (a - Eigen::Vector3d(x.data())).norm());
-      apart = std::max(apart, (a - b).norm());
+      const Vector3d a = vector_at(other.nodes.record[index(other.parts[0].node[i])].position);
+      const Vector3d b = vector_at(one.nodes.record[index(one.parts[0].node[j])].position);
+      moved = std::max(moved, norm(a - x));
+      apart = std::max(apart, norm(a - b));
     }
   EXPECT_GT(moved, 1e-3);
   EXPECT_LE(apart, 1e-10);
@@ -355,7 +355,7 @@ TEST(SkewSupports, ForcesOfRemovedNodesAreRemovedWithThem) {
   remove_nodes(load, std::vector<int>{1, 5});
   const auto& left = std::get<NodalLoad>(load.load);
   EXPECT_EQ(left.nodes, (std::vector<int>{2, 7}));
-  EXPECT_EQ(left.own_force, (std::vector<Vector>{{2, 0, 0}, {7, 0, 0}}));
+  EXPECT_EQ(left.own_force, (std::vector<Vector3d>{{2, 0, 0}, {7, 0, 0}}));
 }
 
 // ---- what is refused

@@ -2,7 +2,6 @@
 /// Scenes and their images under a rotation, with supports and loads along the axes of a coordinate system
 /// that is turned with them.
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <map>
 #include <numbers>
@@ -10,36 +9,34 @@
 #include <vector>
 
 #include "src/base/index.hpp"
+#include "src/fields/rotation.hpp"
 #include "src/model/force_sums.hpp"
 #include "tests/core/scene.hpp"
+#include "tests/rotation_about.hpp"
 
 namespace brio::test {
 
-inline const Vector turn_axis{1, 2, 3};
+inline const Vector3d turn_axis{1, 2, 3};
 inline constexpr double turn_degrees = 37;
 
-inline Eigen::Matrix3d turn_matrix() {
-  return Eigen::AngleAxisd(turn_degrees * std::numbers::pi / 180,
-                           Eigen::Vector3d(turn_axis.data()).normalized())
-      .toRotationMatrix();
+inline Tensor<double> turn_matrix() {
+  return rotation_about(turn_degrees * std::numbers::pi / 180, turn_axis);
 }
-inline Vector turned(const Vector& v) {
-  const Eigen::Vector3d turned = turn_matrix() * Eigen::Vector3d(v.data());
-  return {turned[0], turned[1], turned[2]};
-}
-inline Eigen::Vector3d turned_vector(const Eigen::Vector3d& v) { return turn_matrix() * v; }
+inline Vector3d turned(const Vector3d& v) { return turn_matrix() * v; }
+inline Vector3d turned_vector(const Vector3d& v) { return turn_matrix() * v; }
 
 inline Rotation turned(const std::optional<Rotation>& first) {
   if (!first) return {turn_axis, turn_degrees};
-  const Eigen::AngleAxisd before(first->degrees * std::numbers::pi / 180,
-                                 Eigen::Vector3d(first->axis.data()).normalized());
-  const Eigen::AngleAxisd both(turn_matrix() * before.toRotationMatrix());
-  return {{both.axis()[0], both.axis()[1], both.axis()[2]}, both.angle() * 180 / std::numbers::pi};
+  constexpr double degree = std::numbers::pi / 180;
+  const Vector3d both = rotation_vector(rotation_by(turn_degrees * degree * normalized(turn_axis)) *
+                                        rotation_by(first->degrees * degree * normalized(first->axis)));
+  return {both, norm(both) / degree};
 }
 
 /// The scene turned about the origin. \pre sets are those of parts
 inline Deck turned(Deck deck) {
-  deck.coordinate_systems = {{"turned", RectangularSystem{turned(Vector{1, 0, 0}), turned(Vector{0, 1, 0})}}};
+  deck.coordinate_systems = {
+      {"turned", RectangularSystem{turned(Vector3d{1, 0, 0}), turned(Vector3d{0, 1, 0})}}};
   for (Part& part : deck.parts) {
     part.placement.rotate = turned(part.placement.rotate);
     part.placement.translate = turned(part.placement.translate);
@@ -53,7 +50,7 @@ inline Deck turned(Deck deck) {
   }
   for (BoundaryCondition& condition : deck.boundary_conditions) {
     if (auto* wall = std::get_if<RigidWall>(&condition)) {
-      for (Vector* vector : {&wall->point, &wall->normal, &wall->velocity}) *vector = turned(*vector);
+      for (Vector3d* vector : {&wall->point, &wall->normal, &wall->velocity}) *vector = turned(*vector);
     } else {
       std::get<PrescribedMotion>(condition).system = "turned";
     }
@@ -71,7 +68,7 @@ inline Deck turned(Deck deck) {
 }
 
 struct NodeMotionAtEnd {
-  Eigen::Vector3d position, velocity, angular = Eigen::Vector3d::Zero();
+  Vector3d position, velocity, angular = Vector3d{};
 };
 
 /// Of all nodes in the order of the meshes, which both scenes share.
@@ -81,10 +78,8 @@ inline std::vector<NodeMotionAtEnd> motions_of(const Model& model) {
     for (const int entry : part.node) {
       const auto node = index(entry);
       const NodeRecord& record = model.nodes.record[node];
-      NodeMotionAtEnd& one =
-          motions.emplace_back(Eigen::Vector3d(record.position), Eigen::Vector3d(record.velocity));
-      if (model.nodes.has_rotations())
-        one.angular = Eigen::Vector3d(model.nodes.angular_velocity[node].component);
+      NodeMotionAtEnd& one = motions.emplace_back(vector_at(record.position), vector_at(record.velocity));
+      if (model.nodes.has_rotations()) one.angular = vector_at(model.nodes.angular_velocity[node].component);
     }
   return motions;
 }
@@ -95,8 +90,8 @@ struct Turned {
   double reaction = 0;  ///< of the impulse of a condition or pair of parts, over the largest of all
 };
 
-inline std::vector<Vector> reactions_of(const Model& model) {
-  std::vector<Vector> sums;
+inline std::vector<Vector3d> reactions_of(const Model& model) {
+  std::vector<Vector3d> sums;
   if (!model.forces) return sums;
   for (const ReactionSum& sum : model.forces->reactions) sums.push_back(sum.impulse);
   for (const ContactSum& sum : model.forces->contacts) sums.push_back(sum.impulse);
@@ -108,12 +103,12 @@ inline Turned compare_turned(const Model& model, const Model& image) {
   const std::vector<NodeMotionAtEnd> a = motions_of(model), b = motions_of(image);
   double size = 0, speed = 0, rate = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    size = std::max(size, a[i].position.norm());
-    speed = std::max(speed, a[i].velocity.norm());
-    rate = std::max(rate, a[i].angular.norm());
-    result.position = std::max(result.position, (turned_vector(a[i].position) - b[i].position).norm());
-    result.velocity = std::max(result.velocity, (turned_vector(a[i].velocity) - b[i].velocity).norm());
-    result.angular = std::max(result.angular, (turned_vector(a[i].angular) - b[i].angular).norm());
+    size = std::max(size, norm(a[i].position));
+    speed = std::max(speed, norm(a[i].velocity));
+    rate = std::max(rate, norm(a[i].angular));
+    result.position = std::max(result.position, norm(turned_vector(a[i].position) - b[i].position));
+    result.velocity = std::max(result.velocity, norm(turned_vector(a[i].velocity) - b[i].velocity));
+    result.angular = std::max(result.angular, norm(turned_vector(a[i].angular) - b[i].angular));
   }
   result.position /= size;
   result.velocity /= speed;
@@ -125,12 +120,11 @@ inline Turned compare_turned(const Model& model, const Model& image) {
                                    std::pair(e.contact.at_step(), f.contact.at_step()),
                                    std::pair(e.friction.at_step(), f.friction.at_step())})
     result.energy = std::max(result.energy, std::abs(one - other) / all);
-  const std::vector<Vector> r = reactions_of(model), s = reactions_of(image);
+  const std::vector<Vector3d> r = reactions_of(model), s = reactions_of(image);
   double largest = 0;
   for (std::size_t i = 0; i < r.size(); ++i) {
     largest = std::max(largest, std::sqrt(dot(r[i], r[i])));
-    result.reaction = std::max(
-        result.reaction, (turned_vector(Eigen::Vector3d(r[i].data())) - Eigen::Vector3d(s[i].data())).norm());
+    result.reaction = std::max(result.reaction, norm(turned_vector(r[i]) - s[i]));
   }
   if (largest > 0) result.reaction /= largest;
   return result;

@@ -29,7 +29,7 @@ inline Part particles(std::string name, const ParticleMesh& mesh, const Particle
   return part;
 }
 
-inline ParticleMesh box_of_particles(Vector size, double spacing) {
+inline ParticleMesh box_of_particles(Vector3d size, double spacing) {
   ParticleMesh mesh;
   mesh.box = ParticleBox{size, spacing};
   return mesh;

@@ -42,8 +42,8 @@ Deck crushed_column(FreeNodes free_nodes) {
   return deck;
 }
 
-Vector momentum_of_part(const Model& model, std::size_t part) {
-  Vector sum{};
+Vector3d momentum_of_part(const Model& model, std::size_t part) {
+  Vector3d sum{};
   for (const int entry : model.parts[part].node) {
     const auto node = index(entry);
     for (std::size_t i = 0; i < 3; ++i)
@@ -52,7 +52,7 @@ Vector momentum_of_part(const Model& model, std::size_t part) {
   return sum;
 }
 
-double distance(const Vector& a, const Vector& b) {
+double distance(const Vector3d& a, const Vector3d& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
@@ -60,7 +60,7 @@ TEST(Debris, DroppedNodesAreOutOfContactInTheStepInWhichTheyAreFreed) {
   const Deck deck = crushed_column(FreeNodes::drop);
   Model model = build_model(deck);
   ThreadTeam team(1);
-  Vector before = momentum_of_part(model, block_part);
+  Vector3d before = momentum_of_part(model, block_part);
   const double scale = 10 * model.parts[column_part].mass;
   int active_before = 0, freed_in_contact = 0, active_later = 0;
   std::vector<int> gone;
@@ -77,7 +77,7 @@ TEST(Debris, DroppedNodesAreOutOfContactInTheStepInWhichTheyAreFreed) {
         ASSERT_FALSE(std::binary_search(gone.begin(), gone.end(), node));
         ASSERT_GT(m.nodes.mass[index(node)], 0);
       }
-    const Vector now = momentum_of_part(m, block_part);
+    const Vector3d now = momentum_of_part(m, block_part);
     if (scene.step.active == 0) {
       ASSERT_LT(distance(now, before), 1e-12 * scale) << "step " << m.step;
     }

@@ -81,7 +81,7 @@ TEST(Erosion, SweepAfterDeletionGivesTheForcesOfTheElementsThatAreLeft) {
   Model model = living_block({9, 9, 9}, torn_block());
   delete_by_hand(model, 0, [](int e) { return e % 3 != 0; });
   // Forces of each element alone.
-  std::vector<Vector> expected(model.nodes.size());
+  std::vector<Vector3d> expected(model.nodes.size());
   const Model still = model;
   for (std::size_t e = 0; e < 729; e += 3) {
     Model alone = still;

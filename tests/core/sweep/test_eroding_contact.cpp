@@ -20,7 +20,7 @@ ElasticPlastic soft() {
           .hardening_modulus = 1e7};
 }
 
-InitialCondition thrown(Vector lower, Vector upper, Vector velocity) {
+InitialCondition thrown(Vector3d lower, Vector3d upper, Vector3d velocity) {
   InitialCondition condition;
   condition.where.region = BoxRegion{lower, upper};
   condition.velocity = velocity;
@@ -89,7 +89,7 @@ ErodingRun run_scene(const Deck& deck, int threads, int audit_every) {
   outcome.positions.reserve(3 * model.nodes.size());
   for (const NodeRecord& record : model.nodes.record)
     outcome.positions.insert(outcome.positions.end(), record.position, record.position + 3);
-  const Vector now = momentum_of(model);
+  const Vector3d now = momentum_of(model);
   for (std::size_t i = 0; i < 3; ++i)
     outcome.worst_momentum =
         std::max(outcome.worst_momentum,

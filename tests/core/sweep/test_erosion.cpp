@@ -215,7 +215,7 @@ TEST(Erosion, WhatIsSweptFallsAsElementsDie) {
 void expect_stable_debris(std::int64_t steps) {
   Deck deck = pulled_bar(3, brittle(0.01, 0.02));
   deck.boundary_conditions.clear();
-  const Vector velocity[] = {{-20, 1, 0}, {-19, 0, 0.5}, {20, 0, 2}, {20.5, 0.5, 1}};
+  const Vector3d velocity[] = {{-20, 1, 0}, {-19, 0, 0.5}, {20, 0, 2}, {20.5, 0.5, 1}};
   for (int plane = 0; plane < 4; ++plane) {
     InitialCondition condition = moving("", velocity[plane]);
     condition.where.region = BoxRegion{{plane - 0.25, -1, -1}, {plane + 0.25, 1, 1}};

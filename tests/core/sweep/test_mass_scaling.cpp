@@ -102,7 +102,7 @@ Part plate(const std::string& name, std::array<double, 2> size, std::array<int, 
   return {name, PlateMesh{size, elements}, {}, shell, "material"};
 }
 
-Part beam_along(const std::string& name, const Vector& start, const Vector& end, int elements) {
+Part beam_along(const std::string& name, const Vector3d& start, const Vector3d& end, int elements) {
   Beam2 element;
   element.section = CircleSection{.radius = 0.02};
   element.linear_bulk_viscosity = 0;

@@ -22,7 +22,7 @@ class Particles : public testing::TestWithParam<ParticleFrame> {
   bool is_eulerian() const { return GetParam() == ParticleFrame::eulerian; }
 };
 
-void expect_kept(const Vector& now, const Vector& start, double size, double share) {
+void expect_kept(const Vector3d& now, const Vector3d& start, double size, double share) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(now[i], start[i], share * size);
 }
 

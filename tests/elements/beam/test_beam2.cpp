@@ -10,13 +10,12 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
-using Eigen::Vector3d;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 class Random {
  public:
   double number(double size = 1) { return size * uniform_(engine_); }
-  Vector3d vector(double size = 1) { return {number(size), number(size), number(size)}; }
+  Eigen::Vector3d vector(double size = 1) { return {number(size), number(size), number(size)}; }
   Quaterniond turn() { return Quaterniond(number(), number(), number(), number()).normalized(); }
 
  private:
@@ -24,7 +23,9 @@ class Random {
   std::uniform_real_distribution<double> uniform_{-1, 1};
 };
 
-Quaterniond turn_by(const Vector3d& v) { return Quaterniond(Eigen::AngleAxisd(v.norm(), v.normalized())); }
+Quaterniond turn_by(const Eigen::Vector3d& v) {
+  return Quaterniond(Eigen::AngleAxisd(v.norm(), v.normalized()));
+}
 
 /// Stiffness of a straight Timoshenko beam along x, as textbooks give it (Przemieniecki 1968, eq. 5.116).
 Matrix12 timoshenko(const FibreSection& s, double length, double modulus, double shear) {
@@ -65,9 +66,9 @@ TEST(Beam2, HasTimoshenkosStiffnessForAnyLengthAndDirection) {
   for (const BeamSection& section : sections())
     for (const double length : {0.05, 1.0, 20.0}) {
       const Quaterniond turn = random.turn();
-      const Pair ends{random.vector(), Vector3d::Zero()};
-      const Pair x{ends[0], ends[0] + length * (turn * Vector3d::UnitX())};
-      const SingleBeam<> beam(beam_of(section, turn * Vector3d::UnitZ()), steel(), x);
+      const Pair ends{random.vector(), Eigen::Vector3d::Zero()};
+      const Pair x{ends[0], ends[0] + length * (turn * Eigen::Vector3d::UnitX())};
+      const SingleBeam<> beam(beam_of(section, turn * Eigen::Vector3d::UnitZ()), steel(), x);
       const Matrix12 local = timoshenko(*beam.beam.fibres, length, 200e9, 200e9 / 2.6);
       Matrix12 rotation = Matrix12::Zero();
       for (int block = 0; block < 4; ++block) rotation.block<3, 3>(3 * block, 3 * block) = turn.matrix();
@@ -87,10 +88,10 @@ TEST(Beam2, HasTimoshenkosStiffnessForAnyLengthAndDirection) {
 /// A beam whose nodes were moved and turned far.
 SingleBeam<> strained_beam(Random& random, double size) {
   SingleBeam<> beam(beam_of(RectangleSection{.width = 0.2, .height = 0.3}, {0, 0.2, 1}), steel(),
-                    {Vector3d(1, 2, 3), Vector3d(2, 2.1, 3.2)});
+                    {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(2, 2.1, 3.2)});
   const Pair start = beam.position;
   const Pair turn{random.vector(size), random.vector(size)};
-  const Vector3d shift = random.vector(size * 0.5);
+  const Eigen::Vector3d shift = random.vector(size * 0.5);
   for (int k = 1; k <= 10; ++k)
     beam.move({start[0], start[1] + 0.1 * k * shift}, {0.1 * turn[0], 0.1 * turn[1]});
   return beam;
@@ -120,7 +121,7 @@ TEST(Beam2, ForcesAreTheGradientOfTheStrainEnergyAtLargeStrain) {
       for (const double sign : {1.0, -1.0}) {
         SingleBeam<> moved = beam;
         Pair x = beam.position;
-        Pair turn{Vector3d::Zero(), Vector3d::Zero()};
+        Pair turn{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
         (c < 6 ? x : turn)[index(c % 6 / 3)][c % 3] += sign * small;
         moved.move(x, turn);
         difference += sign * moved.header.internal_energy;
@@ -151,7 +152,7 @@ TEST(Beam2, RigidRotationOfAStrainedBeamTurnsItsForcesAndNothingElse) {
     const Eigen::Matrix<double, 12, 1> force = beam.all();
     const double energy = beam.header.internal_energy;
     const double step = beam.increment.stable_step;
-    const Vector3d turn = random.vector(1.5);  // up to 2.6 radians in a step
+    const Eigen::Vector3d turn = random.vector(1.5);  // up to 2.6 radians in a step
     Quaterniond total = Quaterniond::Identity();
     for (int n = 0; n < 50; ++n) {
       total = turn_by(turn) * total;
@@ -169,9 +170,9 @@ TEST(Beam2, BendingToAnyAngleNeedsTheSameMomentPerAngle) {
   // An arc of 150 degrees in one element: the moment is E I angle / L.
   const double angle = 150 * M_PI / 180;
   SingleBeam<> beam(beam_of(RectangleSection{.width = 0.1, .height = 0.2}, {0, 0, 1}), steel(),
-                    {Vector3d(0, 0, 0), Vector3d(1, 0, 0)});
+                    {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0)});
   for (int k = 0; k < 10; ++k)
-    beam.move(beam.position, {Vector3d(0, -angle / 20, 0), Vector3d(0, angle / 20, 0)});
+    beam.move(beam.position, {Eigen::Vector3d(0, -angle / 20, 0), Eigen::Vector3d(0, angle / 20, 0)});
   const double moment = 200e9 * 0.1 * std::pow(0.2, 3) / 12 * angle;
   EXPECT_NEAR(beam.moment(1).y() / moment, 1, 1e-12);
   EXPECT_NEAR(beam.moment(0).y() / moment, -1, 1e-12);
@@ -182,8 +183,8 @@ TEST(Beam2, StableStepIsThatOfItsHighestFrequency) {
   for (const BeamSection& section : sections())
     for (const double length : {0.02, 0.1, 0.5, 2.0, 50.0}) {
       const Beam2 element = beam_of(section, {0, 0, 1});
-      SingleBeam<> beam(element, steel(), {Vector3d::Zero(), Vector3d(length, 0, 0)});
-      beam.move(beam.position, {Vector3d::Zero(), Vector3d::Zero()});
+      SingleBeam<> beam(element, steel(), {Eigen::Vector3d::Zero(), Eigen::Vector3d(length, 0, 0)});
+      beam.move(beam.position, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
       Matrix12 k = timoshenko(*element.fibres, length, 200e9, 200e9 / 2.6);
       Eigen::Matrix<double, 12, 1> scale;
       scale.head<6>().setConstant(1 / std::sqrt(beam.mass.mass));
@@ -216,34 +217,37 @@ TEST(Beam2, StrainedAndShortenedBeamsKeepASoundStep) {
 
 TEST(Beam2, MassAndInertiaAreThoseOfARod) {
   const SingleBeam<> beam(beam_of(CircleSection{.radius = 0.1}, {0, 0, 1}), steel(),
-                          {Vector3d::Zero(), Vector3d(2, 0, 0)});
+                          {Eigen::Vector3d::Zero(), Eigen::Vector3d(2, 0, 0)});
   EXPECT_NEAR(2 * beam.mass.mass, 7850 * M_PI * 0.01 * 2, 1e-9);
   EXPECT_NEAR(2 * beam.mass.rotational_inertia, 7850 * M_PI * 1e-4 / 2 * 2, 1e-12);
 }
 
 TEST(Beam2, WhatFoldsOntoItselfOrHasNoLengthIsBroken) {
   SingleBeam<> beam(beam_of(CircleSection{.radius = 0.1}, {0, 0, 1}), steel(),
-                    {Vector3d::Zero(), Vector3d(1, 0, 0)});
+                    {Eigen::Vector3d::Zero(), Eigen::Vector3d(1, 0, 0)});
   SingleBeam<> folded = beam;
-  folded.move({Vector3d::Zero(), Vector3d(-1, 0, 0)}, {Vector3d::Zero(), Vector3d::Zero()});
+  folded.move({Eigen::Vector3d::Zero(), Eigen::Vector3d(-1, 0, 0)},
+              {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   EXPECT_EQ(folded.increment.stable_step, 0);
   SingleBeam<> collapsed = beam;
-  collapsed.move({Vector3d::Zero(), Vector3d::Zero()}, {Vector3d::Zero(), Vector3d::Zero()});
+  collapsed.move({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()},
+                 {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   EXPECT_EQ(collapsed.increment.stable_step, 0);
   SingleBeam<> twisted = beam;
-  for (int k = 0; k < 4; ++k) twisted.move(beam.position, {Vector3d(-0.5, 0, 0), Vector3d(0.5, 0, 0)});
+  for (int k = 0; k < 4; ++k)
+    twisted.move(beam.position, {Eigen::Vector3d(-0.5, 0, 0), Eigen::Vector3d(0.5, 0, 0)});
   EXPECT_EQ(twisted.increment.stable_step, 0);
   SingleBeam<> along(beam_of(CircleSection{.radius = 0.1}, {1, 0, 0}), steel(),
-                     {Vector3d::Zero(), Vector3d(1, 0, 0)});
+                     {Eigen::Vector3d::Zero(), Eigen::Vector3d(1, 0, 0)});
   EXPECT_EQ(along.mass.mass, 0);
 }
 
 TEST(Beam2, SampleGivesTheMeanStressOnGlobalAxes) {
   const Quaterniond turn = Random().turn();
-  const Vector3d x = turn * Vector3d::UnitX();
-  SingleBeam<> beam(beam_of(CircleSection{.radius = 0.1}, turn * Vector3d::UnitZ()), steel(),
-                    {Vector3d::Zero(), x});
-  beam.move({Vector3d::Zero(), 1.001 * x}, {Vector3d::Zero(), Vector3d::Zero()});
+  const Eigen::Vector3d x = turn * Eigen::Vector3d::UnitX();
+  SingleBeam<> beam(beam_of(CircleSection{.radius = 0.1}, turn * Eigen::Vector3d::UnitZ()), steel(),
+                    {Eigen::Vector3d::Zero(), x});
+  beam.move({Eigen::Vector3d::Zero(), 1.001 * x}, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()});
   const ElementSample sample = beam.sample();
   const double stress = 200e9 * std::log(1.001);
   EXPECT_NEAR(sample.stress.xx, stress * x[0] * x[0], 1e-12 * stress);

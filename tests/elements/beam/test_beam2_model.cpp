@@ -6,8 +6,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 Beam2 strip(double width, double height) {
   return beam_of(RectangleSection{.width = width, .height = height}, {0, 0, 1});
 }
@@ -51,7 +49,7 @@ double timoshenko_cantilever(double area, double moment, double factor, const El
 }
 
 double cantilever_frequency(double height, int elements) {
-  BeamModel model(origin, Vector3d(1, 0, 0), elements, strip(height, height), steel());
+  BeamModel model(origin, Eigen::Vector3d(1, 0, 0), elements, strip(height, height), steel());
   model.clamp(0);
   for (int n = 0; n <= elements; ++n) {
     const double b = 1.875104068711961;
@@ -80,11 +78,11 @@ TEST(Beam2Vibration, RodTwistsAndStretchesWithItsWaveSpeeds) {
   const Elastic law = steel();
   for (const bool twisting : {false, true}) {
     constexpr int elements = 20;
-    BeamModel model(origin, Vector3d(0, 0, 2), elements, beam_of(CircleSection{.radius = 0.05}, {1, 0, 0}),
-                    law);
+    BeamModel model(origin, Eigen::Vector3d(0, 0, 2), elements,
+                    beam_of(CircleSection{.radius = 0.05}, {1, 0, 0}), law);
     model.clamp(0);
     for (int n = 0; n <= elements; ++n) {
-      const Vector3d v(0, 0, 1e-6 * std::sin(0.5 * M_PI * n / elements));
+      const Eigen::Vector3d v(0, 0, 1e-6 * std::sin(0.5 * M_PI * n / elements));
       twisting ? model.set_angular_velocity(n, v) : model.set_velocity(n, v);
     }
     const double modulus = twisting ? law.elastic().shear() : law.youngs_modulus;
@@ -144,7 +142,7 @@ TEST(Beam2Statics, CantileverUnderALargeForceTakesTheShapeOfTheElastica) {
   // E 1.2e6, 10 x 1 x 0.1, P = 4: P L^2 / (E I) = 4. Published: tip 6.698, shortening 3.286.
   const Elastic law{.density = 1e-3, .youngs_modulus = 1.2e6, .poissons_ratio = 0};
   constexpr int elements = 20;
-  BeamModel model(origin, Vector3d(10, 0, 0), elements, strip(1, 0.1), law);
+  BeamModel model(origin, Eigen::Vector3d(10, 0, 0), elements, strip(1, 0.1), law);
   model.clamp(0);
   model.load(elements, {0, 0, 4}, origin);
   const double frequency = 1.8751 * 1.8751 / 100 * std::sqrt(100 / (1e-3 * 0.1));
@@ -152,7 +150,7 @@ TEST(Beam2Statics, CantileverUnderALargeForceTakesTheShapeOfTheElastica) {
   const auto [along, across] = elastica(4);
   EXPECT_NEAR(10 * across, 6.698, 0.01);
   EXPECT_NEAR(10 - 10 * along, 3.286, 0.01);
-  const Vector3d tip = model.position(elements);
+  const Eigen::Vector3d tip = model.position(elements);
   EXPECT_NEAR(tip.z() / (10 * across), 1, 2e-3);
   EXPECT_NEAR((10 - tip.x()) / (10 - 10 * along), 1, 5e-3);
   EXPECT_LT(model.velocity(elements).norm(), 1e-6 * std::sqrt(1.2e9));
@@ -163,7 +161,7 @@ TEST(Beam2Statics, EndMomentRollsACantileverUpToAFullCircle) {
   const Elastic law{.density = 1e-3, .youngs_modulus = 1.2e6, .poissons_ratio = 0};
   constexpr int elements = 12;
   const double length = 12;
-  BeamModel model(origin, Vector3d(length, 0, 0), elements, strip(1, 0.1), law);
+  BeamModel model(origin, Eigen::Vector3d(length, 0, 0), elements, strip(1, 0.1), law);
   model.clamp(0);
   const double moment = 2 * M_PI * 100 / length;
   const double frequency = 1.8751 * 1.8751 / 144 * std::sqrt(100 / (1e-3 * 0.1));
@@ -186,16 +184,16 @@ TEST(Beam2Statics, EndMomentRollsACantileverUpToAFullCircle) {
 /// over a turn, and of angular momentum over a number of turns, relative.
 std::array<double, 2> drift_of_a_free_spin(int turns) {
   constexpr int elements = 4;
-  BeamModel model(Vector3d(-1, 0.1, 0.2), Vector3d(1, -0.2, 0.1), elements,
+  BeamModel model(Eigen::Vector3d(-1, 0.1, 0.2), Eigen::Vector3d(1, -0.2, 0.1), elements,
                   beam_of(RectangleSection{.width = 0.1, .height = 0.2}, {0, 0, 1}), steel());
   constexpr int steps_a_turn = 320;
   const double step = 0.8 * model.stable_step();
-  const Vector3d spin = 2 * M_PI / (steps_a_turn * step) * Vector3d(0.1, 0.2, 1).normalized();
+  const Eigen::Vector3d spin = 2 * M_PI / (steps_a_turn * step) * Eigen::Vector3d(0.1, 0.2, 1).normalized();
   for (int n = 0; n <= elements; ++n) {
     model.set_velocity(n, spin.cross(model.position(n)));
     model.set_angular_velocity(n, spin);
   }
-  const Vector3d start = model.angular_momentum();
+  const Eigen::Vector3d start = model.angular_momentum();
   double first = 0;
   std::array<double, 2> largest{};
   for (int turn = 0; turn < turns; ++turn) {
@@ -229,7 +227,7 @@ TEST(Beam2Dynamics, IsComputedInDoubleWhateverThePrecision) {
   double tip[2];
   for (const Precision precision : {Precision::double_precision, Precision::single_precision}) {
     constexpr int elements = 10;
-    BeamModel model(origin, Vector3d(1, 0, 0), elements, strip(0.05, 0.05), steel(), precision);
+    BeamModel model(origin, Eigen::Vector3d(1, 0, 0), elements, strip(0.05, 0.05), steel(), precision);
     model.clamp(0);
     model.load(elements, {0, 0, 1e5}, origin);
     const double step = 0.9e-5;
@@ -243,7 +241,7 @@ TEST(Beam2Dynamics, IsComputedInDoubleWhateverThePrecision) {
 
 TEST(Beam2, LanesDoWhatPlainNumbersDo) {
   constexpr int elements = 11;  // more than a pack, and a part of one
-  BeamModel model(origin, Vector3d(1, 0.5, 0.2), elements, strip(0.05, 0.1), steel());
+  BeamModel model(origin, Eigen::Vector3d(1, 0.5, 0.2), elements, strip(0.05, 0.1), steel());
   for (int n = 0; n <= elements; ++n) {
     model.set_velocity(n, {std::sin(3.0 * n), std::cos(2.0 * n), std::sin(n * n)});
     model.set_angular_velocity(n, {40 * std::sin(1.0 * n), 50 * std::cos(5.0 * n), 30 * std::sin(7.0 * n)});
@@ -254,7 +252,7 @@ TEST(Beam2, LanesDoWhatPlainNumbersDo) {
   const double step = 0.5 * model.stable_step();
   for (int k = 0; k < 5; ++k) {
     model.advance(step);
-    std::vector<Vector3d> force(elements + 1, origin), moment(elements + 1, origin);
+    std::vector<Eigen::Vector3d> force(elements + 1, origin), moment(elements + 1, origin);
     for (int e = 0; e < elements; ++e) {
       SingleBeam<>& beam = single[index(e)];
       beam.move({model.position(e), model.position(e + 1)},

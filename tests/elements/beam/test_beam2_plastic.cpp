@@ -7,8 +7,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double yield = 300e6;
 
 ElasticPlastic perfectly_plastic() {
@@ -17,18 +15,18 @@ ElasticPlastic perfectly_plastic() {
 
 SingleBeam<IsotropicElasticPlastic> plastic_beam(const BeamSection& section) {
   return {beam_of(section, {0, 0, 1}), IsotropicElasticPlastic{perfectly_plastic()},
-          Pair{origin, Vector3d(1, 0, 0)}};
+          Pair{origin, Eigen::Vector3d(1, 0, 0)}};
 }
 
 /// Both ends turned apart, step by step, by `turn` in all.
-void turn_apart(SingleBeam<IsotropicElasticPlastic>& beam, const Vector3d& turn) {
+void turn_apart(SingleBeam<IsotropicElasticPlastic>& beam, const Eigen::Vector3d& turn) {
   constexpr int steps = 400;
   for (int k = 0; k < steps; ++k) beam.move(beam.position, {-0.5 / steps * turn, 0.5 / steps * turn});
 }
 
 TEST(Beam2Plastic, TensionYieldsAtTheYieldStressTimesTheShrunkArea) {
   auto beam = plastic_beam(CircleSection{.radius = 0.1});
-  for (int k = 1; k <= 100; ++k) beam.move({origin, Vector3d(1 + 1e-3 * k, 0, 0)}, {origin, origin});
+  for (int k = 1; k <= 100; ++k) beam.move({origin, Eigen::Vector3d(1 + 1e-3 * k, 0, 0)}, {origin, origin});
   EXPECT_NEAR(beam.force(1).x() / (yield * M_PI * 0.01 / 1.1), 1, 1e-12);
   EXPECT_NEAR(beam.plastic_strain(), std::log(1.1) - yield / 200e9, 1e-12);
 }
@@ -68,7 +66,7 @@ TEST(Beam2Plastic, TwistEndsAtTheFullyPlasticTorque) {
 /// end, over what it takes for hinges at its ends (and middle).
 double collapse_force(bool both_ends, int elements) {
   const double width = 0.05, height = 0.1;
-  BeamModel model(origin, Vector3d(1, 0, 0), elements,
+  BeamModel model(origin, Eigen::Vector3d(1, 0, 0), elements,
                   beam_of(RectangleSection{.width = width, .height = height}, {0, 0, 1}),
                   perfectly_plastic());
   model.clamp(0);
@@ -107,7 +105,7 @@ TEST(Beam2Plastic, OneSectionThatHasFailedIsEnough) {
   law.failure->opening_strain = 0.01;
   law.failure->failed_points = 0.5;
   // A short cantilever: the Gauss point at its root is bent far more than the other.
-  BeamModel model(origin, Vector3d(1, 0, 0), 1,
+  BeamModel model(origin, Eigen::Vector3d(1, 0, 0), 1,
                   beam_of(RectangleSection{.width = 0.05, .height = 0.05}, {0, 0, 1}), law);
   model.clamp(0);
   model.drive(1, 2, 20.0);

@@ -9,9 +9,7 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
-const Vector3d direction = Vector3d(1, 2, -2) / 3;
+const Eigen::Vector3d direction = Eigen::Vector3d(1, 2, -2) / 3;
 constexpr double bar_area = 1e-4;
 
 Beam2 bar(BeamFormulation formulation) {
@@ -44,7 +42,7 @@ TEST(Truss, CarriesAxialForceAloneAndHasTheStepOfAWave) {
                 1e-3);
   }
   // Turned about, it bears the same; spins of its ends are nothing to it.
-  truss.move({origin, Vector3d(0, 1.5, 0)}, {Vector3d(1, 2, 3), origin});
+  truss.move({origin, Eigen::Vector3d(0, 1.5, 0)}, {Eigen::Vector3d(1, 2, 3), origin});
   EXPECT_NEAR(truss.force(1).y(), 200e9 * std::log(0.75) * bar_area * 2 / 1.5, 1e-3);
   const ElementSample sample = truss.sample();
   EXPECT_NEAR(sample.stress.yy, 200e9 * std::log(0.75), 1);
@@ -101,7 +99,7 @@ TEST(Cable, UnloadsToNothingHoweverItsMaterialFails) {
 
 TEST(Cable, WhipsWithoutEverPushing) {
   constexpr int elements = 12;
-  BeamModel model(origin, Vector3d(1, 0, 0), elements, bar(BeamFormulation::cable), steel());
+  BeamModel model(origin, Eigen::Vector3d(1, 0, 0), elements, bar(BeamFormulation::cable), steel());
   for (int component = 0; component < 3; ++component) model.fix(0, component);
   for (int n = 0; n <= elements; ++n) {
     model.set_velocity(n, {-50.0 * n / elements, 0, 100.0 * n / elements});

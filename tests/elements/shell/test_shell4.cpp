@@ -9,8 +9,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 Shell4 plate(double thickness) {
   Shell4 shell;
   shell.thickness = thickness;
@@ -29,7 +27,7 @@ Points4 difference(const Points4& a, const Points4& b, double over) {
   return y;
 }
 
-Points4 uniform(const Vector3d& w) { return {w, w, w, w}; }
+Points4 uniform(const Eigen::Vector3d& w) { return {w, w, w, w}; }
 
 TEST(ThicknessRules, IntegratePolynomialsExactlyToTheirDegree) {
   for (int count = 1; count <= most_thickness_points; ++count)
@@ -58,8 +56,8 @@ TEST(ThicknessRules, IntegratePolynomialsExactlyToTheirDegree) {
 /// x1 - x0 = step Omega x (x0 + x1) / 2.
 struct RigidTurn {
   Eigen::Matrix3d rotation;
-  Vector3d spin;
-  RigidTurn(const Vector3d& axis, double angle, double step)
+  Eigen::Vector3d spin;
+  RigidTurn(const Eigen::Vector3d& axis, double angle, double step)
       : rotation(Eigen::AngleAxisd(angle, axis).toRotationMatrix()),
         spin(2 * std::tan(angle / 2) / step * axis) {}
 };
@@ -74,9 +72,10 @@ TEST(Shell4, RigidTurnsAndShiftsOfAnySizeStrainNothing) {
     SingleShell<> element(shell, steel(), x0);
     ASSERT_GT(element.mass.mass, 0);
     const double step = 1e-3;
-    const RigidTurn turn(Vector3d(u(random), u(random), u(random)).normalized(), 2.5 * u(random), step);
+    const RigidTurn turn(Eigen::Vector3d(u(random), u(random), u(random)).normalized(), 2.5 * u(random),
+                         step);
     Points4 x1 = mapped(x0, turn.rotation);
-    for (Vector3d& p : x1) p += Vector3d(3, -2, 5);
+    for (Eigen::Vector3d& p : x1) p += Eigen::Vector3d(3, -2, 5);
     element.move(x1, difference(x1, x0, step), uniform(turn.spin), step);
     for (int n = 0; n < 4; ++n) {
       EXPECT_LT(element.force(n).norm(), 1e-13 * 200e9) << "case " << k;
@@ -95,8 +94,8 @@ TEST(Shell4, StressedElementKeepsItsStressOverTenThousandTurns) {
   Points4 v, w, x = x0;
   const double step = 1e-2;
   for (std::size_t n = 0; n < 4; ++n) {
-    v[n] = Vector3d(u(random), u(random), u(random));
-    w[n] = Vector3d(u(random), u(random), u(random));
+    v[n] = Eigen::Vector3d(u(random), u(random), u(random));
+    w[n] = Eigen::Vector3d(u(random), u(random), u(random));
     x[n] += step * v[n];
   }
   element.move(x, v, w, step);
@@ -104,7 +103,7 @@ TEST(Shell4, StressedElementKeepsItsStressOverTenThousandTurns) {
   const auto header = element.header;
   const double size = 200e9 * step;
   const int per_turn = 10;
-  const Vector3d axis = Vector3d(1, 2, -1).normalized();
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -1).normalized();
   const RigidTurn turn(axis, 2 * M_PI / per_turn, step);
   const Points4 start = x;
   for (int k = 1; k <= 10000 * per_turn; ++k) {
@@ -139,13 +138,13 @@ TEST(Shell4, ForcesAndMomentsBalanceAndTheirPowerIsTheWork) {
     Points4 v, w, x = x0;
     const double step = 1e-4;
     for (std::size_t n = 0; n < 4; ++n) {
-      v[n] = Vector3d(u(random), u(random), u(random));
-      w[n] = Vector3d(u(random), u(random), u(random));
+      v[n] = Eigen::Vector3d(u(random), u(random), u(random));
+      w[n] = Eigen::Vector3d(u(random), u(random), u(random));
       x[n] += step * v[n];
     }
     element.move(x, v, w, step);
-    Vector3d force = Vector3d::Zero();
-    Vector3d moment = Vector3d::Zero();
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     double size = 0;
     for (int n = 0; n < 4; ++n) {
       const auto node = index(n);
@@ -172,9 +171,9 @@ double energy_gap(int steps, bool warping_projection, double hourglass_stiffness
   SingleShell<> element(shell, law, x0);
   Points4 velocity, acceleration, spin;
   for (std::size_t n = 0; n < 4; ++n) {
-    velocity[n] = 0.3 * Vector3d(u(random), u(random), u(random));
-    acceleration[n] = 0.3 * Vector3d(u(random), u(random), u(random));
-    spin[n] = bending * Vector3d(u(random), u(random), u(random));
+    velocity[n] = 0.3 * Eigen::Vector3d(u(random), u(random), u(random));
+    acceleration[n] = 0.3 * Eigen::Vector3d(u(random), u(random), u(random));
+    spin[n] = bending * Eigen::Vector3d(u(random), u(random), u(random));
   }
   const double step = 1.0 / steps;
   const auto place = [&](double t) {
@@ -185,8 +184,8 @@ double energy_gap(int steps, bool warping_projection, double hourglass_stiffness
   double work = 0;
   double accounted = 0;
   Points4 before = x0;
-  std::array<Vector3d, 4> old_force = SingleShell<>::none();
-  std::array<Vector3d, 4> old_moment = SingleShell<>::none();
+  std::array<Eigen::Vector3d, 4> old_force = SingleShell<>::none();
+  std::array<Eigen::Vector3d, 4> old_moment = SingleShell<>::none();
   for (int k = 1; k <= steps; ++k) {
     const Points4 x = place(k * step);
     const Points4 v = difference(x, before, step);
@@ -223,7 +222,8 @@ TEST(Shell4, ElementEnergyEqualsNodalWorkToSecondOrderInTheStep) {
 }
 
 TEST(Shell4, EveryModeButRigidOnesAndDrillingIsResisted) {
-  const Points4 x = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1.2, 1, 0), Vector3d(0, 0.9, 0)};
+  const Points4 x = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1.2, 1, 0),
+                     Eigen::Vector3d(0, 0.9, 0)};
   const Eigen::Matrix<double, 24, 24> stiffness = stiffness_of(plate(0.1), steel(), x);
   // 24 less six rigid motions, three drilling spins whose mean vanishes, and the twist of rotations in the
   // plane that no single-point element sees.
@@ -237,10 +237,11 @@ TEST(Shell4, ResistanceToDrillingYieldsAndAccountsForItsWork) {
   Shell4 shell = plate(0.1);
   shell.linear_bulk_viscosity = 0;
   shell.drilling_viscosity = 0;
-  const Points4 x = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1.2, 1, 0), Vector3d(0, 0.9, 0)};
+  const Points4 x = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1.2, 1, 0),
+                     Eigen::Vector3d(0, 0.9, 0)};
   SingleShell<> element(shell, steel(), x);
   Points4 spin = SingleShell<>::none();
-  for (Vector3d& w : spin) w = Vector3d(0, 0, 1);
+  for (Eigen::Vector3d& w : spin) w = Eigen::Vector3d(0, 0, 1);
   const double step = 1e-3;
   double work = 0, accounted = 0, before = 0;
   std::vector<double> moment;
@@ -260,7 +261,7 @@ TEST(Shell4, ResistanceToDrillingYieldsAndAccountsForItsWork) {
   EXPECT_NEAR(moment[4], 5 * moment[0], 1e-9 * moment[4]) << "elastic";
   EXPECT_NEAR(moment[9], 10 * moment[0], 1e-9 * moment[9]);
   EXPECT_EQ(moment[19], moment[10]) << "a hundredth of a radian";
-  for (Vector3d& w : spin) w = -w;
+  for (Eigen::Vector3d& w : spin) w = -w;
   turn(5);
   EXPECT_NEAR(moment[24], 5 * moment[0], 1e-9 * moment[9]) << "back as stiff as before";
   EXPECT_NEAR(work, accounted, 1e-12 * accounted);
@@ -268,7 +269,8 @@ TEST(Shell4, ResistanceToDrillingYieldsAndAccountsForItsWork) {
 
 TEST(Shell4, DampingOfDrillingYieldsWithTheSpringAndAccountsForItsWork) {
   Shell4 shell = plate(0.1);
-  const Points4 x = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1.2, 1, 0), Vector3d(0, 0.9, 0)};
+  const Points4 x = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1.2, 1, 0),
+                     Eigen::Vector3d(0, 0.9, 0)};
   const double step = 1e-6;
   // Moment about the normal and work of a spin that swings, over steps that turn less than what yields, or
   // more.
@@ -278,7 +280,7 @@ TEST(Shell4, DampingOfDrillingYieldsWithTheSpringAndAccountsForItsWork) {
     double most = 0, before = 0;
     for (int k = 0; k < 400; ++k) {
       Points4 w = SingleShell<>::none();
-      for (Vector3d& each : w) each = Vector3d(0, 0, spin * std::cos(0.05 * k));
+      for (Eigen::Vector3d& each : w) each = Eigen::Vector3d(0, 0, spin * std::cos(0.05 * k));
       element.move(x, SingleShell<>::none(), w, step);
       double sum = 0;
       for (int n = 0; n < 4; ++n) sum += element.moment(n).z();

@@ -6,8 +6,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr int first = 5, second = 4;
 /// A step in which nothing moves as far as numbers can tell: increments are linear in velocities.
 constexpr double instant = 1e-30;
@@ -26,7 +24,7 @@ TEST(Shell4Patch, LinearMembraneFieldsGiveUniformStressAndNoInnerForces) {
   const double exx = 1, eyy = -2, exy = 0.7, spin = 0.4;
   const int count = static_cast<int>(model.nodes.size());
   for (int n = 0; n < count; ++n) {
-    const Vector3d x = model.position(n);
+    const Eigen::Vector3d x = model.position(n);
     model.set_velocity(n, {exx * x.x() + (exy - spin) * x.y(), (exy + spin) * x.x() + eyy * x.y(), 0});
     model.set_angular_velocity(n, {0, 0, spin});
   }
@@ -48,7 +46,7 @@ TEST(Shell4Patch, LinearMembraneFieldsGiveUniformStressAndNoInnerForces) {
 /// Deflection w = xx x^2/2 + yy y^2/2 + xy x y with the rotations of a Kirchhoff plate.
 void bend(ShellModel& model, double xx, double yy, double xy) {
   for (int n = 0; n < static_cast<int>(model.nodes.size()); ++n) {
-    const Vector3d x = model.position(n);
+    const Eigen::Vector3d x = model.position(n);
     model.set_velocity(n, {0, 0, 0.5 * (xx * x.x() * x.x() + yy * x.y() * x.y()) + xy * x.x() * x.y()});
     model.set_angular_velocity(n, {xy * x.x() + yy * x.y(), -(xx * x.x() + xy * x.y()), 0});
   }
@@ -60,8 +58,8 @@ TEST(Shell4Patch, ConstantCurvatureGivesItsEnergyAndNoInnerForces) {
   shell.drilling_viscosity = 0;
   shell.thickness = 0.01;  // shear that should not be there would outweigh bending by far
   const double rigidity = 200e9 * std::pow(shell.thickness, 3) / (12 * 0.91);
-  for (const Vector3d& k :
-       {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1), Vector3d(0.3, -0.8, 0.5)}) {
+  for (const Eigen::Vector3d& k : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0),
+                                   Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.3, -0.8, 0.5)}) {
     ShellModel model(rectangle(1, 1, first, second, 0.3), shell, steel());
     const double small = instant;
     bend(model, k[0], k[1], k[2]);
@@ -116,7 +114,7 @@ double plate_frequency(double thickness, double distortion) {
   shell.thickness = thickness;
   ShellModel model(rectangle(1, 1, n, n, distortion), shell, steel());
   for (int k = 0; k < (n + 1) * (n + 1); ++k) {
-    const Vector3d x = model.position(k);
+    const Eigen::Vector3d x = model.position(k);
     const int i = k % (n + 1), j = k / (n + 1);
     if (i == 0 || i == n || j == 0 || j == n) model.fix(k, 2);
     if (i == 0 || i == n) model.fix(k, 3);

@@ -7,8 +7,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 ElasticPlastic soft_steel() {
   return {.density = 7850, .youngs_modulus = 200e9, .poissons_ratio = 0.3, .yield_stress = 300e6};
 }
@@ -17,17 +15,18 @@ ElasticPlastic soft_steel() {
 ShellMesh warped_sheet(double size) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> u(-0.02, 0.02);
-  return mapped_grid(7, 5, [&](double s, double t) -> Vector3d {
-    return size * Vector3d(s + u(random), t + u(random), 0.1 * std::sin(5 * s) * std::cos(4 * t) + u(random));
+  return mapped_grid(7, 5, [&](double s, double t) -> Eigen::Vector3d {
+    return size *
+           Eigen::Vector3d(s + u(random), t + u(random), 0.1 * std::sin(5 * s) * std::cos(4 * t) + u(random));
   });
 }
 
 void set_crumpling_velocity(ShellModel& model, double size, double speed) {
   for (int n = 0; n < static_cast<int>(model.nodes.size()); ++n) {
-    const Vector3d x = model.position(n) / size;
+    const Eigen::Vector3d x = model.position(n) / size;
     model.set_velocity(
-        n, speed * Vector3d(std::sin(3 * x.y()), -std::cos(2 * x.x()), std::sin(6 * x.x()) * x.y()));
-    model.set_angular_velocity(n, speed / size * Vector3d(x.y(), -2 * x.x(), 0.1));
+        n, speed * Eigen::Vector3d(std::sin(3 * x.y()), -std::cos(2 * x.x()), std::sin(6 * x.x()) * x.y()));
+    model.set_angular_velocity(n, speed / size * Eigen::Vector3d(x.y(), -2 * x.x(), 0.1));
   }
 }
 
@@ -50,10 +49,10 @@ TEST(Shell4Properties, MomentumIsConservedAndEnergyIsAccountedFor) {
   ShellModel model(warped_sheet(1), sheet_element(), soft_steel());
   set_crumpling_velocity(model, 1, 40);
   const auto momenta = [&] {
-    std::array<Vector3d, 2> sum = {Vector3d::Zero(), Vector3d::Zero()};
+    std::array<Eigen::Vector3d, 2> sum = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
     for (int n = 0; n < static_cast<int>(model.nodes.size()); ++n) {
       const auto i = index(n);
-      const Vector3d p = model.nodes.mass[i] * model.velocity(n);
+      const Eigen::Vector3d p = model.nodes.mass[i] * model.velocity(n);
       sum[0] += p;
       sum[1] += model.position(n).cross(p) + model.nodes.rotational_inertia[i] * model.angular_velocity(n);
     }
@@ -101,7 +100,7 @@ TEST(Shell4Properties, LanesGiveWhatOneElementGives) {
   set_crumpling_velocity(model, 1, 40);
   const ShellMesh mesh = warped_sheet(1);
   const double step = 1e-5;
-  std::vector<Vector3d> force(mesh.point.size(), Vector3d::Zero()), moment = force;
+  std::vector<Eigen::Vector3d> force(mesh.point.size(), Eigen::Vector3d::Zero()), moment = force;
   for (const auto& nodes : mesh.element) {
     Points4 x, v, w;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -125,14 +124,14 @@ TEST(Shell4Properties, LanesGiveWhatOneElementGives) {
 
 /// Forces and moments of one yielding element after three steps, its nodes listed from `shift` on and the
 /// scene mirrored in the plane x = 0 if asked for.
-std::array<std::array<Vector3d, 4>, 2> after_three_steps(int shift, bool mirror) {
+std::array<std::array<Eigen::Vector3d, 4>, 2> after_three_steps(int shift, bool mirror) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> u(-1, 1);
   Points4 x = random_quadrilateral(random, 1, 1.3, 0.2, 0.1);
   Points4 v, w;
   for (std::size_t n = 0; n < 4; ++n) {
-    v[n] = 5 * Vector3d(u(random), u(random), u(random));
-    w[n] = 9 * Vector3d(u(random), u(random), u(random));
+    v[n] = 5 * Eigen::Vector3d(u(random), u(random), u(random));
+    w[n] = 9 * Eigen::Vector3d(u(random), u(random), u(random));
     if (mirror) {  // angular velocities are axial vectors
       x[n].x() = -x[n].x();
       v[n].x() = -v[n].x();
@@ -158,7 +157,7 @@ std::array<std::array<Vector3d, 4>, 2> after_three_steps(int shift, bool mirror)
     element.move(listed(x), listed(v), listed(w), step);
   }
   EXPECT_GT(element.plastic_strain(), 1e-4);
-  std::array<std::array<Vector3d, 4>, 2> out;
+  std::array<std::array<Eigen::Vector3d, 4>, 2> out;
   for (int n = 0; n < 4; ++n) {
     const auto from = index(mirror ? (4 - n + shift) % 4 : (n + shift) % 4);
     out[0][from] = element.force(n);
@@ -182,7 +181,7 @@ TEST(Shell4Properties, MirroredSceneGivesMirroredForces) {
   const auto reference = after_three_steps(0, false);
   const auto mirrored = after_three_steps(0, true);
   for (std::size_t n = 0; n < 4; ++n) {
-    Vector3d force = mirrored[0][n], moment = mirrored[1][n];
+    Eigen::Vector3d force = mirrored[0][n], moment = mirrored[1][n];
     force.x() = -force.x();
     moment.y() = -moment.y();
     moment.z() = -moment.z();
@@ -205,7 +204,8 @@ void drive(SingleShell<Law>& element, const Points4& start, Points4& x, const Ei
 }
 
 TEST(Shell4Properties, SimpleShearFollowsGreenAndNaghdi) {
-  const Points4 start = {Vector3d(0, 0, 0), Vector3d(2, 0, 0), Vector3d(2, 1, 0), Vector3d(0, 1, 0)};
+  const Points4 start = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(2, 0, 0), Eigen::Vector3d(2, 1, 0),
+                         Eigen::Vector3d(0, 1, 0)};
   Points4 x = start;
   Shell4 shell = sheet_element();
   shell.linear_bulk_viscosity = 0;
@@ -234,7 +234,8 @@ TEST(Shell4Properties, SimpleShearFollowsGreenAndNaghdi) {
 }
 
 TEST(Shell4Properties, TensionThinsThePlateAsMuchAsItNarrows) {
-  const Points4 start = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 1, 0)};
+  const Points4 start = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 1, 0),
+                         Eigen::Vector3d(0, 1, 0)};
   Points4 x = start;
   SingleShell<ElasticPlastic> element(sheet_element(), soft_steel(), start);
   double width = 1;
@@ -245,7 +246,7 @@ TEST(Shell4Properties, TensionThinsThePlateAsMuchAsItNarrows) {
     const auto trial = [&](double w) {
       SingleShell<ElasticPlastic> copy = element;
       Points4 y = x;
-      drive(copy, start, y, Vector3d(length, w, 1).asDiagonal(), 1e-3);
+      drive(copy, start, y, Eigen::Vector3d(length, w, 1).asDiagonal(), 1e-3);
       return copy.sample().stress.yy;
     };
     double a = width, b = width * 0.9995;
@@ -258,7 +259,7 @@ TEST(Shell4Properties, TensionThinsThePlateAsMuchAsItNarrows) {
       fb = trial(b);
     }
     width = b;
-    drive(element, start, x, Vector3d(length, width, 1).asDiagonal(), 1e-3);
+    drive(element, start, x, Eigen::Vector3d(length, width, 1).asDiagonal(), 1e-3);
   }
   const double thinning = element.header.thickness / 0.01;
   EXPECT_NEAR(thinning, width, 1e-5);
@@ -277,9 +278,10 @@ TEST(Shell4Properties, FullyPlasticMomentIsThatOfTheRule) {
     shell.thickness_update = false;
     ElasticPlastic law = soft_steel();
     law.poissons_ratio = 0;
-    const Points4 x = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1, 0), Vector3d(0, 1, 0)};
+    const Points4 x = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 1, 0),
+                       Eigen::Vector3d(0, 1, 0)};
     SingleShell<ElasticPlastic> element(shell, law, x);
-    const Vector3d turn(0, 0.5, 0);
+    const Eigen::Vector3d turn(0, 0.5, 0);
     for (int k = 0; k < 400; ++k)
       element.move(x, SingleShell<>::none(), {-1.0 * turn, turn, turn, -1.0 * turn}, 0.01);
     const double moment = element.moment(1).y() + element.moment(2).y();

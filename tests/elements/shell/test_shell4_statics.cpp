@@ -7,8 +7,6 @@
 namespace brio {
 namespace {
 
-using Eigen::Vector3d;
-
 Shell4 element(double thickness, bool warping_projection, double drilling = 0.01) {
   Shell4 shell;
   shell.thickness = thickness;
@@ -23,7 +21,7 @@ double twisted_beam(int along, int across, double thickness, bool in_plane, bool
   const ShellMesh mesh = mapped_grid(along, across, [](double s, double t) {
     const double angle = 0.5 * M_PI * s;
     const double y = 1.1 * (t - 0.5);
-    return Vector3d(12 * s, y * std::cos(angle), y * std::sin(angle));
+    return Eigen::Vector3d(12 * s, y * std::cos(angle), y * std::sin(angle));
   });
   ShellStatics statics(mesh, element(thickness, warping_projection, drilling),
                        {.density = 1, .youngs_modulus = 29e6, .poissons_ratio = 0.22});
@@ -42,8 +40,8 @@ double hemisphere(int n, double hole_degrees, bool warping_projection) {
   const ShellMesh mesh = mapped_grid(n, n, [&](double s, double t) {
     const double phi = 0.5 * M_PI * s;
     const double theta = top * t;
-    return Vector3d(10 * std::cos(theta) * std::cos(phi), 10 * std::cos(theta) * std::sin(phi),
-                    10 * std::sin(theta));
+    return Eigen::Vector3d(10 * std::cos(theta) * std::cos(phi), 10 * std::cos(theta) * std::sin(phi),
+                           10 * std::sin(theta));
   });
   ShellStatics statics(mesh, element(0.04, warping_projection),
                        {.density = 1, .youngs_modulus = 6.825e7, .poissons_ratio = 0.3});
@@ -62,7 +60,8 @@ double hemisphere(int n, double hole_degrees, bool warping_projection) {
 double pinched_cylinder(int n, double drilling) {
   const double radius = 100, length = 200, thickness = 1, modulus = 3e7;
   const ShellMesh mesh = mapped_grid(n, n, [&](double s, double t) {
-    return Vector3d(radius * std::sin(0.5 * M_PI * s), 0.5 * length * t, radius * std::cos(0.5 * M_PI * s));
+    return Eigen::Vector3d(radius * std::sin(0.5 * M_PI * s), 0.5 * length * t,
+                           radius * std::cos(0.5 * M_PI * s));
   });
   ShellStatics statics(mesh, element(thickness, false, drilling),
                        {.density = 1, .youngs_modulus = modulus, .poissons_ratio = 0.3});
@@ -115,7 +114,7 @@ TEST(Shell4Statics, PinchedCylinder) {
 /// Torsional stiffness of a strip of 10 x 1 x 0.1 over that of Saint-Venant.
 double strip_torsion(int along, int across, double hourglass_stiffness = 0.05) {
   const ShellMesh mesh =
-      mapped_grid(along, across, [](double s, double t) { return Vector3d(10 * s, t - 0.5, 0); });
+      mapped_grid(along, across, [](double s, double t) { return Eigen::Vector3d(10 * s, t - 0.5, 0); });
   Shell4 shell = element(0.1, false, 0.001);
   shell.hourglass_stiffness = hourglass_stiffness;
   ShellStatics statics(mesh, shell, {.density = 1, .youngs_modulus = 1.2e6, .poissons_ratio = 0});

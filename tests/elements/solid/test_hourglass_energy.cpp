@@ -108,19 +108,19 @@ double stored_in(const Shell4Kernel::Header<double, Elastic>& header) {
 /// \param spin of all nodes about the normal, over their turning about the axes in the plane
 EnergyAccount shell_balance(const Cycle& cycle, double squeeze, double coefficient, int steps,
                             double spin = 0.02) {
-  using Eigen::Vector3d;
   Shell4 shell;
   shell.thickness = 0.1;
   shell.hourglass_stiffness = coefficient;
   shell.linear_bulk_viscosity = shell.drilling_viscosity = 0;
-  const Points4 start = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(1, 1.2, 0), Vector3d(0, 1.2, 0)};
+  const Points4 start = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 1.2, 0),
+                         Eigen::Vector3d(0, 1.2, 0)};
   SingleShell<> element(shell, elastic_law, start);
   const auto place = [&](double t) {
     const Eigen::DiagonalMatrix<double, 3> shape(1 - squeeze * cycle.squeeze(t), 1, 1);
     Points4 x;
     for (std::size_t n = 0; n < 4; ++n) {
       const double sign = n % 2 == 0 ? 1 : -1;
-      x[n] = shape * (start[n] + 0.03 * cycle.hourglass(t) * sign * Vector3d(0.8, -0.6, 0.5));
+      x[n] = shape * (start[n] + 0.03 * cycle.hourglass(t) * sign * Eigen::Vector3d(0.8, -0.6, 0.5));
     }
     return x;
   };
@@ -133,7 +133,7 @@ EnergyAccount shell_balance(const Cycle& cycle, double squeeze, double coefficie
     Points4 v, w;
     for (std::size_t n = 0; n < 4; ++n) {
       v[n] = (x[n] - before[n]) / step;
-      w[n] = (n % 2 == 0 ? turn : -turn) * Vector3d(1, 0.7, 0);
+      w[n] = (n % 2 == 0 ? turn : -turn) * Eigen::Vector3d(1, 0.7, 0);
       w[n].z() = spin * turn;
     }
     element.move(x, v, w, step);

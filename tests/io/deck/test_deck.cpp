@@ -29,13 +29,13 @@ TEST(Deck, SaysWhatTheTextSays) {
   const auto& tube = std::get<TubeMesh>(deck.parts[1].mesh);
   EXPECT_EQ(tube.outer_radius, 2);
   EXPECT_EQ(deck.parts[1].placement.rotate->degrees, 90);
-  EXPECT_EQ(deck.parts[1].placement.translate, (Vector{0, 0, 19}));
+  EXPECT_EQ(deck.parts[1].placement.translate, (Vector3d{0, 0, 19}));
   EXPECT_EQ(name_of(deck.parts[1].element), "hex8");
   ASSERT_EQ(deck.initial_conditions.size(), 2U);
   EXPECT_EQ(deck.initial_conditions[0].where.set, "left");
-  EXPECT_EQ(deck.initial_conditions[0].velocity, (Vector{0, 0, -5000}));
+  EXPECT_EQ(deck.initial_conditions[0].velocity, (Vector3d{0, 0, -5000}));
   EXPECT_EQ(deck.initial_conditions[1].where.set, "right.top");
-  EXPECT_EQ(deck.initial_conditions[1].spin->angular_velocity, (Vector{0, 0, 1}));
+  EXPECT_EQ(deck.initial_conditions[1].spin->angular_velocity, (Vector3d{0, 0, 1}));
   EXPECT_EQ(deck.time.end, 3e-3);
   EXPECT_EQ(deck.output.fields_.every, 5e-5);
   EXPECT_EQ(deck.output.history.every, 1e-6);
@@ -83,10 +83,10 @@ TEST(Deck, ConditionsAndLoadsKeepTheirKind) {
   EXPECT_EQ(std::get<PlaneRegion>(driven.where.region).tolerance, 1e-6);
   EXPECT_EQ(driven.where.part, "left");
   EXPECT_DOUBLE_EQ(driven.components[0].curve(5e-4), 2.5);
-  EXPECT_EQ(std::get<RigidWall>(deck.boundary_conditions[2]).point, (Vector{0, 0, -3}));
+  EXPECT_EQ(std::get<RigidWall>(deck.boundary_conditions[2]).point, (Vector3d{0, 0, -3}));
   ASSERT_EQ(deck.loads.size(), 3U);
   EXPECT_EQ(std::get<Gravity>(deck.loads[0]).factor(0.25), 0.25);
-  EXPECT_EQ(std::get<NodalForce>(deck.loads[1]).force, (Vector{1, 2, 3}));
+  EXPECT_EQ(std::get<NodalForce>(deck.loads[1]).force, (Vector3d{1, 2, 3}));
   EXPECT_EQ(std::get<NodalForce>(deck.loads[1]).factor(7), 1);
   EXPECT_EQ(std::get<Pressure>(deck.loads[2]).side_set, "right.inside");
   EXPECT_EQ(std::get<Pressure>(deck.loads[2]).pressure(3), 100);
@@ -100,7 +100,7 @@ TEST(Deck, MotionsAndLoadsAreAlongTheAxesOfCoordinateSystems) {
   const Deck deck = parse_deck(deck_with_systems(), "systems.yaml");
   ASSERT_EQ(deck.coordinate_systems.size(), 2U);
   EXPECT_EQ(deck.coordinate_systems[1].first, "axle");
-  EXPECT_EQ(std::get<CylindricalSystem>(deck.coordinate_systems[1].second).point, (Vector{0, 0, 19}));
+  EXPECT_EQ(std::get<CylindricalSystem>(deck.coordinate_systems[1].second).point, (Vector3d{0, 0, 19}));
   const auto& cut = std::get<PrescribedMotion>(deck.boundary_conditions[3]);
   EXPECT_EQ(cut.name, "cut");
   EXPECT_EQ(cut.system, "axle");
@@ -153,7 +153,7 @@ time: {end: 1}
   EXPECT_EQ(density(deck.materials[1].second), 3);
   EXPECT_EQ(std::get<Elastic>(deck.materials[1].second).youngs_modulus, 2);
   EXPECT_EQ(density(deck.materials[2].second), 5);
-  EXPECT_EQ(std::get<BoxMesh>(deck.parts[1].mesh).size, (Vector{1, 1, 1}));
+  EXPECT_EQ(std::get<BoxMesh>(deck.parts[1].mesh).size, (Vector3d{1, 1, 1}));
   EXPECT_EQ(std::get<BoxMesh>(deck.parts[1].mesh).elements[0], 2);
   EXPECT_EQ(deck.parts[1].material, "a");
   EXPECT_EQ(std::get<BoxMesh>(deck.parts[0].mesh).elements[0], 1);

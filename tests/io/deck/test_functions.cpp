@@ -76,13 +76,13 @@ TEST(Expressions, StandForAnyNumber) {
   text = replaced(text, "elements: [2, 2, 4]", "elements: [2, \"n\", \"2*n\"]");
   text = replaced(text, "end: 3e-3", "end: \"6e-3/n\"");
   const Deck deck = parse_deck(text, "a.yaml");
-  EXPECT_EQ(deck.initial_conditions[0].velocity, (Vector{0, -2500, -10000}));
+  EXPECT_EQ(deck.initial_conditions[0].velocity, (Vector3d{0, -2500, -10000}));
   EXPECT_EQ(std::get<BoxMesh>(deck.parts[0].mesh).elements, (std::array<int, 3>{2, 2, 4}));
   EXPECT_EQ(deck.time.end, 3e-3);
   EXPECT_EQ(deck.text, text);
   const Deck faster = parse_deck(text, "a.yaml", {"parameters.v=7000"});
-  EXPECT_EQ(faster.initial_conditions[0].velocity, (Vector{0, -3500, -14000}));
-  EXPECT_EQ(parse_deck(faster.text, "b.yaml").initial_conditions[0].velocity, (Vector{0, -3500, -14000}));
+  EXPECT_EQ(faster.initial_conditions[0].velocity, (Vector3d{0, -3500, -14000}));
+  EXPECT_EQ(parse_deck(faster.text, "b.yaml").initial_conditions[0].velocity, (Vector3d{0, -3500, -14000}));
   EXPECT_EQ(deck_difference(deck.text, faster.text), "parameters.v is '7000', and was '5000'");
 }
 
@@ -251,7 +251,7 @@ TEST(Includes, JoinSectionsAndNameTheirFile) {
   EXPECT_EQ(deck.materials[0].first, "steel");
   EXPECT_EQ(std::get<Elastic>(deck.materials[0].second).density, 7e-4);
   EXPECT_EQ(deck.loads.size(), 4u);
-  EXPECT_EQ(std::get<Gravity>(deck.loads[0]).acceleration, (Vector{1, 0, 0}));
+  EXPECT_EQ(std::get<Gravity>(deck.loads[0]).acceleration, (Vector3d{1, 0, 0}));
   EXPECT_EQ(parse_deck(deck.text, "saved.yaml").materials.size(), 2u);  // without the files
 
   folder.write("shared/materials.yaml", "materials:\n" + replaced(line, "0.3", "0.5"));

@@ -15,33 +15,26 @@ namespace {
 
 using std::numbers::pi;
 
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector cross_product(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double inner(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-std::array<Vector, 8> corners_of(const Mesh& mesh, std::size_t e) {
-  std::array<Vector, 8> corners{};
+std::array<Vector3d, 8> corners_of(const Mesh& mesh, std::size_t e) {
+  std::array<Vector3d, 8> corners{};
   const auto count = index(mesh.nodes_per_element);
   for (std::size_t n = 0; n < count; ++n) corners[n] = mesh.position[index(mesh.connectivity[e * count + n])];
   return corners;
 }
 
 /// Jacobian of the trilinear map at a corner: triple product of the edges that leave it.
-double corner_jacobian(const std::array<Vector, 8>& x, std::size_t corner) {
+double corner_jacobian(const std::array<Vector3d, 8>& x, std::size_t corner) {
   // Neighbours along the three local axes, right-handed.
   static constexpr std::size_t next[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                              {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-  const auto edge = [&](std::size_t i) { return minus(x[next[corner][i]], x[corner]); };
-  return inner(edge(0), cross_product(edge(1), edge(2)));
+  const auto edge = [&](std::size_t i) { return x[next[corner][i]] - x[corner]; };
+  return dot(edge(0), cross(edge(1), edge(2)));
 }
-double scaled_jacobian(const std::array<Vector, 8>& x, std::size_t corner) {
+double scaled_jacobian(const std::array<Vector3d, 8>& x, std::size_t corner) {
   static constexpr std::size_t next[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
                                              {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
   double lengths = 1;
-  for (const std::size_t n : next[corner])
-    lengths *= std::sqrt(inner(minus(x[n], x[corner]), minus(x[n], x[corner])));
+  for (const std::size_t n : next[corner]) lengths *= norm(x[n] - x[corner]);
   return corner_jacobian(x, corner) / lengths;
 }
 
@@ -54,15 +47,14 @@ double smallest_corner_jacobian(const Mesh& mesh) {
 }
 
 /// Area vector of a quadrilateral: half the product of its diagonals.
-Vector area_vector(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
-  const Vector twice = cross_product(minus(c, a), minus(d, b));
-  return {twice[0] / 2, twice[1] / 2, twice[2] / 2};
+Vector3d area_vector(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& d) {
+  return 0.5 * cross(c - a, d - b);
 }
 
-std::array<Vector, 4> corners_of(const Mesh& mesh, const ElementSide& side) {
+std::array<Vector3d, 4> corners_of(const Mesh& mesh, const ElementSide& side) {
   const auto x = corners_of(mesh, index(side.element));
   if (mesh.nodes_per_element == 4) return {x[0], x[1], x[2], x[3]};
-  std::array<Vector, 4> corners{};
+  std::array<Vector3d, 4> corners{};
   for (std::size_t n = 0; n < 4; ++n) corners[n] = x[index(sides_of_hex[index(side.side)][n])];
   return corners;
 }
@@ -72,8 +64,8 @@ double area(const Mesh& mesh, const std::string& set) {
   double sum = 0;
   for (const ElementSide& side : mesh.side_sets.at(set)) {
     const auto [a, b, c, d] = corners_of(mesh, side);
-    const Vector s = area_vector(a, b, c, d);
-    sum += std::sqrt(inner(s, s));
+    const Vector3d s = area_vector(a, b, c, d);
+    sum += norm(s);
   }
   return sum;
 }
@@ -83,9 +75,9 @@ double enclosed_volume(const Mesh& mesh) {
   double volume = 0;
   for (const ElementSide& side : mesh.side_sets.at("all")) {
     const auto [a, b, c, d] = corners_of(mesh, side);
-    const Vector middle{(a[0] + b[0] + c[0] + d[0]) / 4, (a[1] + b[1] + c[1] + d[1]) / 4,
-                        (a[2] + b[2] + c[2] + d[2]) / 4};
-    volume += inner(middle, area_vector(a, b, c, d)) / 3;
+    const Vector3d middle{(a[0] + b[0] + c[0] + d[0]) / 4, (a[1] + b[1] + c[1] + d[1]) / 4,
+                          (a[2] + b[2] + c[2] + d[2]) / 4};
+    volume += dot(middle, area_vector(a, b, c, d)) / 3;
   }
   return volume;
 }
@@ -147,14 +139,14 @@ TEST(GenerateMesh, BoxFillsItsSize) {
 
 TEST(GenerateMesh, SideSetsLookOutwards) {
   const Mesh box = mesh_of(BoxMesh{{1, 2, 3}, {2, 3, 4}});
-  const std::map<std::string, Vector> outwards{{"xmin", {-1, 0, 0}}, {"xmax", {1, 0, 0}},
-                                               {"ymin", {0, -1, 0}}, {"ymax", {0, 1, 0}},
-                                               {"zmin", {0, 0, -1}}, {"zmax", {0, 0, 1}}};
+  const std::map<std::string, Vector3d> outwards{{"xmin", {-1, 0, 0}}, {"xmax", {1, 0, 0}},
+                                                 {"ymin", {0, -1, 0}}, {"ymax", {0, 1, 0}},
+                                                 {"zmin", {0, 0, -1}}, {"zmax", {0, 0, 1}}};
   for (const auto& [name, normal] : outwards)
     for (const ElementSide& side : box.side_sets.at(name)) {
       const auto [a, b, c, d] = corners_of(box, side);
-      const Vector s = area_vector(a, b, c, d);
-      EXPECT_NEAR(inner(s, normal), std::sqrt(inner(s, s)), 1e-14) << name;
+      const Vector3d s = area_vector(a, b, c, d);
+      EXPECT_NEAR(dot(s, normal), norm(s), 1e-14) << name;
     }
 }
 
@@ -183,7 +175,7 @@ TEST(GenerateMesh, ArcOfACylinderBeginsAtTheXAxis) {
   EXPECT_EQ(mesh.node_sets.at("start").size(), 5u);
   for (const int node : mesh.node_sets.at("start")) EXPECT_EQ(mesh.position[index(node)][1], 0);
   for (const int node : mesh.node_sets.at("end")) {
-    const Vector& x = mesh.position[index(node)];
+    const Vector3d& x = mesh.position[index(node)];
     EXPECT_NEAR(x[0], 2 * std::cos(2 * std::numbers::pi / 3), 1e-14);
     EXPECT_NEAR(x[1], 2 * std::sin(2 * std::numbers::pi / 3), 1e-14);
   }
@@ -191,7 +183,7 @@ TEST(GenerateMesh, ArcOfACylinderBeginsAtTheXAxis) {
   EXPECT_EQ(node_set_names(panel), (std::vector<std::string_view>{"all", "bottom", "end", "start", "top"}));
   // As a closed one winds, so that normals point outwards.
   const auto corner = [&](std::size_t k) { return mesh.position[index(mesh.connectivity[k])]; };
-  const Vector a = corner(0), b = corner(1), d = corner(3);
+  const Vector3d a = corner(0), b = corner(1), d = corner(3);
   const double outwards = (b[1] - a[1]) * (d[2] - a[2]) * a[0] - (b[0] - a[0]) * (d[2] - a[2]) * a[1];
   EXPECT_GT(outwards, 0);
 }
@@ -207,10 +199,10 @@ TEST(GenerateMesh, CylinderIsClosedAroundAndOpenAtItsEnds) {
   // The facets of a regular polygon with the radius to its corners.
   EXPECT_NEAR(area(can, "all"), around * 2 * 5.125 * std::sin(pi / around) * 15, 1e-9);
   for (const int n : can.node_sets.at("top")) EXPECT_EQ(can.position[index(n)][2], 15);
-  for (const Vector& x : can.position) EXPECT_NEAR(std::hypot(x[0], x[1]), 5.125, 1e-14);
+  for (const Vector3d& x : can.position) EXPECT_NEAR(std::hypot(x[0], x[1]), 5.125, 1e-14);
   for (const ElementSide& side : can.side_sets.at("all")) {
     const auto [a, b, c, d] = corners_of(can, side);
-    EXPECT_GT(inner(area_vector(a, b, c, d), {a[0] + b[0], a[1] + b[1], 0}), 0) << "looks outwards";
+    EXPECT_GT(dot(area_vector(a, b, c, d), {a[0] + b[0], a[1] + b[1], 0}), 0) << "looks outwards";
   }
 }
 
@@ -228,7 +220,7 @@ TEST(GenerateMesh, TubeIsARing) {
   EXPECT_EQ(tube.node_sets.at("outside").size(), 24U * 11);
   EXPECT_EQ(tube.node_sets.at("bottom").size(), 24U * 4);
   for (const int n : tube.node_sets.at("inside")) {
-    const Vector& x = tube.position[index(n)];
+    const Vector3d& x = tube.position[index(n)];
     EXPECT_NEAR(std::hypot(x[0], x[1]), 5, 1e-14);
   }
 }
@@ -284,8 +276,8 @@ TEST(GenerateMesh, SphereIsFilledWithGoodElements) {
     EXPECT_EQ(sphere.node_sets.at("outside").size(), index(6 * edge * edge + 2));
     EXPECT_GT(smallest_scaled_jacobian(sphere), across == 2 ? 0.67 : 0.68) << across;
     for (const int n : sphere.node_sets.at("outside")) {
-      const Vector& x = sphere.position[index(n)];
-      EXPECT_NEAR(std::sqrt(inner(x, x)), 3, 1e-14);
+      const Vector3d& x = sphere.position[index(n)];
+      EXPECT_NEAR(norm(x), 3, 1e-14);
     }
   }
 }
@@ -301,9 +293,9 @@ TEST(GenerateMesh, SphereTendsToItsVolumeAndInertia) {
       EXPECT_NEAR(last / error, 4, 0.6) << "with the square of the size of the elements";
     }
     last = error;
-    const Eigen::Matrix3d exact = 0.4 * 2 * volume * 9 * Eigen::Matrix3d::Identity();
-    EXPECT_LE((found.inertia - exact).norm(), 3 * error * exact.norm());
-    EXPECT_LE(found.centre.norm(), 1e-12) << "rounding of the sums over thousands of elements";
+    const Tensor<double> exact = 0.4 * 2 * volume * 9 * identity<double>();
+    EXPECT_LE(norm(found.inertia - exact), 3 * error * norm(exact));
+    EXPECT_LE(norm(found.centre), 1e-12) << "rounding of the sums over thousands of elements";
     const MassProperties kept = mass_properties(mesh_of(SphereMesh{3, across, true}), 2, 0);
     EXPECT_NEAR(kept.mass / (2 * volume), 1, 1e-13);
   }
@@ -318,7 +310,7 @@ TEST(GenerateMesh, HollowSphereIsClosedAndLooksOutwards) {
     EXPECT_EQ(euler_characteristic(sphere), 2);
     for (const ElementSide& side : sphere.side_sets.at("all")) {
       const auto [a, b, c, d] = corners_of(sphere, side);
-      EXPECT_GT(inner(area_vector(a, b, c, d), a), 0);
+      EXPECT_GT(dot(area_vector(a, b, c, d), a), 0);
     }
     const double error = 1 - area(sphere, "all") / (4 * pi * 4);
     EXPECT_GT(error, 0);
@@ -344,7 +336,7 @@ TEST(GenerateMesh, WedgeHasTheSectionOfABlade) {
     EXPECT_NEAR(mass_properties(mesh, 1, 0).mass, blade_volume(wedge), 1e-13);
     EXPECT_EQ(euler_characteristic(mesh), 2);
     double lowest = 1, widest = 0;
-    for (const Vector& x : mesh.position) {
+    for (const Vector3d& x : mesh.position) {
       lowest = std::min(lowest, x[2]);
       widest = std::max(widest, x[0]);
       EXPECT_LE(std::abs(x[1]), wedge.length / 2);
@@ -354,7 +346,7 @@ TEST(GenerateMesh, WedgeHasTheSectionOfABlade) {
     EXPECT_EQ(widest, wedge.thickness / 2);
     // The angle between the tip and the shoulder.
     for (const int n : mesh.node_sets.at("xmax")) {
-      const Vector& x = mesh.position[index(n)];
+      const Vector3d& x = mesh.position[index(n)];
       if (x[2] > 0 && x[2] <= wedge.shoulder()) {
         EXPECT_NEAR((x[0] - wedge.tip_width / 2) / x[2], std::tan(wedge.half_angle * pi / 180), 1e-12);
       }
@@ -380,8 +372,8 @@ TEST(GenerateMesh, LineRunsFromStartToEnd) {
   const Mesh mesh = mesh_of(LineMesh{{1, 2, 3}, {2, 0, 3.5}, 3});
   EXPECT_EQ(mesh.nodes_per_element, 2);
   EXPECT_EQ(mesh.connectivity, (std::vector<int>{0, 1, 1, 2, 2, 3}));
-  EXPECT_EQ(mesh.position.front(), (Vector{1, 2, 3}));
-  EXPECT_EQ(mesh.position.back(), (Vector{2, 0, 3.5}));
+  EXPECT_EQ(mesh.position.front(), (Vector3d{1, 2, 3}));
+  EXPECT_EQ(mesh.position.back(), (Vector3d{2, 0, 3.5}));
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_NEAR(3 * (mesh.position[2][i] - mesh.position[1][i]), mesh.position[3][i] - mesh.position[0][i],
                 1e-15);
@@ -416,16 +408,16 @@ TEST(GenerateMesh, NamesOfSetsAreThoseOfTheMesh) {
 
 TEST(Placement, TurnsThenMoves) {
   const Placement placement{Rotation{{0, 0, 2}, 90}, {10, 0, 0}};
-  EXPECT_EQ(place(placement, {1, 0, 5}), (Vector{10, 1, 5}));
+  EXPECT_EQ(place(placement, {1, 0, 5}), (Vector3d{10, 1, 5}));
   const Placement tilted{Rotation{{0, 1, 0}, 10}, {0, 0, 19}};
-  const Vector p = place(tilted, {1, 2, 0});
+  const Vector3d p = place(tilted, {1, 2, 0});
   EXPECT_NEAR(p[0], std::cos(10 * pi / 180), 1e-15);
   EXPECT_EQ(p[1], 2);
   EXPECT_NEAR(p[2], 19 - std::sin(10 * pi / 180), 1e-14);
 }
 
 TEST(Placement, ThirdTurnAboutTheDiagonalSwapsTheAxes) {
-  const Vector p = place({Rotation{{1, 1, 1}, 120}, {}}, {1, 2, 3});
+  const Vector3d p = place({Rotation{{1, 1, 1}, 120}, {}}, {1, 2, 3});
   EXPECT_NEAR(p[0], 3, 1e-14);
   EXPECT_NEAR(p[1], 1, 1e-14);
   EXPECT_NEAR(p[2], 2, 1e-14);

@@ -92,7 +92,7 @@ class GmshText {
     for (const std::int64_t value : values) put(value);
     return *this;
   }
-  GmshText& reals(const std::array<double, 3>& values) {
+  GmshText& reals(const Vector3d& values) {
     for (const double value : values) put(value);
     return *this;
   }

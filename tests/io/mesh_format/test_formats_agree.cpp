@@ -59,7 +59,7 @@ std::vector<double> pushed(const Mesh& mesh) {
   deck.parts = {{"part", BoxMesh{}, {}, element, "steel"}};
   InitialCondition push;
   push.where.set = "part." + mesh.node_sets.begin()->first;
-  push.velocity = Vector{30, 20, 10};
+  push.velocity = Vector3d{30, 20, 10};
   deck.initial_conditions = {push};
   deck.time.end = 1;
   Model model = build(deck, std::span(&mesh, 1));
@@ -107,15 +107,15 @@ INSTANTIATE_TEST_SUITE_P(Meshes, FormatsAgree, testing::Values("box", "bracket",
 TEST(MeshFormats, AgreeWithTheGeneratorOnABox) {
   const Mesh drawn = committed("box");
   const Mesh generated = generate_mesh(BoxMesh{.size = {2, 1, 3}, .elements = {4, 2, 6}}, {});
-  const auto sorted_points = [](std::vector<std::array<double, 3>> points) {
+  const auto sorted_points = [](std::vector<Vector3d> points) {
     for (auto& point : points)
       for (double& x : point) x = std::round(x * 1e9) / 1e9 + 0.0;
-    std::sort(points.begin(), points.end());
+    std::sort(points.begin(), points.end(), std::ranges::lexicographical_compare);
     return points;
   };
   EXPECT_EQ(sorted_points(drawn.position), sorted_points(generated.position));
   const auto centres = [&](const Mesh& mesh) {
-    std::vector<std::array<double, 3>> points;
+    std::vector<Vector3d> points;
     for (std::size_t e = 0; e < mesh.element_count(); ++e) {
       points.emplace_back();
       for (std::size_t k = 0; k < 8; ++k)

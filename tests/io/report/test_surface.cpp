@@ -9,6 +9,7 @@
 
 #include "io/report/surface.hpp"
 #include "src/base/index.hpp"
+#include "src/base/tensor.hpp"
 
 namespace brio {
 namespace {
@@ -79,12 +80,12 @@ TEST(ReportSurface, FollowsDeletionsAsASearchOfEachFrameDoes) {
 TEST(ReportSurface, ShowsOutwardsFromItsCell) {
   const SceneCells cells = cube();
   const auto place = [](std::int64_t node) {
-    return std::array<double, 3>{static_cast<double>(node % (across + 1)),
-                                 static_cast<double>(node / (across + 1) % (across + 1)),
-                                 static_cast<double>(node / (across + 1) / (across + 1))};
+    return Vector3d{static_cast<double>(node % (across + 1)),
+                    static_cast<double>(node / (across + 1) % (across + 1)),
+                    static_cast<double>(node / (across + 1) / (across + 1))};
   };
   for (const Facet& facet : facets_of(cells)) {
-    std::array<std::array<double, 3>, 4> p;
+    std::array<Vector3d, 4> p;
     for (std::size_t k = 0; k < 4; ++k) p[k] = place(facet.node[k]);
     double volume = 0;  // of the facet seen from the middle of the cube
     for (std::size_t i = 0; i < 3; ++i) {

@@ -19,7 +19,7 @@ namespace brio {
 namespace {
 
 namespace fs = std::filesystem;
-using Momenta = std::vector<Vector>;
+using Momenta = std::vector<Vector3d>;
 
 /// Number of the body of each part: parts that share nodes are one.
 std::vector<std::size_t> bodies_of_parts(const Model& model) {
@@ -39,7 +39,7 @@ std::vector<std::size_t> bodies_of_parts(const Model& model) {
 
 /// By body; `size` gets the sum of all |m v|.
 Momenta momenta_of(const Model& model, const std::vector<std::size_t>& body_of, double& size) {
-  Momenta sum(model.parts.size(), Vector{});
+  Momenta sum(model.parts.size(), Vector3d{});
   std::set<int> counted;
   size = 0;
   const auto add = [&](std::size_t body, double mass, const double* velocity) {
@@ -68,7 +68,7 @@ class ColumnImpulses {
   Momenta operator()(const Model& model) {
     row_.clear();
     add_values(*model.forces, row_);
-    Momenta sum(body_of_.size(), Vector{});
+    Momenta sum(body_of_.size(), Vector3d{});
     for (std::size_t c = 0; c < columns_.size(); c += 3) {
       const std::string name = columns_[c].substr(0, columns_[c].size() - 2);
       if (name.ends_with(".friction")) continue;  // is in the force already

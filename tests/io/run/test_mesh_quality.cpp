@@ -83,7 +83,7 @@ TEST(ElementQuality, VolumeOfAnyHexahedronIsThatOfItsTrilinearMap) {
     double volume = 0;
     for (int point = 0; point < 8; ++point) {
       double gradient[3][3]{};
-      std::array<double, 3> at{};
+      Vector3d at{};
       for (std::size_t i = 0; i < 3; ++i) at[i] = 0.5 + ((point >> i & 1) != 0 ? 0.5 : -0.5) / std::sqrt(3.0);
       for (std::size_t corner = 0; corner < 8; ++corner)
         for (std::size_t j = 0; j < 3; ++j) {

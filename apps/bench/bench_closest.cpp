@@ -39,7 +39,7 @@ class Sheet {
     for (int j = 0; j < rows; ++j) {
       for (int i = 0; i < columns; ++i) {
         const auto node = index(j * columns + i);
-        const Vector3d place = Vector3d{i, j, 0} + vector(0.2);
+        const Vector3d place = Vector3d{1.0 * i, 1.0 * j, 0} + vector(0.2);
         for (int k = 0; k < 3; ++k) {
           node_[node].position[k] = place[k];
           end_[node].component[k] = place[k] + 0.01 * number();

@@ -17,8 +17,6 @@ struct Vector3 {
   using iterator = T*;
   using const_iterator = const T*;
 
-  Vector3& operator=(const Vector3&) & = default;  // not to what a function returned
-
   BRIO_INLINE T& operator[](std::integral auto i) { return reinterpret_cast<T*>(this)[i]; }
   BRIO_INLINE const T& operator[](std::integral auto i) const { return reinterpret_cast<const T*>(this)[i]; }
   BRIO_INLINE T* data() { return &x; }
@@ -43,7 +41,7 @@ struct Vector3 {
   BRIO_INLINE Vector3& operator-=(const Vector3& a) { return *this = *this - a; }
   BRIO_INLINE Vector3& operator*=(T s) { return *this = *this * s; }
   BRIO_INLINE Vector3& operator/=(T s) { return *this = *this / s; }
-  friend constexpr bool operator==(const Vector3&, const Vector3&) = default;
+  friend bool operator==(const Vector3&, const Vector3&) = default;
 };
 using Vector3d = Vector3<double>;
 static_assert(sizeof(Vector3d) == 3 * sizeof(double));
@@ -68,7 +66,7 @@ inline Vector3d normalized(const Vector3d& a) {
   const double squared = squared_norm(a);
   return squared > 0 ? a / std::sqrt(squared) : a;
 }
-constexpr bool is_zero(const Vector3d& a) { return a == Vector3d{}; }
+constexpr bool is_zero(const Vector3d& a) { return a.x == 0 && a.y == 0 && a.z == 0; }
 /// At right angles to a unit vector.
 inline Vector3d unit_at_right_angles(const Vector3d& a) {
   return normalized(std::abs(a.x) < std::abs(a.z) ? cross({1, 0, 0}, a) : cross({0, 0, 1}, a));
@@ -137,8 +135,9 @@ struct Tensor {
 
   BRIO_INLINE T& operator()(std::integral auto i, std::integral auto j) { return m[i][j]; }
   BRIO_INLINE const T& operator()(std::integral auto i, std::integral auto j) const { return m[i][j]; }
-  BRIO_INLINE Vector3<T> row(std::integral auto i) const { return {m[i][0], m[i][1], m[i][2]}; }
-  BRIO_INLINE Vector3<T> column(std::integral auto j) const { return {m[0][j], m[1][j], m[2][j]}; }
+  // Constant, so that nothing is assigned to a copy.
+  BRIO_INLINE const Vector3<T> row(std::integral auto i) const { return {m[i][0], m[i][1], m[i][2]}; }
+  BRIO_INLINE const Vector3<T> column(std::integral auto j) const { return {m[0][j], m[1][j], m[2][j]}; }
   BRIO_INLINE void set_row(std::integral auto i, const Vector3<T>& a) {
     for (int j = 0; j < 3; ++j) m[i][j] = a[j];
   }

@@ -55,8 +55,7 @@ ClosestPoint closest_point_on_quad(const Vector3d& node, const FaceVertices& ver
 /// Whether the fourth vertex repeats the third.
 inline bool is_triangle(const FaceVertices& vertices) { return vertices[3] == vertices[2]; }
 
-/// Length without overflow or underflow of squares. Eigen's stableNorm sums in an order that depends on the
-/// address of the vector: its last bit differs from run to run.
+/// Length without overflow or underflow of squares.
 double safe_length(const Vector3d& vector);
 
 /// Unit vector along `area_vector`, or along `otherwise` if that has no length, or zero if neither has.

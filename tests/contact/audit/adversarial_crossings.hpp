@@ -1,7 +1,6 @@
 #pragma once
 /// Segments and triangles chosen to be difficult for the predicate of the audit.
 
-#include <Eigen/Dense>
 #include <array>
 #include <string_view>
 

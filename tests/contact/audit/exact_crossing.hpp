@@ -2,7 +2,6 @@
 /// The crossing of a segment and a triangle in integer arithmetic (GMP), by the point in which the segment
 /// meets the plane.
 
-#include <Eigen/Dense>
 #include <array>
 
 #include "contact/audit/segment_triangle.hpp"

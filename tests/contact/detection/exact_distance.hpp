@@ -2,7 +2,6 @@
 /// Distances of points, triangles, hulls and segments without rounding: the given doubles are rational
 /// numbers, the squares of distances are fractions of integers.
 
-#include <Eigen/Dense>
 #include <array>
 #include <vector>
 

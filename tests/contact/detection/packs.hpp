@@ -1,7 +1,6 @@
 #pragma once
 /// Eight points side by side, put together and taken apart, and bits compared.
 
-#include <Eigen/Dense>
 #include <bit>
 
 #include "contact/geometry/number.hpp"

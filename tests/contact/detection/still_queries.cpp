@@ -1,7 +1,5 @@
 #include "tests/contact/detection/still_queries.hpp"
 
-#include <Eigen/Geometry>
-
 #include "src/base/index.hpp"
 
 namespace brio {

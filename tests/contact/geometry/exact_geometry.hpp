@@ -1,7 +1,6 @@
 #pragma once
 /// Points, motions and times as integers, for judging geometry without rounding.
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>

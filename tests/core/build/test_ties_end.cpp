@@ -163,9 +163,8 @@ TEST(TiesThatEnd, LeaveTheOthersAsTheyAre) {
   EXPECT_NEAR(total_mass(model), 2000, 1e-9);
   EXPECT_NEAR(lost.energy, energy_before - kinetic(model.nodes), 1e-9 * energy_before);
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto axis = static_cast<Eigen::Index>(i);
-    EXPECT_NEAR(before.total.linear[i] - after.total.linear[i], lost.linear[axis], 1e-9);
-    EXPECT_NEAR(before.total.angular[i] - after.total.angular[i], lost.angular[axis], 1e-9);
+    EXPECT_NEAR(before.total.linear[i] - after.total.linear[i], lost.linear[i], 1e-9);
+    EXPECT_NEAR(before.total.angular[i] - after.total.angular[i], lost.angular[i], 1e-9);
   }
   // Put back, everything is as it was.
   for (const TiedNode& tied : model.ties.node) EXPECT_TRUE(model.ties.is_tied(tied.tie.node));

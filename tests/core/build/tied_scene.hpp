@@ -1,7 +1,6 @@
 #pragma once
 /// Parts that are tied.
 
-#include <Eigen/Dense>
 #include <string>
 #include <utility>
 

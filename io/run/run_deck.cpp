@@ -148,15 +148,26 @@ class Run {
  private:
   bool is_at_end() const { return model_.times.time >= deck_.time.end; }
 
-  std::optional<Stop> stop_wanted() const {
-    constexpr int at_limit = -1, goes_on = -2;
+  std::optional<Stop> stop_wanted() {
+    constexpr int at_limit = -1;
     int signal = options_.stop != nullptr ? options_.stop->load() : 0;
     if (signal == 0)
       signal = options_.stop_after_s && seconds_since(start_) >= *options_.stop_after_s ? at_limit : goes_on;
-    if (options_.ranks != nullptr) signal = options_.ranks->largest(signal);
+    if (options_.ranks != nullptr) signal = agreed(signal, *options_.ranks);
     if (signal == goes_on) return {};
     if (signal == at_limit) return Stop{"stopped", 0};
     return Stop{signal == SIGINT ? "interrupted" : "terminated", 128 + signal};
+  }
+
+  // What all ranks wanted a step ago: it rides with what the step exchanges.
+  int agreed(int signal, Ranks& ranks) {
+    if (ranks.has_noted()) ranks.share(Ranks::Kind::agreement);
+    signal_of_rank_.resize(index(ranks.count()), goes_on);
+    const int known = *std::ranges::max_element(signal_of_rank_);
+    if (known != goes_on || is_at_end()) return known;
+    signal_of_rank_[index(ranks.number())] = signal;
+    for (int rank = 0; rank < ranks.count(); ++rank) ranks.note(rank, &signal_of_rank_[index(rank)], 1);
+    return known;
   }
 
   // A run that is saved here goes on as if it had not ended: what is written of the last state comes after.
@@ -174,6 +185,8 @@ class Run {
   RunOutput& output_;
   ThreadTeam& team_;
   Clock::time_point start_;
+  static constexpr int goes_on = -2;
+  std::vector<int> signal_of_rank_;  ///< as known to all
 };
 
 // A state fits the mesh that it was saved with, and no other.

@@ -194,11 +194,13 @@ void DomainExchange::exchange_deleted(const SweepSchedule& schedule, std::span<c
   share_listed(schedule, results, blocks, &SweepResult::lost, &Block::lost);
 }
 
-void DomainExchange::exchange_results(const SweepSchedule& schedule, std::span<SweepResult> results,
-                                      std::span<Block> blocks) {
+void DomainExchange::note_results(const SweepSchedule& schedule, std::span<SweepResult> results) {
   for (std::size_t t = 0; t < schedule.tasks.size(); ++t)
     ranks_.note(rank_of(schedule, schedule.tasks[t]), &results[t], 1);
-  ranks_.share(Ranks::Kind::results);
+}
+
+void DomainExchange::exchange_lists(const SweepSchedule& schedule, std::span<const SweepResult> results,
+                                    std::span<Block> blocks) {
   share_lists(schedule, results, blocks, &SweepResult::lost, &Block::lost);
   exchange_deleted(schedule, results, blocks);
   share_lists(schedule, results, blocks, &SweepResult::scaled, &Block::scaled);

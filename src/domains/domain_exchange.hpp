@@ -39,9 +39,11 @@ class DomainExchange {
   void begin_rows(const SweepSchedule& schedule, const NodalRows& rows);
   /// After all own domains: rows of followed nodes inside of others' domains, and partial sums on borders.
   void exchange_rows(SweepSchedule& schedule, const NodalRows& rows);
-  /// After the sweep: what it found, with the elements that are deleted or get mass.
-  void exchange_results(const SweepSchedule& schedule, std::span<SweepResult> results,
-                        std::span<Block> blocks);
+  /// Before the sweep: what it finds rides with its rows.
+  void note_results(const SweepSchedule& schedule, std::span<SweepResult> results);
+  /// After the sweep: the elements that are deleted or get mass, where there are any.
+  void exchange_lists(const SweepSchedule& schedule, std::span<const SweepResult> results,
+                      std::span<Block> blocks);
   /// The state of elements to be deleted that every rank has listed: it takes out their energy and mass.
   void exchange_deleted(const SweepSchedule& schedule, std::span<const SweepResult> results,
                         std::span<Block> blocks);

@@ -40,7 +40,7 @@ class Ranks {
   void count_move() { ++moves_; }
   const Traffic& traffic(Kind kind) const { return traffic_[index(kind)]; }
 
-  /// Messages between pairs of ranks, all at once.
+  /// Messages between pairs of ranks, all at once. What is noted rides along, to all ranks.
   struct Message {
     int rank;  ///< the other one
     std::span<const std::byte> out;
@@ -52,7 +52,8 @@ class Ranks {
   /// The largest value of all ranks.
   int largest(int value);
 
-  /// Note numbers that `rank` has and all others get by the next `share`; all ranks note the same.
+  /// Note numbers that `rank` has, as they will be at the next `swap` or `share`, by which all others get
+  /// them; all ranks note the same.
   template <class T>
   void note(int rank, T* data, std::size_t count) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -66,6 +67,7 @@ class Ranks {
   /// Every rank has filled its own part of an array and gets those of all others. \param first byte of each
   /// rank's part, and the size of the array at the end
   virtual void gather(std::span<std::byte> all, std::span<const std::size_t> first) = 0;
+  /// Of several messages between two ranks the first is received first.
   virtual void send_and_receive(std::span<const Message> messages) = 0;
   virtual void pass_on(int from, std::span<std::byte> data, bool to_all) = 0;
   virtual int largest_of_all(int value) = 0;
@@ -77,16 +79,23 @@ class Ranks {
     std::size_t bytes;
   };
 
-  void count_sent(Kind kind, std::size_t bytes) {
-    ++traffic_[index(kind)].exchanges;
+  void count_sent(Kind kind, std::size_t bytes, int exchanges = 1) {
+    traffic_[index(kind)].exchanges += exchanges;
     traffic_[index(kind)].bytes += static_cast<std::int64_t>(bytes);
   }
+  /// Of a rank, in the order in which they were noted.
+  std::span<std::byte> noted_of(std::size_t rank) {
+    return std::span(bytes_).subspan(first_[rank], first_[rank + 1] - first_[rank]);
+  }
+  void collect_noted();
+  void give_noted();
 
   int number_, count_, moves_ = 0;
   std::array<Traffic, kinds.size()> traffic_{};
   std::vector<Noted> noted_;
   std::vector<std::byte> bytes_;
   std::vector<std::size_t> first_, next_;  ///< of each rank
+  std::vector<Message> joined_;            ///< with what rides along
 };
 
 }  // namespace brio

@@ -80,10 +80,11 @@ Contribution sweep_elements(Model& model, ThreadTeam& team) {
   const StageTimer timer(model.stages, Stage::elements);
   for (ParticleSearch& search : model.particle_searches)
     follow_neighbours(search, model.blocks[search.block], model.nodes, team);
+  DomainExchange* exchange = model.schedule.exchange.get();
+  if (exchange != nullptr) exchange->note_results(model.schedule, model.sweep_results);
   sweep_chunks(model, team);
   exchange_between_elements(model, team);
-  if (DomainExchange* exchange = model.schedule.exchange.get())
-    exchange->exchange_results(model.schedule, model.sweep_results, model.blocks);
+  if (exchange != nullptr) exchange->exchange_lists(model.schedule, model.sweep_results, model.blocks);
   const Contribution energies = gather_results(model, team);
   if (!(model.control.stable > 0))
     throw Breakdown(element_name(model, model.control.critical_block, model.control.critical_element) +

@@ -81,6 +81,24 @@ TEST(Ranks, KnowTheNodesOfTheirDomainsAloneWhereNothingElseIsNeeded) {
   for (const int count : {2, 4, 7}) expect_bits_of_one(pressed_bar(), 300, count, 1);
 }
 
+// What a sweep found rides with the rows of nodes; where all ranks know all nodes that is all of a step.
+TEST(Ranks, ExchangeRowsAndResultsAtOnce) {
+  constexpr int steps = 50;
+  for (const Deck& deck : {pressed_bar(), coarse_deck("can_buckling", 3)})
+    run_ranks(3, [&](Ranks& ranks) {
+      Model model = build_scene(deck);
+      cut_domains(model, small_domain);
+      deal_domains(model, ranks);
+      ThreadTeam team(1);
+      make_steps(model, steps, deck.numerics.energy_error_limit, team);
+      EXPECT_NEAR(static_cast<double>(ranks.traffic(Ranks::Kind::rows).exchanges), steps, 1);
+      EXPECT_EQ(ranks.traffic(Ranks::Kind::sums).exchanges > 0, model.contacts.empty());
+      EXPECT_EQ(ranks.traffic(Ranks::Kind::results).exchanges, 0);
+      EXPECT_GT(ranks.traffic(Ranks::Kind::results).bytes, 0);
+      EXPECT_EQ(ranks.traffic(Ranks::Kind::agreement).exchanges, 0);
+    });
+}
+
 // As often as one likes, to the rank that has least to do or not.
 TEST(Ranks, HaveTheBitsOfOneProcessWhenDomainsMove) {
   for (const Deck& deck : {pressed_bar(), coarse_deck("plate_perforation", 3)}) {

@@ -29,7 +29,7 @@ class RankTable {
   friend class ThreadRanks;
   std::barrier<> meet_;
   std::vector<std::span<std::byte>> bytes_;
-  std::vector<std::vector<std::span<const std::byte>>> message_;  ///< from each rank to each
+  std::vector<std::vector<std::vector<std::span<const std::byte>>>> message_;  ///< from each rank to each
   std::vector<int> values_;
 };
 
@@ -49,10 +49,13 @@ class ThreadRanks : public Ranks {
   }
 
   void send_and_receive(std::span<const Message> messages) override {
-    for (const Message& one : messages) table_.message_[index(number())][index(one.rank)] = one.out;
+    for (auto& to : table_.message_[index(number())]) to.clear();
+    for (const Message& one : messages) table_.message_[index(number())][index(one.rank)].push_back(one.out);
     table_.meet_.arrive_and_wait();
+    std::vector<std::size_t> received(index(count()), 0);
     for (const Message& one : messages) {
-      const std::span<const std::byte> sent = table_.message_[index(one.rank)][index(number())];
+      const std::span<const std::byte> sent =
+          table_.message_[index(one.rank)][index(number())].at(received[index(one.rank)]++);
       ASSERT_EQ(sent.size(), one.in.size());
       std::ranges::copy(sent, one.in.begin());
     }

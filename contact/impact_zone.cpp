@@ -254,8 +254,7 @@ class Zones {
     }
     const auto s = index(u);
     double* velocity = nodes_.record[global(u)].velocity;
-    const Vector3d change =
-        nodes_.free_inverse_mass(global(u)) * Vector3d{one.impulse[0], one.impulse[1], one.impulse[2]};
+    const Vector3d change = nodes_.free_inverse_mass(global(u)) * one.impulse;
     velocity[0] += change.x;
     velocity[1] += change.y;
     velocity[2] += change.z;

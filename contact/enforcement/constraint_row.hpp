@@ -173,11 +173,7 @@ inline Vector3d tilt_of(const ConstraintRow& row, const TranslationEntry& entry)
   return entry.tilt[0] * row.tangent[0] + entry.tilt[1] * row.tangent[1];
 }
 inline Vector3d impulse_of(const ConstraintRow& row) { return row.impulse * row.normal + row.friction; }
-inline Vector3d operator*(const Tensor<double>& a, const Vector3d& b) {
-  return {a.m[0][0] * b.x + a.m[0][1] * b.y + a.m[0][2] * b.z,
-          a.m[1][0] * b.x + a.m[1][1] * b.y + a.m[1][2] * b.z,
-          a.m[2][0] * b.x + a.m[2][1] * b.y + a.m[2][2] * b.z};
-}
+
 template <class VelocityOf>
 Vector3d RowMap::velocity(VelocityOf&& velocity_of) const {
   Vector3d sum{0, 0, 0};

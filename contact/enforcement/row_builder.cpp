@@ -104,8 +104,7 @@ class Builder {
   double free_square(int node, const Vector3d& seen) const {
     if (sources_.surface.rigid_body(node) >= 0 || sources_.ties.is_tied(node)) return squared_norm(seen);
     if (sources_.nodes.record[index(node)].inverse_mass == 0) return 0;
-    const Vector3d all = seen;
-    return dot(all, sources_.nodes.free_translations(index(node)) * all);
+    return dot(seen, sources_.nodes.free_translations(index(node)) * seen);
   }
   bool turns(int node) const {
     if (!sources_.nodes.has_rotations()) return false;

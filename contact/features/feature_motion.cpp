@@ -90,8 +90,7 @@ void FeatureMotion::form_groups(const SurfaceFeatures& features, const Surface& 
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   position_.resize(node.size());
   for (std::size_t s = 0; s < node.size(); ++s)
-    position_[s] = surface.node[s] < 0 ? Vector3d{none, none, none}
-                                       : Vector3d{node[s].start[0], node[s].start[1], node[s].start[2]};
+    position_[s] = surface.node[s] < 0 ? Vector3d{none, none, none} : vector_at(node[s].start);
   groups.form(surface, features, position_, team);
 }
 

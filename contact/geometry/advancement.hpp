@@ -13,8 +13,6 @@
 
 namespace brio::advancement {
 
-inline double largest(const Vector3d& a) { return maximum_norm(a); }
-
 /// A point that moves linearly with the fraction of the step.
 struct Path {
   Vector3d start;

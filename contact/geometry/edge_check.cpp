@@ -24,7 +24,7 @@ struct RelativeEdges {
   double scale;  // bounds any component of `between` at any time of the step and of its two terms, and reach
 };
 
-double bound(const Path& path) { return largest(path.start) + largest(path.displacement); }
+double bound(const Path& path) { return maximum_norm(path.start) + maximum_norm(path.displacement); }
 
 RelativeEdges relative_edges(const MovingEdge& a, const MovingEdge& b) {
   RelativeEdges edges;

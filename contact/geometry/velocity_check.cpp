@@ -32,12 +32,13 @@ LocalPair local_pair(const MovingNode& node, const MovingFace& face, double reac
   pair.size = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     pair.vertices[k] = {face.start[k] - face.start[0], face.displacement[k] - face.displacement[0]};
-    pair.size = std::max(pair.size, largest(pair.vertices[k].start) + largest(pair.vertices[k].displacement));
+    pair.size = std::max(pair.size,
+                         maximum_norm(pair.vertices[k].start) + maximum_norm(pair.vertices[k].displacement));
   }
   pair.centroid = {
       0.25 * (pair.vertices[1].start + pair.vertices[2].start + pair.vertices[3].start),
       0.25 * (pair.vertices[1].displacement + pair.vertices[2].displacement + pair.vertices[3].displacement)};
-  pair.scale = largest(pair.node.start) + largest(pair.node.displacement) + pair.size + reach;
+  pair.scale = maximum_norm(pair.node.start) + maximum_norm(pair.node.displacement) + pair.size + reach;
   return pair;
 }
 

@@ -264,7 +264,7 @@ class GapMaker {
   // Whether no node of either side can move along the normal.
   bool is_fixed(const SidedPair& pair) const {
     const Contact& contact = pair.contact;
-    const Vector3d normal{contact.normal[0], contact.normal[1], contact.normal[2]};
+    const Vector3d& normal = contact.normal;
     for (std::size_t k = 0; k < contact.node.size(); ++k) {
       if (contact.weight[k] == 0) continue;
       const Vector3d way = free_directions(contact.node[k]) * normal;

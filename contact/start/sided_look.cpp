@@ -53,7 +53,7 @@ bool SidedLook::is_before(int slave, const Vector3d& normal) const {
 
 Vector3d SidedLook::side_of(int slave, const Face& face, const Vector3d& normal) const {
   if (is_before(slave, normal)) return normal;
-  return face.shell && is_before(slave, -normal) ? Vector3d(-normal) : Vector3d{};
+  return face.shell && is_before(slave, -normal) ? -normal : Vector3d{};
 }
 
 bool SidedLook::is_minimum(int f, const std::array<double, 4>& weights, const Vector3d& foot,

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "src/base/index.hpp"
 
@@ -189,6 +190,22 @@ std::vector<std::size_t> colours_within_domains(std::span<const SweepTask> tasks
   return colour;
 }
 
+// Stable; the key of each item is computed once.
+template <class Key>
+void sort_by_key(std::span<int> items, const Key& key) {
+  struct Entry {
+    std::uint64_t key;
+    std::uint32_t place;
+    int item;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(items.size());
+  for (const int item : items)
+    entries.push_back({key(item), static_cast<std::uint32_t>(entries.size()), item});
+  std::ranges::sort(entries, {}, [](const Entry& entry) { return std::pair(entry.key, entry.place); });
+  std::ranges::transform(entries, items.begin(), &Entry::item);
+}
+
 }  // namespace
 
 std::vector<int> locality_order(std::span<const Vector3d> position, std::span<const int> connectivity,
@@ -208,17 +225,18 @@ std::vector<int> locality_order(std::span<const Vector3d> position, std::span<co
   const auto axis = index(extent.longest());
   // Round-off in the centres must not scatter a layer of equal coordinates: compare on a grid.
   const double grid = (extent.upper[axis] - extent.lower[axis]) * 1e-9;
-  const auto layer = [&](int e) {
-    return grid > 0 ? std::llround((centre[index(e)][axis] - extent.lower[axis]) / grid) : 0LL;
+  const auto layer = [&](int e) -> std::uint64_t {
+    return grid > 0 ? static_cast<std::uint64_t>(
+                          std::llround((centre[index(e)][axis] - extent.lower[axis]) / grid))
+                    : 0;
   };
-  std::vector<std::uint64_t> code(count);
-  for (std::size_t e = 0; e < count; ++e) code[e] = morton_code(centre[e], extent);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return layer(a) < layer(b); });
+  sort_by_key(order, layer);
   const std::size_t chunks = chunk_count(count);
-  for (std::size_t c = 0; c < chunks; ++c)
-    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(count * c / chunks),
-                     order.begin() + static_cast<std::ptrdiff_t>(count * (c + 1) / chunks),
-                     [&](int a, int b) { return code[index(a)] < code[index(b)]; });
+  for (std::size_t c = 0; c < chunks; ++c) {
+    const std::size_t first = count * c / chunks, last = count * (c + 1) / chunks;
+    sort_by_key(std::span(order).subspan(first, last - first),
+                [&](int e) { return morton_code(centre[index(e)], extent); });
+  }
   return order;
 }
 

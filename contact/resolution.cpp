@@ -90,8 +90,7 @@ class Resolution {
   }
 
   void find_constraints() {
-    scene_.motion.begin(scene_.features, scene_.surface, nodes_, team_);
-    scene_.motion.end_by_velocity(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
+    scene_.motion.predict(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
     if (scene_.pairs.is_due(scene_.features, scene_.surface, scene_.motion, team_)) search();
     select();
     scene_.motion.set_limits(2, allowed_surplus(scene_.features));
@@ -235,7 +234,7 @@ class Resolution {
       scene_.motion.end_by_solution(scene_.features, scene_.surface, scene_.in_contact, scene_.velocity, dt_,
                                     bodies_, team_);
     else
-      scene_.motion.end_by_velocity(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
+      scene_.motion.end_by_velocities(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
   }
   // Along the closest points at the start, which conserves angular momentum; if that is not sufficient, along
   // the direction of first contact as well.

@@ -4,22 +4,23 @@
 #include <cmath>
 #include <limits>
 
+#include "src/base/gather.hpp"
 #include "src/base/index.hpp"
 
 namespace brio {
 
 namespace {
 
-constexpr std::size_t features_a_range = 4096, groups_a_range = 16;
+constexpr std::size_t features_a_range = 1024, groups_a_range = 4;
 
+// Of rows of four numbers, the last of which do not count.
 double length_in_frame(const double* from, const double* to, const Vector3d& frame) {
-  double square = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double d = to[axis] - from[axis] - frame[axis];
-    square += d * d;
-  }
-  return std::sqrt(square) * paths_rounded_up;
+  const Row4 moved = load_row(to) - load_row(from) - Row4{frame.x, frame.y, frame.z, 0},
+             square = moved * moved;
+  return std::sqrt(square[0] + square[1] + square[2]) * paths_rounded_up;
 }
+Row4 absolute(Row4 a) { return a < 0 ? -a : a; }
+Row4 larger(Row4 a, Row4 b) { return a > b ? a : b; }
 
 /// What was moved and the step of a node side by side, to be compared at once.
 typedef double Both __attribute__((vector_size(16)));
@@ -32,16 +33,23 @@ struct Spread {
   const std::vector<Way>& of_node;
   const MotionGroups& groups;
 
+  /// \param in_group whether one group has all corners
   template <std::size_t Corners>
-  void to(PathAndAhead& ways, std::size_t feature, const std::array<int, Corners>& corners,
+  void to(PathAndAhead& ways, std::size_t feature, const std::array<int, Corners>& corners, bool in_group,
           bool with_path) const {
-    const Both way = longest(corners);
+    const Both way = in_group ? longest_in_group(corners) : longest(corners);
     const double path = ways.path[feature] + (with_path ? way[0] : 0);
     ways.path[feature] = path;
     ways.ahead[feature] = path + approach_factor * way[1];
   }
 
  private:
+  template <std::size_t Corners>
+  Both longest_in_group(const std::array<int, Corners>& corners) const {
+    Both longest = at_node(corners[0]);
+    for (std::size_t k = 1; k < Corners; ++k) longest = longer(longest, at_node(corners[k]));
+    return longest;
+  }
   // The longest of the corners, in the frame of the first one's group.
   template <std::size_t Corners>
   Both longest(const std::array<int, Corners>& corners) const {
@@ -82,7 +90,7 @@ void FeatureMotion::restart(const SurfaceFeatures& features, const Surface& surf
   for (double& sum : frame_sum_) sum = 0;
   ++restarts_;
   form_groups(features, surface, team);
-  measure_steps(team);
+  for_groups(team, [&](std::size_t g) { measure_group(g); });
   spread(features, false, team);
 }
 
@@ -107,6 +115,10 @@ void FeatureMotion::join(const SurfaceFeatures& features, const Surface& surface
     ways->path.resize(count, 0);
     ways->ahead.resize(count, 0);
   }
+  for (int s : change.dead_slave) {
+    node[index(s)] = {};
+    way_[index(s)] = {};
+  }
   groups.join(surface, features, change, edges);
 }
 
@@ -115,95 +127,106 @@ void FeatureMotion::make_room_for_watched(const SurfaceFeatures& features) {
   watched_edge_.reserve(features.edge.size());
 }
 
-void FeatureMotion::start_sums(std::size_t count) {
-  sum_.assign((count + features_a_range - 1) / features_a_range, {});
+bool FeatureMotion::follows(const SurfaceFeatures& features, const Surface& surface) const {
+  return known_ && node.size() == surface.slaves() && of_edge.path.size() == features.edge.size();
 }
 
-void FeatureMotion::begin(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes,
-                          ThreadTeam& team) {
-  const bool follows =
-      known_ && node.size() == surface.slaves() && of_edge.path.size() == features.edge.size();
-  node.resize(surface.slaves());
-  way_.resize(surface.slaves());
-  solution_step_.resize(surface.slaves());
-  make_room_for_watched(features);
-  if (!follows) {
-    for (auto [ways, count] : {std::pair(&of_node, node.size()), std::pair(&of_face, surface.face.size()),
-                               std::pair(&of_edge, features.edge.size())})
-      *ways = {std::vector<double>(count, 0), std::vector<double>(count, 0)};
-    groups.group.clear();
-    driven_.clear();
-    for (std::size_t s = 0; s < node.size(); ++s)
-      if (surface.rigid_body(surface.node[s]) >= 0) driven_.push_back(static_cast<int>(s));
-  }
-  for (int slave : joined_) {  // as if it had moved with its frame
-    if (surface.node[index(slave)] < 0) continue;
-    const double* x = nodes.record[index(surface.node[index(slave)])].position;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      node[index(slave)].start[axis] = x[axis] - frame_of(index(slave))[axis];
+void FeatureMotion::start_anew(const SurfaceFeatures& features, const Surface& surface) {
+  node.assign(surface.slaves(), {});
+  way_.assign(surface.slaves(), {});
+  for (auto [ways, count] : {std::pair(&of_node, node.size()), std::pair(&of_face, surface.face.size()),
+                             std::pair(&of_edge, features.edge.size())})
+    *ways = {std::vector<double>(count, 0), std::vector<double>(count, 0)};
+  groups.group.clear();
+  driven_.clear();
+  joined_.clear();
+  for (std::size_t s = 0; s < node.size(); ++s)
+    if (surface.rigid_body(surface.node[s]) >= 0) driven_.push_back(static_cast<int>(s));
+}
+
+// As if they had moved with their frames.
+void FeatureMotion::move_joined(const Surface& surface, const Nodes& nodes) {
+  for (int slave : joined_) {
+    const int global = surface.node[index(slave)];
+    if (global < 0) continue;
+    const Vector3d x = position(nodes, global) - frame_of(index(slave));
+    std::copy(x.begin(), x.end(), node[index(slave)].start);
   }
   joined_.clear();
-  team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) {
-      if (surface.node[s] < 0) {
-        node[s] = {};
-        way_[s] = {};
-        continue;
-      }
-      const double* x = nodes.record[index(surface.node[s])].position;
-      way_[s].moved = follows ? length_in_frame(node[s].start, x, frame_of(s)) : 0;
-      of_node.path[s] += way_[s].moved;
-      std::copy(x, x + 3, node[s].start);
-    }
-  });
-  if (follows)
-    for (int axis = 0; axis < 3; ++axis) frame_sum_[axis] += frame_[axis];
-  known_ = true;
-  predicted_ = false;
 }
 
-void FeatureMotion::end_by_velocity(const SurfaceFeatures& features, const Surface& surface,
-                                    const Nodes& nodes, double dt, std::span<const RigidMotion> bodies,
-                                    ThreadTeam& team) {
-  start_sums(node.size());
+// By threads, `before(slave, record)` and `after(slave)`, which tells whether it exceeds its limit.
+template <class Before, class After>
+void FeatureMotion::take_positions(const Surface& surface, const Nodes& nodes, double dt,
+                                   std::span<const RigidMotion> bodies, ThreadTeam& team,
+                                   const Before& before, const After& after) {
+  const Row4 steps{dt, dt, dt, 0};
+  sum_.assign((node.size() + features_a_range - 1) / features_a_range, {});
   team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
-    Sum sum;
+    Row4 magnitude{};
+    bool exceeds = false;
     for (std::size_t s = begin; s < end; ++s) {
       const int global = surface.node[s];
       if (global < 0) continue;
-      const int body = bodies.empty() ? -1 : surface.rigid_body(global);
-      NodeMotion64& moved = node[s];
-      if (body >= 0) {
+      const NodeRecord& record = nodes.record[index(global)];
+      before(s, record);
+      const Row4 start = load_row(record.position);
+      store_row(node[s].start, start);
+      store_row(node[s].end, start + steps * load_row(record.velocity));
+      if (const int body = bodies.empty() ? -1 : surface.rigid_body(global); body >= 0)
         end_of_body_node(s, bodies[index(body)], dt);
-      } else {
-        const double* v = nodes.record[index(global)].velocity;
-        for (int axis = 0; axis < 3; ++axis) moved.end[axis] = moved.start[axis] + dt * v[axis];
-      }
-      for (int axis = 0; axis < 3; ++axis)
-        sum.magnitude =
-            std::max(sum.magnitude, std::max(std::abs(moved.start[axis]), std::abs(moved.end[axis])));
-      if (predicted_) sum.exceeds = raise(s) || sum.exceeds;
+      magnitude = larger(magnitude, larger(absolute(start), absolute(load_row(node[s].end))));
+      exceeds = after(s) || exceeds;
     }
-    sum_[begin / features_a_range] = sum;
+    sum_[begin / features_a_range] = {std::max(std::max(magnitude[0], magnitude[1]), magnitude[2]), exceeds};
   });
   magnitude_ = 0;
   for (const Sum& sum : sum_) magnitude_ = std::max(magnitude_, sum.magnitude);
-  is_solution_ = predicted_;
-  corrected_ = nullptr;
-  if (predicted_) {
-    finish_raising(features, team);
-    return;
-  }
-  if (groups.group.empty()) {
-    restart(features, surface, team);
+}
+
+void FeatureMotion::predict(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes,
+                            double dt, std::span<const RigidMotion> bodies, ThreadTeam& team) {
+  if (follows(features, surface)) {
+    move_joined(surface, nodes);
+    for (int axis = 0; axis < 3; ++axis) frame_sum_[axis] += frame_[axis];
   } else {
-    for (MotionGroups::Group& g : groups.group) g.last = g.step;
-    measure_steps(team);
+    start_anew(features, surface);
+  }
+  solution_step_.resize(surface.slaves());
+  make_room_for_watched(features);
+  const bool is_grouped = !groups.group.empty();
+  take_positions(
+      surface, nodes, dt, bodies, team,
+      [&](std::size_t s, const NodeRecord& record) {
+        way_[s].moved = is_grouped ? length_in_frame(node[s].start, record.position, frame_of(s)) : 0;
+        of_node.path[s] += way_[s].moved;
+      },
+      [](std::size_t) { return false; });
+  if (is_grouped) {
+    for_groups(team, [&](std::size_t g) {
+      groups.group[g].last = groups.group[g].step;
+      measure_group(g);
+    });
     spread(features, true, team);
+  } else {
+    restart(features, surface, team);
   }
   set_frame();
-  predicted_ = true;
+  known_ = true;
   exceeds_ = false;
+  is_solution_ = false;
+  corrected_ = nullptr;
+}
+
+void FeatureMotion::end_by_velocities(const SurfaceFeatures& features, const Surface& surface,
+                                      const Nodes& nodes, double dt, std::span<const RigidMotion> bodies,
+                                      ThreadTeam& team) {
+  take_positions(
+      surface, nodes, dt, bodies, team, [](std::size_t, const NodeRecord&) {},
+      [&](std::size_t s) { return raise(s); });
+  is_solution_ = true;
+  corrected_ = nullptr;
+  finish_raising(features, team);
 }
 
 // The mean of the nodes without the fastest quarter of the groups either way: a splinter does not move it. It
@@ -224,48 +247,49 @@ void FeatureMotion::set_frame() {
   }
 }
 
-// Frames, and the displacements in them.
-void FeatureMotion::measure_steps(ThreadTeam& team) {
+// Its frame, and the displacements in it.
+void FeatureMotion::measure_group(std::size_t g) {
+  MotionGroups::Group& group = groups.group[g];
+  const std::span<const int> members = groups.members(g);
+  Vector3d sum{};
+  for (int s : members) sum += displacement(s);
+  group.step = members.empty() ? Vector3d{} : sum / static_cast<double>(members.size());
+  for (int s : members) {
+    const NodeMotion64& moved = node[index(s)];
+    way_[index(s)].step = length_in_frame(moved.start, moved.end, group.step);
+    of_node.ahead[index(s)] = of_node.path[index(s)] + approach_factor * way_[index(s)].step;
+  }
+  find_longest(g);
+}
+
+void FeatureMotion::find_longest(std::size_t g) {
+  double moved = 0, ahead = 0;
+  for (int s : groups.members(g)) {
+    moved = std::max(moved, way_[index(s)].moved);
+    ahead = std::max(ahead, way_[index(s)].step);
+  }
+  groups.group[g].moved = moved;
+  groups.group[g].ahead = ahead;
+}
+
+template <class OfGroup>
+void FeatureMotion::for_groups(ThreadTeam& team, OfGroup&& of_group) {
   team.for_ranges(groups.group.size(), groups_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g) {
-      MotionGroups::Group& group = groups.group[g];
-      const std::span<const int> members = groups.members(g);
-      Vector3d sum{};
-      for (int s : members)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          sum[axis] += node[index(s)].end[axis] - node[index(s)].start[axis];
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        group.step[axis] = members.empty() ? 0 : sum[axis] / static_cast<double>(members.size());
-      for (int s : members) {
-        const NodeMotion64& moved = node[index(s)];
-        way_[index(s)].step = length_in_frame(moved.start, moved.end, group.step);
-        of_node.ahead[index(s)] = of_node.path[index(s)] + approach_factor * way_[index(s)].step;
-      }
-    }
+    for (std::size_t g = begin; g < end; ++g) of_group(g);
   });
 }
 
 void FeatureMotion::spread(const SurfaceFeatures& features, bool with_paths, ThreadTeam& team) {
-  team.for_ranges(groups.group.size(), groups_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t g = begin; g < end; ++g) {
-      double moved = 0, ahead = 0;
-      for (int s : groups.members(g)) {
-        moved = std::max(moved, way_[index(s)].moved);
-        ahead = std::max(ahead, way_[index(s)].step);
-      }
-      groups.group[g].moved = moved;
-      groups.group[g].ahead = ahead;
-    }
-  });
   groups.advance(with_paths);
   const Spread<Way> spread{way_, groups};
   team.for_ranges(features.face_node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) spread.to(of_face, f, features.face_node[f], with_paths);
+    for (std::size_t f = begin; f < end; ++f)
+      spread.to(of_face, f, features.face_node[f], groups.holds_face[f] != 0, with_paths);
   });
   team.for_ranges(watched_edge_.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto e = index(watched_edge_[i]);
-      spread.to(of_edge, e, features.edge_node[e], with_paths);
+      spread.to(of_edge, e, features.edge_node[e], groups.holds_edge[e] != 0, with_paths);
     }
   });
 }
@@ -275,17 +299,22 @@ void FeatureMotion::watch_edge(const SurfaceFeatures& features, int edge) {
   if (watched_[e] != 0) return;
   watched_[e] = 1;
   watched_edge_.push_back(edge);
-  Spread<Way>{way_, groups}.to(of_edge, e, features.edge_node[e], false);
+  Spread<Way>{way_, groups}.to(of_edge, e, features.edge_node[e], groups.holds_edge[e] != 0, false);
 }
 
 void FeatureMotion::watch_only(std::span<const std::uint8_t> flagged) {
-  std::erase_if(watched_edge_, [&](int e) { return flagged[index(e)] == 0; });
-  std::copy(flagged.begin(), flagged.end(), watched_.begin());
+  watched_edge_.clear();  // anew, ascending, so that their paths lie one after the other
+  for (std::size_t e = 0; e < flagged.size(); ++e)
+    if (watched_[e] &= flagged[e]; watched_[e] != 0) watched_edge_.push_back(static_cast<int>(e));
 }
 
 void FeatureMotion::end_of_body_node(std::size_t slave, const RigidMotion& body, double dt) {
-  const Vector3d v = body.velocity_at(vector_at(node[slave].start) - body.centre);
-  for (int axis = 0; axis < 3; ++axis) node[slave].end[axis] = node[slave].start[axis] + dt * v[axis];
+  set_end(slave, body.velocity_at(vector_at(node[slave].start) - body.centre), dt);
+}
+
+// As a row: it is read as one at once.
+void FeatureMotion::set_end(std::size_t slave, const Vector3d& velocity, double dt) {
+  store_row(node[slave].end, load_row(node[slave].start) + dt * Row4{velocity.x, velocity.y, velocity.z, 0});
 }
 
 void FeatureMotion::set_limits(double factor, double surplus) {
@@ -306,6 +335,7 @@ bool FeatureMotion::raise(std::size_t slave) {
 void FeatureMotion::finish_raising(const SurfaceFeatures& features, ThreadTeam& team) {
   exceeds_ = std::any_of(sum_.begin(), sum_.end(), [](const Sum& sum) { return sum.exceeds; });
   if (!exceeds_) return;
+  for_groups(team, [&](std::size_t g) { find_longest(g); });
   spread(features, false, team);
 }
 
@@ -318,7 +348,7 @@ void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surfa
   is_solution_ = true;
   corrected_ = &in_contact;
   in_contact.for_each(team, [&](std::size_t range, std::size_t s) {
-    for (int axis = 0; axis < 3; ++axis) node[s].end[axis] = node[s].start[axis] + dt * corrected[s][axis];
+    set_end(s, corrected[s], dt);
     if (!bodies.empty() && surface.rigid_body(surface.node[s]) >= 0) return;
     sum_[range].exceeds = raise(s) || sum_[range].exceeds;
   });

@@ -34,14 +34,10 @@ class FeatureMotion {
   PathAndAhead of_node, of_face, of_edge;  ///< of edges, those that are watched
   MotionGroups groups;
 
-  /// Positions at the start of a step; the displacements to them are added to the paths with those at its
-  /// end.
-  void begin(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, ThreadTeam& team);
-  /// Positions at the end of the step by the velocities of the nodes. The first time in a step paths and
-  /// predicted paths of all features are formed; later as in `end_by_solution`.
-  void end_by_velocity(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, double dt,
-                       std::span<const RigidMotion> bodies, ThreadTeam& team);
-
+  /// Positions at the start of a step and, by the velocities of the nodes, at its end. The displacements to
+  /// the start are added to the paths, and predicted paths of all features are formed.
+  void predict(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes, double dt,
+               std::span<const RigidMotion> bodies, ThreadTeam& team);
   /// Positions at the end of the step of nodes moved by contact: nodes by their corrected velocities, those
   /// of rigid bodies by their bodies'. Predicted paths stay, except for nodes that exceed their limits and
   /// the features at them, whose predicted paths are extended. \param in_contact is kept until the next
@@ -49,6 +45,9 @@ class FeatureMotion {
   void end_by_solution(const SurfaceFeatures& features, const Surface& surface, const SlaveSet& in_contact,
                        std::span<const Vector3d> corrected, double dt, std::span<const RigidMotion> bodies,
                        ThreadTeam& team);
+  /// The same where contact may have moved any node, by the velocities of all.
+  void end_by_velocities(const SurfaceFeatures& features, const Surface& surface, const Nodes& nodes,
+                         double dt, std::span<const RigidMotion> bodies, ThreadTeam& team);
   /// Limit of the motion of nodes in this step: a factor times their predicted displacement, and a surplus.
   void set_limits(double factor, double surplus);
   /// Whether the last positions at the end of the step were beyond the limits of any node.
@@ -110,8 +109,7 @@ class FeatureMotion {
   template <class Archive>
   void serialize(Archive& archive) {
     archive(node, of_node, of_face, of_edge, groups, way_, watched_, watched_edge_, driven_, joined_,
-            limit_factor_, limit_surplus_, frame_, frame_sum_, magnitude_, restarts_, known_, predicted_,
-            exceeds_);
+            limit_factor_, limit_surplus_, frame_, frame_sum_, magnitude_, restarts_, known_, exceeds_);
   }
 
  private:
@@ -127,23 +125,33 @@ class FeatureMotion {
   };
 
   void end_of_body_node(std::size_t slave, const RigidMotion& body, double dt);
+  void set_end(std::size_t slave, const Vector3d& velocity, double dt);
   const Vector3d& frame_of(std::size_t slave) const {
     return groups.group[index(groups.of_node(static_cast<int>(slave)))].step;
   }
+  bool follows(const SurfaceFeatures& features, const Surface& surface) const;
+  void start_anew(const SurfaceFeatures& features, const Surface& surface);
+  void move_joined(const Surface& surface, const Nodes& nodes);
+  template <class Before, class After>
+  void take_positions(const Surface& surface, const Nodes& nodes, double dt,
+                      std::span<const RigidMotion> bodies, ThreadTeam& team, const Before& before,
+                      const After& after);
+  void measure_group(std::size_t group);
   void set_frame();
   void form_groups(const SurfaceFeatures& features, const Surface& surface, ThreadTeam& team);
-  void measure_steps(ThreadTeam& team);
+  void find_longest(std::size_t group);
+  template <class OfGroup>
+  void for_groups(ThreadTeam& team, OfGroup&& of_group);
   bool raise(std::size_t slave);
   void finish_raising(const SurfaceFeatures& features, ThreadTeam& team);
   void spread(const SurfaceFeatures& features, bool with_paths, ThreadTeam& team);
-  void start_sums(std::size_t count);
   void make_room_for_watched(const SurfaceFeatures& features);
 
   std::vector<Way> way_;               ///< of each slave node
   std::vector<std::uint8_t> watched_;  ///< of each edge: whether it is
   std::vector<int> watched_edge_;      ///< those that are
   std::vector<double> solution_step_;  ///< likewise, of those that contact has moved in this step
-  std::vector<Sum> sum_;               ///< one a range
+  std::vector<Sum> sum_;               ///< one a range of nodes or groups
   std::vector<Vector3d> position_;
   std::vector<std::pair<double, double>> of_groups_;  ///< displacement along an axis, nodes
   std::vector<int> driven_;                           ///< slave nodes of rigid bodies
@@ -153,8 +161,7 @@ class FeatureMotion {
   double frame_sum_[3] = {0, 0, 0};
   double magnitude_ = 0;
   std::uint64_t restarts_ = 0;
-  bool known_ = false;      ///< whether the nodes' last positions are those of the step before
-  bool predicted_ = false;  ///< whether the steps are known
+  bool known_ = false;  ///< whether the nodes' last positions are those of the step before
   bool exceeds_ = false;
   bool is_solution_ = false;             ///< whether the ends are those of a solution
   const SlaveSet* corrected_ = nullptr;  ///< nodes that it has moved; null: any

@@ -60,8 +60,10 @@ void MotionGroups::form(const Surface& surface, const SurfaceFeatures& features,
   }
   list_members(surface);
   border_.clear();
-  for (const auto& corners : features.face_node) add_borders(corners);
-  for (const auto& ends : features.edge_node) add_borders(ends);
+  holds_face.clear();
+  holds_edge.clear();
+  for (const auto& corners : features.face_node) holds_face.push_back(add_borders(corners));
+  for (const auto& ends : features.edge_node) holds_edge.push_back(add_borders(ends));
 }
 
 void MotionGroups::list_members(const Surface& surface) {
@@ -94,19 +96,24 @@ void MotionGroups::join(const Surface& surface, const SurfaceFeatures& features,
     of_node_[index(s)] = std::max(of_node_[index(s)], 0);
     if (surface.node[index(s)] >= 0) member_.insert(of_node_[index(s)], s);
   }
-  for (int f : change.new_face) add_borders(features.face_node[index(f)]);
-  for (int e : edges) add_borders(features.edge_node[index(e)]);
+  holds_face.resize(features.face_node.size());
+  holds_edge.resize(features.edge_node.size());
+  for (int f : change.new_face) at(holds_face, f) = add_borders(at(features.face_node, f));
+  for (int e : edges) at(holds_edge, e) = add_borders(at(features.edge_node, e));
 }
 
 template <class Corners>
-void MotionGroups::add_borders(const Corners& corners) {
+bool MotionGroups::add_borders(const Corners& corners) {
   const int own = of_node(corners[0]);
+  bool none = true;
   for (int s : corners) {
     if (of_node(s) == own) continue;
+    none = false;
     const std::array<int, 3> border{own, of_node(s), relate(corners[0], s)};
     const auto place = std::lower_bound(border_.begin(), border_.end(), border);
     if (place == border_.end() || *place != border) border_.insert(place, border);
   }
+  return none;
 }
 
 int MotionGroups::relate(int slave_a, int slave_b) {

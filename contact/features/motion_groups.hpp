@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -43,7 +44,8 @@ class MotionGroups {
   PathAndAhead relation;  ///< of the frames of each relation
   /// By how much the frames of each relation moved apart, in the last step and in this one.
   std::vector<std::array<double, 2>> apart;
-  PathAndAhead total;  ///< no pair of features of a relation has more
+  PathAndAhead total;                                ///< no pair of features of a relation has more
+  std::vector<std::uint8_t> holds_face, holds_edge;  ///< of each, whether one group has all of its corners
 
   /// Group the nodes by where they are; nothing is related. \param position of each slave node, of dead ones
   /// not a number
@@ -70,7 +72,8 @@ class MotionGroups {
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(group, relation, apart, total, of_node_, member_, border_, related_, relation_of_, longest_);
+    archive(group, relation, apart, total, holds_face, holds_edge, of_node_, member_, border_, related_,
+            relation_of_, longest_);
   }
 
  private:
@@ -78,8 +81,9 @@ class MotionGroups {
     return index(std::min(a, b)) * group.size() + index(std::max(a, b));
   }
   void list_members(const Surface& surface);
+  /// \returns whether there is none
   template <class Corners>
-  void add_borders(const Corners& corners);
+  bool add_borders(const Corners& corners);
 
   std::vector<int> of_node_;
   Lists member_;

@@ -24,7 +24,7 @@ constexpr double most_leaving = 0.2;
 constexpr double most_of_own_edge = 4;
 /// Of ContactOptions::reach_buffer: both features of a pair have a box that is larger on both sides.
 constexpr double share_of_buffer = 0.25;
-constexpr std::size_t nodes_a_range = 4096;
+constexpr std::size_t nodes_a_range = 1024;
 /// Overlapping boxes in a search, and open pairs: so many a feature, and so many times those that do at rest
 /// (cells much finer than they are thick meet hundreds), where what is at rest grows by so much at a search
 /// for all. Where motion takes nodes past each other, all meet.

@@ -138,8 +138,7 @@ class GapMaker {
   void search(double reach_buffer, const SearchedDepth& depth) {
     displacements_.clear();
     motion_.forget();
-    motion_.begin(features_, surface_, nodes_, team_);
-    motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
+    motion_.predict(features_, surface_, nodes_, 1, {}, team_);
     ContactOptions grown = scene_.options;
     grown.reach_buffer = reach_buffer;
     pairs_.expire();
@@ -230,8 +229,7 @@ class GapMaker {
 
   // Whether a retracted face may have come near what it is not paired with.
   bool has_left_boxes() {
-    motion_.begin(features_, surface_, nodes_, team_);
-    motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
+    motion_.predict(features_, surface_, nodes_, 1, {}, team_);
     return pairs_.is_due(features_, surface_, motion_, team_);
   }
 
@@ -365,8 +363,7 @@ class GapMaker {
     std::set<std::pair<int, int>> overlapping;
     for (const SidedPair& pair : found_)
       if (!pair.is_apart) overlapping.insert(std::minmax(first_body(pair.contact), pair.contact.body));
-    motion_.begin(features_, surface_, nodes_, team_);
-    motion_.end_by_velocity(features_, surface_, nodes_, 1, {}, team_);
+    motion_.predict(features_, surface_, nodes_, 1, {}, team_);
     Proximity all;
     all.node_face.resize(pairs_.node_face.size());
     all.edge_edge.resize(pairs_.edge_edge.size());

@@ -105,8 +105,7 @@ struct RandomScene {
 /// Every pair of features of a scene that may meet at all, however far apart.
 inline FeaturePairs all_pairs(RandomScene& scene, ThreadTeam& team) {
   FeatureMotion motion;
-  motion.begin(scene.features, scene.surface, scene.nodes, team);
-  motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
+  motion.predict(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
   ContactOptions everywhere = scene.options;
   everywhere.reach_buffer = 1e4;
   FeaturePairs pairs;

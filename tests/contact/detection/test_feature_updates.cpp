@@ -128,8 +128,7 @@ void expect_no_pair_missing(const ContactScene& scene, const Nodes& nodes) {
   FeatureMotion still;
   FeaturePairs near;
   ThreadTeam team(1);
-  still.begin(scene.features, scene.surface, nodes, team);
-  still.end_by_velocity(scene.features, scene.surface, nodes, 0, {}, team);
+  still.predict(scene.features, scene.surface, nodes, 0, {}, team);
   ContactOptions options = scene.options;
   options.reach_buffer = 1e-6;
   const std::vector<double> no_depth(scene.surface.slaves(), 0);  // all whose boxes meet are paired

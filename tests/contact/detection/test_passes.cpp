@@ -26,8 +26,7 @@ struct Detector {
   std::array<std::vector<int>, 2> active{};  ///< before constraints were found
 
   void begin() {
-    motion.begin(scene.features, scene.surface, scene.nodes, team);
-    motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
+    motion.predict(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
     if (pairs.is_due(scene.features, scene.surface, motion, team)) search();
     select();
     active = {proximity.node_face, proximity.edge_edge};
@@ -178,8 +177,7 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
   FeatureMotion first;
   const auto step = [&] {  // the same one
     if (first.restarts() > 0) detector.motion = first;
-    detector.motion.begin(scene.features, scene.surface, scene.nodes, team);
-    detector.motion.end_by_velocity(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
+    detector.motion.predict(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
     detector.select();
     find_proximities(detector.proximity, scene.features, scene.surface, scene.excluded, scene.options,
                      detector.pairs, detector.motion, team, detector.contacts);

@@ -79,7 +79,7 @@ class Resolution {
   static constexpr double behind_wall = 1e-9;
   /// Iterations of the solver for one pass of the options.
   static constexpr int iterations_a_pass = 10;
-  static constexpr std::size_t contacts_a_range = 512;
+  static constexpr std::size_t contacts_a_range = 128;
 
   void name_unresolved() {
     if (scene_.guard.hits.empty()) return;

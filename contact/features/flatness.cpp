@@ -17,7 +17,7 @@ namespace {
 constexpr double share_of_skin = 0.5, share_of_radius = 0.03;
 /// Of the thickness up to which a shape stays flat, so that it does not change at every search.
 constexpr double share_to_become_flat = 0.5;
-constexpr std::size_t shapes_a_range = 2048;
+constexpr std::size_t shapes_a_range = 256;
 constexpr float not_measured = std::numeric_limits<float>::infinity();
 
 /// Faces, as what follows asks of a kind of shapes.

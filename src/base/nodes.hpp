@@ -38,7 +38,7 @@ struct SupportAxes {
 };
 
 /// Nodes to a range at most; sums over nodes are formed range by range in order.
-inline constexpr std::size_t nodes_per_range = 4096;
+inline constexpr std::size_t nodes_per_range = 2048;
 
 /// Nodes [begin, end).
 struct NodeRange {

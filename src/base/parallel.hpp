@@ -56,19 +56,26 @@ class ThreadTeam {
 
  private:
   using Call = void (*)(void*, std::size_t);
+  /// Contiguous tasks that one thread begins with; those who have done their own go on with those of others.
+  /// So a thread finds in its cache, in most loops over the same data, what it has left there.
+  struct alignas(64) Share {
+    std::atomic<std::uint64_t> ticket{0};  ///< the loop (upper half) and the next task of the share
+  };
   void run(std::size_t count, Call call, void* context);
-  void work();
-  void drain(std::uint32_t loop);
+  void work(std::size_t thread);
+  void drain(std::uint32_t loop, std::size_t thread);
+  void drain_share(std::uint32_t loop, std::size_t share);
   void stop();
 
   std::vector<std::thread> workers_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::exception_ptr fault_;  ///< of a task of the loop that runs
-  /// The loop that runs (upper half) and its next task (lower half): a thread that wakes late, when others
-  /// have done all tasks of its loop, takes none, and nobody waits for it.
-  std::atomic<std::uint64_t> ticket_{0};
-  std::atomic<std::size_t> done_{0};  ///< tasks of the loop that are finished
+  /// A thread that wakes late, when others have done all tasks of its loop, takes none, and nobody waits for
+  /// it.
+  std::vector<Share> share_;            ///< of each thread; the caller's is the first
+  std::atomic<std::uint32_t> loop_{0};  ///< that runs
+  std::atomic<std::size_t> done_{0};    ///< tasks of the loop that are finished
   std::atomic<bool> stop_{false};
   std::atomic<Call> call_{nullptr};
   std::atomic<void*> context_{nullptr};

@@ -116,7 +116,7 @@ Vector3d given_turn(RigidBody& body, RigidMotion& motion, double step) {
   turns_too_far();
 }
 
-constexpr std::size_t nodes_per_task = 4096;
+constexpr std::size_t nodes_per_task = 512;
 
 void place_nodes(const RigidBody& body, Nodes& nodes, ThreadTeam& team) {
   const Tensor<double> turn = rotation_matrix(body.attitude);

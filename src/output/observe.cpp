@@ -191,12 +191,27 @@ void FieldObserver::take_topology(const Model& model) {
   Topology& topology = snapshot_->topology;
   topology = {};
   range_.clear();
+  const auto rigid_of = [&](const PartInModel& part) {
+    return part.rigid >= 0 ? &model.rigid.body[index(part.rigid)] : nullptr;
+  };
+  const auto corners_of = [&](const PartInModel& part) {
+    const RigidBody* rigid = rigid_of(part);
+    return rigid != nullptr ? rigid->nodes_per_element : nodes_per_element(model.blocks[part.block].element);
+  };
+  std::size_t most_cells = 0, most_corners = 0;
+  for (const PartInModel& part : model.parts) {
+    most_cells += part.element_slot.size();
+    most_corners += part.element_slot.size() * index(corners_of(part));
+  }
+  topology.cell_type.reserve(most_cells);
+  topology.offset.reserve(most_cells + 1);
+  topology.connectivity.reserve(most_corners);
   for (std::size_t p = 0; p < model.parts.size(); ++p) {
     const PartInModel& part = model.parts[p];
     const std::size_t first_cell = topology.cell_type.size();
     const Block& block = model.blocks[part.block];
-    const RigidBody* rigid = part.rigid >= 0 ? &model.rigid.body[index(part.rigid)] : nullptr;
-    const int corners = rigid != nullptr ? rigid->nodes_per_element : nodes_per_element(block.element);
+    const RigidBody* rigid = rigid_of(part);
+    const int corners = corners_of(part);
     const CellType cell = rigid != nullptr ? cell_with(corners) : traits_of(block.element).cell;
     for (std::size_t e = 0; e < part.element_slot.size(); ++e) {
       if (e % elements_per_range == 0)

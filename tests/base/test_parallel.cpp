@@ -37,6 +37,40 @@ TEST(ThreadTeam, ThreadsThatWakeLateTakeNoTaskOfAnotherLoop) {
   }
 }
 
+// Of four tasks the second thread begins with the third, however late it wakes: the first waits for it.
+TEST(ThreadTeam, ThreadsBeginWithTheSameTasksInEveryLoop) {
+  ThreadTeam team(2);
+  std::vector<std::thread::id> by(4);
+  std::thread::id second;
+  for (int loop = 0; loop < 50; ++loop) {
+    std::atomic<int> started = 0;
+    team.for_each(4, [&](std::size_t i) {
+      by[i] = std::this_thread::get_id();
+      if (i % 2 != 0) return;
+      ++started;
+      while (started < 2) std::this_thread::yield();
+    });
+    ASSERT_EQ(by[0], std::this_thread::get_id());
+    ASSERT_NE(by[2], by[0]);
+    if (loop > 0) {
+      ASSERT_EQ(by[2], second);
+    }
+    second = by[2];
+  }
+}
+
+// Who has the first task waits until the others are done, one of which is of the same share: else this never
+// ends.
+TEST(ThreadTeam, ThreadsThatAreDoneTakeTasksOfOthers) {
+  ThreadTeam team(2);
+  std::atomic<int> done = 0;
+  team.for_each(4, [&](std::size_t i) {
+    while (i == 0 && done < 3) std::this_thread::yield();
+    ++done;
+  });
+  EXPECT_EQ(done, 4);
+}
+
 TEST(ThreadTeam, RangesCoverWithoutOverlap) {
   ThreadTeam team(3);
   std::vector<int> touched(1001, 0);

@@ -1,6 +1,7 @@
 #include "src/base/parallel.hpp"
 
 #include <cassert>
+#include <chrono>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -11,10 +12,9 @@ namespace brio {
 
 namespace {
 
-// Waiting spins briefly, because the next loop of a step follows within microseconds, then sleeps. To wake a
-// thread takes longer than most loops, but on a busy machine one that spins holds the processor that another
-// one of the team would have been given: with five times as many two threads were 18 % slower than one there.
-constexpr int spins_before_sleep = 2000;
+// Waiting spins briefly, because the next loop of a step follows within microseconds, then yields, then
+// sleeps: to wake a thread takes longer than most loops.
+constexpr int spins_before_sleep = 2000, yields_before_sleep = 500;
 
 constexpr int task_bits = 32;
 constexpr std::uint64_t task_mask = (std::uint64_t{1} << task_bits) - 1;
@@ -29,6 +29,32 @@ std::size_t task_of(std::uint64_t ticket) { return index(ticket & task_mask); }
 constexpr std::size_t end_of_share(std::size_t tasks, std::size_t share, std::size_t shares) {
   return tasks * (share + 1) / shares;
 }
+
+/// Waits while nobody else wants the processor. Who yields to another process gets it back a time slice
+/// later, who sleeps and is woken sooner: so for some time after that there is no more yielding.
+class Yielding {
+ public:
+  template <class Condition>
+  void wait_until(const Condition& condition) {
+    if (waits_without_ > 0) {
+      --waits_without_;
+      return;
+    }
+    for (int i = 0; i < yields_before_sleep && !condition(); ++i) {
+      const Clock::time_point before = Clock::now();
+      std::this_thread::yield();
+      if (Clock::now() - before < longest_yield) continue;
+      waits_without_ = waits_if_busy;
+      return;
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::microseconds longest_yield{50};
+  static constexpr int waits_if_busy = 1000;
+  int waits_without_ = 0;
+};
 
 inline void pause_briefly() {
 #if defined(__x86_64__)
@@ -116,12 +142,15 @@ void ThreadTeam::run(std::size_t count, Call call, void* context) {
 
 void ThreadTeam::work(std::size_t thread) {
   std::uint32_t seen = 0;
+  Yielding yielding;
   const auto now = [&] { return loop_.load(std::memory_order_acquire); };
   while (true) {
-    for (int spin = 0; now() == seen && !stop_ && spin < spins_before_sleep; ++spin) pause_briefly();
+    const auto goes_on = [&] { return now() != seen || stop_; };
+    for (int spin = 0; !goes_on() && spin < spins_before_sleep; ++spin) pause_briefly();
+    yielding.wait_until(goes_on);
     if (now() == seen) {
       std::unique_lock lock(mutex_);
-      wake_.wait(lock, [&] { return now() != seen || stop_; });
+      wake_.wait(lock, goes_on);
     }
     if (stop_) return;
     seen = now();

@@ -46,8 +46,9 @@ def pinned(command):
     return ["taskset", "-c", "0"] + command if shutil.which("taskset") else command
 
 
-def run_bench(command):
-    result = subprocess.run(pinned(command), capture_output=True, text=True)
+def run_bench(command, held=True):
+    """Lines of its table. Held: to one core."""
+    result = subprocess.run(pinned(command) if held else command, capture_output=True, text=True)
     if result.returncode != 0:
         sys.exit(f"{' '.join(command)} failed: {result.stderr.strip()}")
     return list(csv.DictReader(result.stdout.splitlines()))

@@ -151,7 +151,7 @@ class FeatureMotion {
   std::vector<std::uint8_t> watched_;  ///< of each edge: whether it is
   std::vector<int> watched_edge_;      ///< those that are
   std::vector<double> solution_step_;  ///< likewise, of those that contact has moved in this step
-  std::vector<Sum> sum_;               ///< one a range of nodes or groups
+  std::vector<Sum> sum_;               ///< one a range of nodes
   std::vector<Vector3d> position_;
   std::vector<std::pair<double, double>> of_groups_;  ///< displacement along an axis, nodes
   std::vector<int> driven_;                           ///< slave nodes of rigid bodies

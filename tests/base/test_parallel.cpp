@@ -37,21 +37,25 @@ TEST(ThreadTeam, ThreadsThatWakeLateTakeNoTaskOfAnotherLoop) {
   }
 }
 
-// Of four tasks the second thread begins with the third, however late it wakes: the first waits for it.
+// Of four tasks the second thread begins with the third, however late it wakes: the first one waits for that,
+// and nobody takes the second task before.
 TEST(ThreadTeam, ThreadsBeginWithTheSameTasksInEveryLoop) {
   ThreadTeam team(2);
   std::vector<std::thread::id> by(4);
+  std::vector<int> turn(4);
   std::thread::id second;
   for (int loop = 0; loop < 50; ++loop) {
-    std::atomic<int> started = 0;
+    std::atomic<int> started = 0, turns = 0;
     team.for_each(4, [&](std::size_t i) {
       by[i] = std::this_thread::get_id();
+      turn[i] = turns++;
       if (i % 2 != 0) return;
       ++started;
       while (started < 2) std::this_thread::yield();
     });
     ASSERT_EQ(by[0], std::this_thread::get_id());
     ASSERT_NE(by[2], by[0]);
+    ASSERT_LT(turn[2], turn[1]);
     if (loop > 0) {
       ASSERT_EQ(by[2], second);
     }

@@ -219,6 +219,7 @@ takes its turn in every round, and the best of {rounds} counts. Compare ratios, 
 
 * `--store FILE` keeps what was measured, `--guard FILE` names what costs over {100 * (MORE_THAN - 1):.0f} % more than what was kept (`apps/bench/costs.json` is
   of the run of this page).
+  On a machine with other guests noise is named too: one round of the same program named 8 of 47 costs, by up to 1.34.
 * `--peer NAME=COMMAND` measures another program in the same rounds.
 * *Operations*: multiply-adds, of two operations each, that one thread does in registers in the time of one element and step.
 * Scenes are the shipped decks up to the time that the script names. *Whole over elements*: wall time over that of the element kernels.

@@ -42,14 +42,6 @@ BRIO_INLINE Tensor<T> cofactors(const Tensor<T>& a) {
            {m[0][1] * m[1][2] - m[0][2] * m[1][1], m[0][2] * m[1][0] - m[0][0] * m[1][2],
             m[0][0] * m[1][1] - m[0][1] * m[1][0]}}};
 }
-template <class T>
-BRIO_INLINE T contract(const Tensor<T>& a, const Tensor<T>& b) {
-  T sum = a.m[0][0] * b.m[0][0];
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (i + j > 0) sum += a.m[i][j] * b.m[i][j];
-  return sum;
-}
 /// a b^T
 template <class T>
 BRIO_INLINE Tensor<T> times_transposed(const Tensor<T>& a, const Tensor<T>& b) {
@@ -185,9 +177,9 @@ struct ParticleKernel : Particle {
     Tensor<T> n;
     const StepVolume<T> volume = end_of_step(motion, half_step, l, header.volume, n);
     header.volume = volume.end;
-    MaterialAxes<T> axes;
+    const MaterialAxes<T> axes = follow(n, point->stress, point->rotation);
     Increment<T> increment;
-    increment.internal_energy = volume.middle * update(law, n, *point, axes).work;
+    increment.internal_energy = volume.middle * update(law, axes, *point).work;
 
     const ElasticModuli<T> moduli = law.moduli(point->history);
     const T stiffness = moduli.first_lame + 2.0 * moduli.shear;
@@ -218,7 +210,8 @@ struct ParticleKernel : Particle {
     header.internal_energy += increment.internal_energy;
 
     // V P = V sigma cof F of the volume V that F is of.
-    const SymmetricTensor<T> stress = fixed_stress(*point, axes) - isotropic(pressure);
+    const SymmetricTensor<T> stress =
+        fixed_stress<ObjectiveRate::green_naghdi>(point->stress, axes) - isotropic(pressure);
     const T volume_of_reference = is_eulerian() ? volume.end : motion.volume;
     Tensor<T> force_tensor = volume_of_reference * (full(stress) * motion.cofactor);
     if (is_eulerian()) force_tensor = full(motion.share) * force_tensor;

@@ -10,12 +10,7 @@
 ///   drive that spin and turn it into what bends, so a weak spring and a damper hold it (drilling_stiffness,
 ///   drilling_viscosity).
 
-#include <cmath>
-
-#include "elements/base/changing_spring.hpp"
-#include "elements/shell/shell4.hpp"
-#include "elements/shell/shell_step.hpp"
-#include "elements/shell/shell_strain.hpp"
+#include "elements/shell/shell_resistance.hpp"
 #include "src/base/fetch_ahead.hpp"
 #include "src/base/index.hpp"
 
@@ -30,20 +25,7 @@ struct Shell4Kernel : Shell4 {
   double point_size(double volume) const { return std::sqrt(volume / thickness); }
 
   template <class T, class Law>
-  struct Header {
-    T mass;
-    T thickness;
-    T inverse_gyration;  ///< 1 / r^2: nodal mass over nodal rotational inertia
-    T internal_energy;
-    T viscous_force;  ///< per length, of the last step
-    ReferenceShape<T> reference;
-    T hourglass[3];  ///< strains of the elastic hourglass control (changing_spring.hpp)
-    T rotation[2];
-    T drilling;                                 ///< angle about the normal
-    HourglassStiffness<T> hourglass_stiffness;  ///< of the last step
-    T drilling_stiffness;
-    T viscous_drilling;  ///< moment of the last step
-  };
+  using Header = Shell4State<T>;
   template <class T, class Law>
   struct Point {
     ShellTensor<T> stress;
@@ -57,13 +39,13 @@ struct Shell4Kernel : Shell4 {
     const auto moduli = plane_stress_moduli(law.template moduli<T>(point[0].history));
     header.thickness = T(thickness);
     header.reference = reference_shape(g);
-    const T gyration = gyration_square(g, moduli, shear_factor, header.thickness, rule().second_moment());
+    const T gyration = gyration_square(g, moduli, shear_factor, header.thickness, rule().second_moment);
     header.inverse_gyration = 1.0 / gyration;
     header.mass = law.density * header.thickness * g.area;
     header.hourglass_stiffness =
         brio::hourglass_stiffness(g, moduli, shear_factor, header.thickness, hourglass_stiffness);
     if (drilling_stiffness > 0)
-      header.drilling_stiffness = drill_stiffness(frequency_square(g, moduli, header), header);
+      header.drilling_stiffness = drill_stiffness(*this, frequency_square(*this, g, moduli, header), header);
     // A triangle's smallest corner is zero but for round-off.
     header.mass = where((smallest_corner(g) > T(-1e-6)) & g.is_valid, header.mass, 0.0);
     const T share = 0.25 * header.mass;
@@ -84,57 +66,29 @@ struct Shell4Kernel : Shell4 {
     kernel.drilling_viscosity = 0;
     return kernel;
   }
-  /// State with the present shape and without stress. \param header out, zero before, as are the points
-  template <class T, class Law, class Other>
-  void start_unstressed(const Header<T, Law>& now, Header<T, Other>& header, Point<T, Other>*) const {
-    header.mass = now.mass;
-    header.thickness = now.thickness;
-    header.inverse_gyration = now.inverse_gyration;
-    header.reference = now.reference;
-    header.hourglass_stiffness = now.hourglass_stiffness;
-    header.drilling_stiffness = now.drilling_stiffness;
+  /// State with the present shape and without stress. \param state out, zero before, as are the points
+  template <class T, class Other>
+  void start_unstressed(const Shell4State<T>& now, Shell4State<T>& state, Point<T, Other>*) const {
+    state.mass = now.mass;
+    state.thickness = now.thickness;
+    state.inverse_gyration = now.inverse_gyration;
+    state.reference = now.reference;
+    state.hourglass_stiffness = now.hourglass_stiffness;
+    state.drilling_stiffness = now.drilling_stiffness;
   }
 
   template <class T, class Law>
   BRIO_INLINE Increment<T> force(const RotatingNodalMotion<T, 4>& motion, T step, const Law& law,
-                                 Header<T, Law>& header, Point<T, Law>* point,
+                                 Shell4State<T>& state, Point<T, Law>* point,
                                  RotatingNodalForces<T, 4>& nodal) const {
-    const ShellGeometry<T> g = shell_geometry(motion.position, header.reference);
-    const ShellRates<T> rates = shell_rates(motion, g, step, warping_projection);
+    ShellGeometry<T> g;
+    ShellRates<T> rates;
+    follow_motion(motion, step, state.reference, warping_projection, g, rates);
     Increment<T> increment;
-    ShellRates<T> result = stress_resultants(g, rates, step, law, header, point, increment);
-
-    const auto moduli = plane_stress_moduli(law.template moduli<T>(point[0].history));
-    T frequency = frequency_square(g, moduli, header);
-    T drill = T(0.0);
-    if (drilling_stiffness > 0) {
-      drill = drill_stiffness(frequency, header);
-      frequency += drilling_frequency_square(g, drill, header);
-    }
-    const T undamped = 2.0 / sqrt(frequency);
-    T damping = T(linear_bulk_viscosity);
-    if (hourglass_viscosity > 0)
-      damping += hourglass_viscosity * (1.0 + 0.5 * (square(g.skew[0]) + square(g.skew[1])));
-    if (drilling_stiffness > 0) damping += drilling_damping(g, header);
-    increment.frequency_squared = frequency;
-    increment.strain_rate_squared = strain_rate_squared(rates, header.thickness);
-    increment.stable_step = where(g.is_valid, undamped * damped_share(damping), 0.0);
-
-    // Viscosity as if the stiffness of equal stretch in both directions, E' (1 + nu) / 2, acted for b1 stable
-    // steps.
-    const T stretching = rates.membrane[0] + rates.membrane[1];
-    const T viscous_force = (0.5 * linear_bulk_viscosity) * (header.thickness * undamped) *
-                            (moduli.stretch * (1.0 + moduli.ratio)) * stretching;
-    result.membrane[0] += viscous_force;
-    result.membrane[1] += viscous_force;
-    const T middle_area = g.area * (1.0 - 0.5 * step * stretching);
-    increment.viscous_energy =
-        (0.5 * middle_area * step) * ((header.viscous_force + viscous_force) * stretching);
-    header.viscous_force = viscous_force;
-
-    resist_hourglass(g, moduli, rates, step, undamped, header, result, increment);
-    if (drilling_stiffness > 0) resist_drilling(drill, rates, step, header, result, increment);
-    shell_forces(g, result, warping_projection, nodal);
+    ShellRates<T> result;
+    update_stress(g, rates, step, law, state, point, result, increment);
+    resist_motion(*this, step, law.template moduli<T>(point[0].history), g, rates, state, result, increment,
+                  nodal);
     return increment;
   }
 
@@ -172,12 +126,8 @@ struct Shell4Kernel : Shell4 {
   }
 
  private:
-  /// Angle, in radians, at which resistance to drilling yields.
-  static constexpr double drilling_limit = 0.01;
-
   /// That of the springs against hourglass modes and drilling.
-  template <class Law>
-  static double stored_hourglass_energy(const Header<double, Law>& header) {
+  static double stored_hourglass_energy(const Shell4State<double>& header) {
     const HourglassStiffness<double>& stiffness = header.hourglass_stiffness;
     double twice =
         stiffness.normal * square(header.hourglass[2]) + header.drilling_stiffness * square(header.drilling);
@@ -200,13 +150,14 @@ struct Shell4Kernel : Shell4 {
             entry(&V::x, &V::y), entry(&V::y, &V::z), entry(&V::x, &V::z)};
   }
 
-  /// Update of stress at all points; forces and moments per length, new thickness, work.
+  /// Update of stress at all points; membrane forces, moments and shear forces per length, new thickness,
+  /// work. \param result of these alone
   template <class T, class Law>
-  BRIO_INLINE ShellRates<T> stress_resultants(const ShellGeometry<T>& g, const ShellRates<T>& rates, T step,
-                                              const Law& law, Header<T, Law>& header, Point<T, Law>* point,
-                                              Increment<T>& increment) const {
+  BRIO_INLINE void update_stress(const ShellGeometry<T>& g, const ShellRates<T>& rates, T step,
+                                 const Law& law, Shell4State<T>& state, Point<T, Law>* point,
+                                 ShellRates<T>& result, Increment<T>& increment) const {
     const ThicknessRule& quadrature_rule = rule();
-    const T old_thickness = header.thickness;
+    const T old_thickness = state.thickness;
     T strain[3], bend[3];
     for (int c = 0; c < 3; ++c) strain[c] = step * rates.membrane[c];
     for (int c = 0; c < 3; ++c) bend[c] = (step * old_thickness) * rates.curvature[c];
@@ -216,7 +167,7 @@ struct Shell4Kernel : Shell4 {
     T shear[2] = {T(0.0), T(0.0)};
     T thickness_strain = T(0.0);
     T work = T(0.0);
-    const std::size_t pack_bytes = sizeof(Header<T, Law>) + index(thickness_points) * sizeof(Point<T, Law>);
+    const std::size_t pack_bytes = sizeof(state) + index(thickness_points) * sizeof(Point<T, Law>);
     for (int p = 0; p < thickness_points; ++p) {
       const T place(quadrature_rule.place[index(p)]);
       const T weight(quadrature_rule.weight[index(p)]);
@@ -249,125 +200,17 @@ struct Shell4Kernel : Shell4 {
     const T half_strain = 0.5 * thickness_strain;
     T middle_thickness = old_thickness;
     if (thickness_update) {
-      header.thickness = old_thickness * (1.0 + thickness_strain + half_strain * thickness_strain);
+      state.thickness = old_thickness * (1.0 + thickness_strain + half_strain * thickness_strain);
       middle_thickness = old_thickness * (1.0 + half_strain);
     }
     const T middle_area = g.area * (1.0 - 0.5 * (strain[0] + strain[1]));
     increment.internal_energy = (middle_area * middle_thickness) * work;
-    header.internal_energy += increment.internal_energy;
-    const T h = header.thickness;
-    const T h_squared = square(h);
-    return {{h * force[0], h * force[1], h * force[2]},
-            {h_squared * moment[0], h_squared * moment[1], h_squared * moment[2]},
-            {h * shear[0], h * shear[1]},
-            {},
-            {},
-            T(0.0)};
-  }
-
-  /// Upper bound of the highest frequency squared, without resistance to drilling.
-  template <class T, class Law>
-  BRIO_INLINE T frequency_square(const ShellGeometry<T>& g, const PlaneStressModuli<T>& moduli,
-                                 const Header<T, Law>& header) const {
-    return highest_frequency_square(g, moduli, shear_factor, rule().second_moment(), header.mass,
-                                    header.thickness, header.inverse_gyration, hourglass_stiffness,
-                                    warping_projection);
-  }
-
-  /// Moment per spin about the normal.
-  template <class T, class Law>
-  BRIO_INLINE T drill_stiffness(T frequency_squared, const Header<T, Law>& header) const {
-    return drilling_stiffness * frequency_squared * header.mass / header.inverse_gyration;
-  }
-
-  /// What resistance to drilling adds to the largest square of a frequency: its only mode is all four nodes'
-  /// spin against that of the material.
-  template <class T, class Law>
-  static BRIO_INLINE T drilling_frequency_square(const ShellGeometry<T>& g, T drill,
-                                                 const Header<T, Law>& header) {
-    return (drill / header.mass) * (header.inverse_gyration + 1.25 * gradient_square(g));
-  }
-
-  /// What damping of drilling adds to the ratio of damping. Strain meets the part of the mode that is the
-  /// material's spin, a share t = s r^2 of that of the nodes. For a mode p joined with strain by the root of
-  /// t p, all together is below the larger of (strain + 5/4 t p) and 5 p; 5 p is below 1 where the spring is
-  /// weak.
-  template <class T, class Law>
-  BRIO_INLINE T drilling_damping(const ShellGeometry<T>& g, const Header<T, Law>& header) const {
-    const double ratio = drilling_viscosity * std::sqrt(drilling_stiffness);
-    const T share = gradient_square(g) / header.inverse_gyration;
-    const bool is_weak = 5 * (drilling_stiffness + 2 * ratio) <= 1;
-    return is_weak ? (1.25 * ratio) * share : ratio * (1.0 + share);
-  }
-
-  /// Nodal spin about the normal bends no element that is flat, and nothing else would resist it; but moments
-  /// of elements that are tilted against each other drive it, and turn it into what bends. (After Hughes &
-  /// Brezzi 1989: a weak spring between the spin of the nodes and that of the material. One for the mean of
-  /// the nodes, as one point of integration gives: nodes spin unequally where a warped surface bends, and one
-  /// for each would lock it. It yields at a hundredth of a radian, so that it does not resist where the
-  /// corners of folds shear in their plane. Moments are not those of a potential in that spin: it swings up
-  /// in strips of short elements that are bent strongly, unless damped.)
-  template <class T, class Law>
-  BRIO_INLINE void resist_drilling(T drill, const ShellRates<T>& rates, T step, Header<T, Law>& header,
-                                   ShellRates<T>& result, Increment<T>& increment) const {
-    const SpringChange<T> change = spring_change(header.drilling_stiffness, drill);
-    header.drilling_stiffness = drill;
-    const T before = change.carried * header.drilling;
-    const T growth = (step * change.growth) * rates.drilling;
-    header.drilling = min(max(before + growth, -drilling_limit), drilling_limit);
-    increment.hourglass_energy += (0.5 * drill) * growth * (before + header.drilling);
-    const T elastic = drill * header.drilling;
-    const T damper = (2 * drilling_viscosity) * sqrt(drill * header.mass / header.inverse_gyration);
-    const T most = drilling_limit * drill;
-    result.drilling = min(max(elastic + damper * rates.drilling, -most), most);
-    const T viscous = result.drilling - elastic;
-    increment.viscous_energy += (0.5 * step) * rates.drilling * (header.viscous_drilling + viscous);
-    header.viscous_drilling = viscous;
-  }
-
-  /// Elastic and viscous hourglass forces (Belytschko, Ong, Liu & Kennedy 1984).
-  /// They stay elastic where the material flows: shrunk with its stress, as those of bricks are, they let the
-  /// elements of a can's folds collapse into slivers.
-  template <class T, class Law>
-  BRIO_INLINE void resist_hourglass(const ShellGeometry<T>& g, const PlaneStressModuli<T>& moduli,
-                                    const ShellRates<T>& rates, T step, T undamped_step,
-                                    Header<T, Law>& header, ShellRates<T>& result,
-                                    Increment<T>& increment) const {
-    const HourglassStiffness<T> stiffness =
-        brio::hourglass_stiffness(g, moduli, shear_factor, header.thickness, hourglass_stiffness);
-    const HourglassStiffness<T> old = header.hourglass_stiffness;
-    header.hourglass_stiffness = stiffness;
-    const SpringChange<T> in_plane = spring_change(old.membrane, stiffness.membrane);
-    const SpringChange<T> bow = spring_change(old.normal, stiffness.normal);
-    const SpringChange<T> turning = spring_change(old.rotation, stiffness.rotation);
-    T work = T(0.0);
-    const auto force = [step, &work](T& strain, const SpringChange<T>& change, T rate, T end_stiffness) {
-      const T before = change.carried * strain;
-      const T growth = (step * change.growth) * rate;
-      strain = before + growth;
-      work += end_stiffness * ((before + strain) * growth);
-      return end_stiffness * strain;
-    };
-    for (int c = 0; c < 2; ++c) {
-      result.hourglass[c] = force(header.hourglass[c], in_plane, rates.hourglass[c], stiffness.membrane);
-      result.rotation[c] = force(header.rotation[c], turning, rates.rotation[c], stiffness.rotation);
+    state.internal_energy += increment.internal_energy;
+    for (int c = 0; c < 3; ++c) {
+      result.membrane[c] = state.thickness * force[c];
+      result.curvature[c] = square(state.thickness) * moment[c];
     }
-    result.hourglass[2] = force(header.hourglass[2], bow, rates.hourglass[2], stiffness.normal);
-    increment.hourglass_energy = 0.5 * work;
-    if (hourglass_viscosity > 0) {
-      const T damper = hourglass_viscosity * header.mass / (4.0 * undamped_step);
-      const T rotation_damper = damper / header.inverse_gyration;
-      T power = T(0.0);
-      for (int c = 0; c < 3; ++c) {
-        result.hourglass[c] += damper * rates.hourglass[c];
-        power += damper * square(rates.hourglass[c]);
-      }
-      for (int c = 0; c < 2; ++c) {
-        result.rotation[c] += rotation_damper * rates.rotation[c];
-        power += rotation_damper * square(rates.rotation[c]);
-      }
-      increment.viscous_energy += step * power;
-    }
+    for (int c = 0; c < 2; ++c) result.shear[c] = state.thickness * shear[c];
   }
 };
 

@@ -21,12 +21,7 @@ struct ThicknessRule {
   std::array<double, most_thickness_points> place{};
   std::array<double, most_thickness_points> weight{};
 
-  /// Integral of the square of the place; 1/12 if the rule is exact for it.
-  constexpr double second_moment() const {
-    double sum = 0;
-    for (std::size_t p = 0; p < most_thickness_points; ++p) sum += weight[p] * place[p] * place[p];
-    return sum;
-  }
+  double second_moment = 0;  ///< integral of the square of the place; 1/12 if the rule is exact for it
 };
 
 namespace detail {
@@ -83,6 +78,7 @@ constexpr ThicknessRule thickness_rule(ThicknessQuadrature quadrature, int count
     const auto p = index(k);
     rule.place[p] = (k < count - 1 - k ? -0.5 : 0.5) * x;
     rule.weight[p] = weight;
+    rule.second_moment += weight * rule.place[p] * rule.place[p];
   }
   return rule;
 }

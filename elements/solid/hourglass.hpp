@@ -24,28 +24,29 @@ BRIO_INLINE T dot(const HourglassVectors<T>& a, const HourglassVectors<T>& b) {
   return sum;
 }
 
-/// scale gamma . v for each mode. \param l `scale` times the mean gradient of v on the configuration of x.
+/// The sums of a field against the hourglass base vectors.
 template <class T>
-BRIO_INLINE HourglassVectors<T> hourglass_motion(const HexahedronModes<T>& x, const HexahedronModes<T>& v,
-                                                 T scale, const Tensor<T>& l) {
-  HourglassVectors<T> motion;
-  for (int a = 0; a < hourglass_modes; ++a) {
-    const Vector3<T>& xa = x.hourglass(a);
-    const Vector3<T>& va = v.hourglass(a);
-    motion.mode[a] = {scale * va.x - (l.m[0][0] * xa.x + l.m[0][1] * xa.y + l.m[0][2] * xa.z),
-                      scale * va.y - (l.m[1][0] * xa.x + l.m[1][1] * xa.y + l.m[1][2] * xa.z),
-                      scale * va.z - (l.m[2][0] * xa.x + l.m[2][1] * xa.y + l.m[2][2] * xa.z)};
-  }
-  return motion;
+BRIO_INLINE HourglassVectors<T> hourglass_sums(const HexahedronModes<T>& field) {
+  HourglassVectors<T> sums;
+  for (int a = 0; a < hourglass_modes; ++a) sums.mode[a] = field.sum[linear_modes + a];
+  return sums;
+}
+
+/// gamma . v for each mode. \param l mean gradient of v on the configuration of x
+template <class T>
+BRIO_INLINE HourglassVectors<T> hourglass_rate(const HourglassVectors<T>& x, const HourglassVectors<T>& v,
+                                               const Tensor<T>& l) {
+  HourglassVectors<T> rate;
+  for (int a = 0; a < hourglass_modes; ++a) rate.mode[a] = v.mode[a] - turned(l, x.mode[a]);
+  return rate;
 }
 
 /// p = sum_a x_a . G x_a, dimensionless: what is subtracted from the base vectors to form gamma. It measures
 /// distortion and is zero for a parallelepiped.
 template <class T>
-BRIO_INLINE T hourglass_distortion(const HexahedronModes<T>& x, const SymmetricTensor<T>& g) {
+BRIO_INLINE T hourglass_distortion(const HourglassVectors<T>& x, const SymmetricTensor<T>& g) {
   SymmetricTensor<T> c = isotropic(T(0.0));
-  for (int a = 0; a < hourglass_modes; ++a) {
-    const Vector3<T>& xa = x.hourglass(a);
+  for (const Vector3<T>& xa : x.mode) {
     c.xx += xa.x * xa.x;
     c.yy += xa.y * xa.y;
     c.zz += xa.z * xa.z;
@@ -270,15 +271,15 @@ BRIO_INLINE T resist_hourglass(const HourglassVectors<T>& rate, T resistance, Ho
 
 /// Corner forces of a stress on the mean gradient and of generalized hourglass forces.
 template <class T>
-BRIO_INLINE void nodal_forces(const HexahedronModes<T>& x, const MeanGradient<T>& b,
+BRIO_INLINE void nodal_forces(const HourglassVectors<T>& x, const MeanGradient<T>& b,
                               const SymmetricTensor<T>& stress, const HourglassVectors<T>& q,
                               T scaled_inverse_volume, NodalForces<T, 8>& forces) {
   const SymmetricTensor<T> t = T(gradient_scale) * stress;
   const Vector3<T> rows[3] = {{t.xx, t.xy, t.xz}, {t.xy, t.yy, t.yz}, {t.xz, t.yz, t.zz}};
   const auto component = [](const Vector3<T>& a, int i) { return i == 0 ? a.x : i == 1 ? a.y : a.z; };
   for (int i = 0; i < 3; ++i) {
-    Vector3<T> drag = component(q.mode[0], i) * x.hourglass(0);
-    for (int a = 1; a < hourglass_modes; ++a) drag = drag + component(q.mode[a], i) * x.hourglass(a);
+    Vector3<T> drag = component(q.mode[0], i) * x.mode[0];
+    for (int a = 1; a < hourglass_modes; ++a) drag = drag + component(q.mode[a], i) * x.mode[a];
     const Vector3<T> row = rows[i] - scaled_inverse_volume * drag;
     T s[hexahedron_modes];
     for (int m = 0; m < linear_modes; ++m) s[m] = dot(row, b.beta[m]);

@@ -27,8 +27,6 @@ inline constexpr int hourglass_modes = 4;
 template <class T>
 struct HexahedronModes {
   Vector3<T> sum[hexahedron_modes];
-
-  BRIO_INLINE const Vector3<T>& hourglass(int alpha) const { return sum[linear_modes + alpha]; }
 };
 
 /// Differences are formed first, so that nothing is lost far from the origin.

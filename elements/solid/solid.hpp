@@ -50,7 +50,7 @@ template <class T>
 struct PointStep {
   T work;  ///< per volume of the middle of the step
   SymmetricTensor<T> old_stress;
-  T old_plastic_strain;  ///< 0 for elastic models
+  MaskOf<T> has_yielded;  ///< in this step; never for elastic models
 };
 
 /// Ratio of the returned deviatoric stress to the elastic trial stress, 1 in elastic steps: hourglass stress
@@ -64,38 +64,48 @@ BRIO_INLINE T return_ratio(const SymmetricTensor<T>& old_stress, const Symmetric
   return where(has_yielded, min(max(left, T(0.0)), T(1.0)), T(1.0));
 }
 
-/// Rotates the material axes and updates the stress. \param n dt/2 times the velocity gradient of the
-/// middle of the step. \param axes out.
+/// Rotates the material axes, or the stress where that is on fixed ones. \param n dt/2 times the velocity
+/// gradient of the middle of the step.
+template <class T>
+BRIO_INLINE MaterialAxes<T> follow(const Tensor<T>& n, SymmetricTensor<T>&,
+                                   RotationState<T, ObjectiveRate::green_naghdi>& rotation) {
+  return advance(rotation.axes, n);
+}
+template <class T>
+BRIO_INLINE MaterialAxes<T> follow(const Tensor<T>& n, SymmetricTensor<T>& stress,
+                                   RotationState<T, ObjectiveRate::jaumann>&) {
+  const MaterialAxes<T> axes = turn_with_spin(n);
+  stress = turned(axes.end, stress);
+  return axes;
+}
+
+/// Updates the stress. \param axes that the point has followed
 template <class T, class Law, ObjectiveRate rate>
-BRIO_INLINE PointStep<T> update(const Law& law, const Tensor<T>& n, SolidPoint<T, Law, rate>& point,
-                                MaterialAxes<T>& axes) {
-  if constexpr (rate == ObjectiveRate::green_naghdi) {
-    axes = advance(point.rotation.axes, n);
-  } else {
-    axes = turn_with_spin(n);
-    point.stress = turned(axes.end, point.stress);
-    if constexpr (Law::traits.back_stress)
-      point.history.back_stress = turned(axes.end, point.history.back_stress);
-  }
-  PointStep<T> step{T(0.0), point.stress, T(0.0)};
-  if constexpr (has_yield_stress<Law>) step.old_plastic_strain = point.history.equivalent_plastic_strain;
+BRIO_INLINE PointStep<T> update(const Law& law, const MaterialAxes<T>& axes,
+                                SolidPoint<T, Law, rate>& point) {
+  if constexpr (rate == ObjectiveRate::jaumann && Law::traits.back_stress)
+    point.history.back_stress = turned(axes.end, point.history.back_stress);
+  PointStep<T> step{T(0.0), point.stress, T(0.0) > T(0.0)};
+  T old_plastic_strain(0.0);
+  if constexpr (has_yield_stress<Law>) old_plastic_strain = point.history.equivalent_plastic_strain;
   if constexpr (RateLaw<Law>) {
     law.update(T(2.0) * axes.half_strain, point.stress, point.history);
   } else {
     law.update_from_stretch(point.rotation.axes.stretch, point.stress, point.history);
   }
+  if constexpr (has_yield_stress<Law>)
+    step.has_yielded = point.history.equivalent_plastic_strain > old_plastic_strain;
   step.work = contract(step.old_stress + point.stress, axes.half_strain);
   return step;
 }
 
 /// Cauchy stress on fixed axes. \param axes of the end of the last step.
-template <class T, class Law, ObjectiveRate rate>
-BRIO_INLINE SymmetricTensor<T> fixed_stress(const SolidPoint<T, Law, rate>& point,
-                                            const MaterialAxes<T>& axes) {
+template <ObjectiveRate rate, class T>
+BRIO_INLINE SymmetricTensor<T> fixed_stress(const SymmetricTensor<T>& stress, const MaterialAxes<T>& axes) {
   if constexpr (rate == ObjectiveRate::green_naghdi) {
-    return turned(axes.end, point.stress);
+    return turned(axes.end, stress);
   } else {
-    return point.stress;
+    return stress;
   }
 }
 template <class Law, ObjectiveRate rate>
@@ -150,11 +160,11 @@ BRIO_INLINE SolidSpectrum<T> solid_spectrum(const ElasticModuli<T>& moduli, cons
           factor * (moduli.first_lame + 2.0 * moduli.shear) * trace_g};
 }
 
-/// D:D of the mean gradient. \param scaled_l that over `scale`
+/// D:D of a velocity gradient.
 template <class T>
-BRIO_INLINE T strain_rate_squared(const Tensor<T>& scaled_l, T scale) {
-  const SymmetricTensor<T> d = symmetric_part(scaled_l);
-  return square(scale) * contract(d, d);
+BRIO_INLINE T strain_rate_squared(const Tensor<T>& l) {
+  const SymmetricTensor<T> d = symmetric_part(l);
+  return contract(d, d);
 }
 
 /// tr D at the middle of the step, where it is zero in rigid rotation; before the first time step that of the

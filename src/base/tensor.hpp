@@ -189,6 +189,15 @@ BRIO_INLINE Tensor<T> operator*(T s, const Tensor<T>& a) {
     for (int j = 0; j < 3; ++j) c.m[i][j] = s * a.m[i][j];
   return c;
 }
+/// a : b
+template <class T>
+BRIO_INLINE T contract(const Tensor<T>& a, const Tensor<T>& b) {
+  T sum = a.m[0][0] * b.m[0][0];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (i + j > 0) sum += a.m[i][j] * b.m[i][j];
+  return sum;
+}
 template <class T>
 BRIO_INLINE Tensor<T> full(const SymmetricTensor<T>& s) {
   return {{{s.xx, s.xy, s.xz}, {s.xy, s.yy, s.yz}, {s.xz, s.yz, s.zz}}};

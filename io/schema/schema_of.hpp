@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -12,7 +13,6 @@
 
 #include "io/deck/condition_words.hpp"
 #include "io/deck/read_fields.hpp"
-#include "src/base/floating_point.hpp"
 #include "src/base/tensor.hpp"
 #include "src/deck/deck.hpp"
 
@@ -29,43 +29,67 @@ Schema schema_of(const Range& range) {
   return SchemaOf<T>::make(range);
 }
 
-inline void limit(Schema& schema, const Range& range) {
-  if (range.lower != -infinity) schema[range.lower_open ? "exclusiveMinimum" : "minimum"] = range.lower;
-  if (range.upper != infinity) schema[range.upper_open ? "exclusiveMaximum" : "maximum"] = range.upper;
-}
+// What does not depend on T (schema_of.cpp): much of it would be compiled with each.
+
+Schema number_schema(const Range& range);
+Schema integer_schema(const Range& range);
+Schema boolean_schema();
+Schema text_schema();
+Schema list_schema(Schema items);
+Schema array_schema(Schema items, std::size_t size);
+/// One of the words.
+Schema words_schema(const std::vector<std::string_view>& words);
+/// A map whose keys are names.
+Schema map_of_names(Schema value);
+
+/// An object that takes no other keys than those that are added.
+class ObjectSchema {
+ public:
+  ObjectSchema();
+  void add(std::string_view key, bool is_required, Schema property);
+  Schema finished();
+
+ private:
+  Schema object_;
+};
+
+void describe(Schema& schema, std::string_view description);
+void set_default(Schema& schema, Schema value);
+/// The word for a thing beside its name. \param meaning none where empty
+void add_meaning(Schema& schema, std::string_view name, std::string_view meaning);
+/// Of a choice between `{KEY: NAME, ...fields}`. \param object the fields
+void add_named(Schema& choice, std::string_view key, std::string_view name, std::string_view meaning,
+               Schema object);
+/// Of a choice between `{NAME: {...fields}}`, with further keys beside the name.
+void add_single_key(Schema& choice, std::string_view name, std::string_view meaning, const Schema& besides,
+                    Schema object);
 
 /// An object that takes no other keys than those of T's table.
 template <HasFields T>
 Schema object_of() {
-  Schema object{{"type", "object"}, {"properties", Schema::object()}, {"required", Schema::array()}};
+  ObjectSchema object;
   const T defaults{};
-  const auto add = [&]<class Member>(const Field<T, Member>& field) {
+  T::fields()([&]<class Member>(const Field<T, Member>& field) {
     Schema property = schema_of<Member>(field.range);
-    property["description"] = field.meaning;
-    if (field.is_required) {
-      object["required"].push_back(field.key);
-    } else {
-      SchemaOf<Member>::add_default(property, defaults.*field.member);
-    }
-    object["properties"][std::string(field.key)] = std::move(property);
-  };
-  T::fields()(add);
-  object["additionalProperties"] = false;
-  return object;
+    describe(property, field.meaning);
+    if (!field.is_required) SchemaOf<Member>::add_default(property, defaults.*field.member);
+    object.add(field.key, field.is_required, std::move(property));
+  });
+  return object.finished();
 }
 
-/// The word for a thing beside its name, where it has one.
+template <class T>
+constexpr std::string_view meaning_of() {
+  if constexpr (requires { T::meaning; }) {
+    return T::meaning;
+  } else {
+    return {};
+  }
+}
+
 template <class T>
 void add_meaning(Schema& schema) {
-  schema["title"] = T::name;
-  if constexpr (requires { T::meaning; }) schema["description"] = T::meaning;
-}
-
-/// A map whose keys are names.
-inline Schema map_of_names(Schema value) {
-  return {{"type", "object"},
-          {"propertyNames", {{"pattern", "^[A-Za-z0-9_-]+$"}}},
-          {"additionalProperties", std::move(value)}};
+  add_meaning(schema, T::name, meaning_of<T>());
 }
 
 /// What has no default to show.
@@ -76,53 +100,43 @@ struct WithoutDefault {
 struct WithDefault {
   template <class T>
   static void add_default(Schema& schema, const T& value) {
-    schema["default"] = value;
+    set_default(schema, value);
   }
 };
 
 template <>
 struct SchemaOf<double> : WithDefault {
-  static Schema make(const Range& range) {
-    Schema schema{{"type", {"number", "string"}}};  // an expression in quotes
-    limit(schema, range);
-    return schema;
-  }
+  static Schema make(const Range& range) { return number_schema(range); }
 };
 template <>
 struct SchemaOf<int> : WithDefault {
-  static Schema make(const Range& range) {
-    Schema schema{{"type", {"integer", "string"}}};
-    limit(schema, range);
-    return schema;
-  }
+  static Schema make(const Range& range) { return integer_schema(range); }
 };
 template <>
 struct SchemaOf<bool> : WithDefault {
-  static Schema make(const Range&) { return {{"type", "boolean"}}; }
+  static Schema make(const Range&) { return boolean_schema(); }
 };
 template <>
 struct SchemaOf<std::string> : WithoutDefault {
-  static Schema make(const Range&) { return {{"type", "string"}}; }
+  static Schema make(const Range&) { return text_schema(); }
 };
 
 template <HasNamedValues Enumeration>
 struct SchemaOf<Enumeration> {
   static Schema make(const Range&) {
-    Schema schema{{"enum", Schema::array()}};
-    for (const auto& named : named_values(Enumeration{})) schema["enum"].push_back(named.word);
-    return schema;
+    std::vector<std::string_view> words;
+    for (const auto& named : named_values(Enumeration{})) words.push_back(named.word);
+    return words_schema(words);
   }
   static void add_default(Schema& schema, Enumeration value) {
     for (const auto& named : named_values(Enumeration{}))
-      if (named.value == value) schema["default"] = named.word;
+      if (named.value == value) set_default(schema, named.word);
   }
 };
 
 template <class T, std::size_t N>
 struct SchemaOf<std::array<T, N>> : WithDefault {
-  static Schema make(const Range& range) {
-    return {{"type", "array"}, {"items", schema_of<T>(range)}, {"minItems", N}, {"maxItems", N}};
-  }
+  static Schema make(const Range& range) { return array_schema(schema_of<T>(range), N); }
 };
 template <>
 struct SchemaOf<Vector3d> : SchemaOf<std::array<double, 3>> {};
@@ -130,7 +144,7 @@ template <class T>
 struct SchemaOf<std::vector<T>> : WithoutDefault {
   static Schema make(const Range& range) {
     if constexpr (HasOwnName<T>) return map_of_names(schema_of<T>(any_number));
-    return {{"type", "array"}, {"items", schema_of<T>(range)}};
+    return list_schema(schema_of<T>(range));
   }
 };
 template <class T>
@@ -157,16 +171,10 @@ void for_each_alternative(const std::variant<Alternative...>*, const Add& add) {
 
 /// `{KEY: NAME, ...fields}`.
 template <class Variant>
-Schema named_choice(const std::string& key) {
+Schema named_choice(std::string_view key) {
   Schema choice{{"oneOf", Schema::array()}};
   for_each_alternative(static_cast<const Variant*>(nullptr), [&]<class One>(std::type_identity<One>) {
-    Schema object = object_of<One>();
-    Schema properties{{key, {{"const", One::name}}}};
-    properties.update(object["properties"]);
-    object["properties"] = std::move(properties);
-    object["required"].insert(object["required"].begin(), key);
-    add_meaning<One>(object);
-    choice["oneOf"].push_back(std::move(object));
+    add_named(choice, key, One::name, meaning_of<One>(), object_of<One>());
   });
   return choice;
 }
@@ -176,13 +184,7 @@ template <class Variant>
 Schema single_key_choice(const Schema& besides = Schema::object()) {
   Schema choice{{"oneOf", Schema::array()}};
   for_each_alternative(static_cast<const Variant*>(nullptr), [&]<class One>(std::type_identity<One>) {
-    Schema object{{"type", "object"}, {"properties", Schema::object()}};
-    object["properties"][std::string(One::name)] = object_of<One>();
-    object["properties"].update(besides);
-    object["required"] = {One::name};
-    object["additionalProperties"] = false;
-    add_meaning<One>(object);
-    choice["oneOf"].push_back(std::move(object));
+    add_single_key(choice, One::name, meaning_of<One>(), besides, object_of<One>());
   });
   return choice;
 }

@@ -91,14 +91,31 @@ void check_keys(const YamlNode& map, const std::vector<std::string_view>& accept
   for (const YamlEntry& entry : map.entries) check_key(entry, accepted);
 }
 
-void expect_value(const YamlNode& map, const YamlEntry* entry, const Slot& slot, std::string_view key,
-                  std::string_view meaning) {
-  if (entry == nullptr)
-    throw DeckError(map.place, "'" + std::string(slot.key) + "' has no '" + std::string(key) +
-                                   "'; it is required: " + std::string(meaning));
-  if (entry->value->is_null())
-    throw DeckError(entry->place,
-                    "'" + std::string(key) + "' has no value; expected: " + std::string(meaning));
+EntryReader::EntryReader(const YamlNode& map, const Slot& slot, const std::vector<std::string_view>& accepted)
+    : map_(map), slot_(slot) {
+  require_map(map, slot);
+  for (const YamlEntry& entry : map.entries)
+    complete_ &= slot.known.attempt("", [&] { check_key(entry, accepted); });
+  knows_all_keys_ = complete_;
+}
+
+void EntryReader::read(const Slot& slot, bool is_required, std::string_view meaning, void* value,
+                       Read read_entry) {
+  const YamlEntry* entry = map_.find(slot.key);
+  if (entry == nullptr && !(is_required && knows_all_keys_)) return;
+  complete_ &= slot.known.attempt("", [&] {
+    if (entry == nullptr)
+      throw DeckError(map_.place, "'" + std::string(slot_.key) + "' has no '" + std::string(slot.key) +
+                                      "'; it is required: " + std::string(meaning));
+    if (entry->value->is_null())
+      throw DeckError(entry->place,
+                      "'" + std::string(slot.key) + "' has no value; expected: " + std::string(meaning));
+    read_entry(*entry->value, slot, value);
+  });
+}
+
+void EntryReader::finish() const {
+  if (!complete_) throw FaultsTold{};
 }
 
 void read_value(const YamlNode& node, const Slot& slot, double& value) {

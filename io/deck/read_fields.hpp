@@ -130,10 +130,6 @@ void check_keys(const YamlNode& map, const std::vector<std::string_view>& accept
 /// \throws DeckError unless the key is among the accepted.
 void check_key(const YamlEntry& entry, const std::vector<std::string_view>& accepted);
 
-/// \throws DeckError where the entry of a required key is not there, or has no value.
-void expect_value(const YamlNode& map, const YamlEntry* entry, const Slot& slot, std::string_view key,
-                  std::string_view meaning);
-
 template <class T>
 concept HasFault = requires(const T& value) {
   std::string_view(value.fault());
@@ -229,30 +225,43 @@ std::vector<std::string_view> keys_of() {
   return keys;
 }
 
-/// Reads the entries of a map into a struct, in the order of its table. Faults of one entry leave the others
-/// to be read; a key that is missing is not told where one is unknown, which it may be. \param besides keys
-/// that the caller reads
+/// Reads entries of a map, whatever their types. Faults of one entry leave the others to be read; a key that
+/// is missing is not told where one is unknown, which it may be.
+class EntryReader {
+ public:
+  using Read = void (*)(const YamlNode& node, const Slot& slot, void* value);
+  /// Checks the keys of the map.
+  EntryReader(const YamlNode& map, const Slot& slot, const std::vector<std::string_view>& accepted);
+  void read(const Slot& entry, bool is_required, std::string_view meaning, void* value, Read read);
+  /// \throws FaultsTold where an entry could not be read.
+  void finish() const;
+
+ private:
+  const YamlNode& map_;
+  const Slot& slot_;
+  bool complete_ = true, knows_all_keys_;
+};
+
+template <class Value>
+void read_erased(const YamlNode& node, const Slot& slot, void* value) {
+  read_value(node, slot, *static_cast<Value*>(value));
+}
+
+/// Reads the entries of a map into a struct, in the order of its table. \param besides keys that the caller
+/// reads
 template <HasFields T>
 void read_fields(const YamlNode& map, const Slot& slot, T& value,
                  const std::vector<std::string_view>& besides = {}) {
-  require_map(map, slot);
+  std::vector<std::string_view> accepted = keys_of<T>();
+  accepted.insert(accepted.begin(), besides.begin(), besides.end());
+  EntryReader reader(map, slot, accepted);
   if constexpr (HasPlace<T>) value.place = to_string(map.place);
-  std::vector<std::string_view> accepted = besides;
-  for (const std::string_view key : keys_of<T>()) accepted.push_back(key);
-  bool complete = true;
-  for (const YamlEntry& entry : map.entries)
-    complete &= slot.known.attempt("", [&] { check_key(entry, accepted); });
-  const bool knows_all = complete;
-  const auto read_field = [&](const auto& field) {
-    const YamlEntry* entry = map.find(field.key);
-    if (entry == nullptr && !(field.is_required && knows_all)) return;
-    complete &= slot.known.attempt("", [&] {
-      expect_value(map, entry, slot, field.key, field.meaning);
-      read_value(*entry->value, Slot{field.key, field.range, slot.known}, value.*field.member);
-    });
-  };
-  T::fields()(read_field);
-  if (!complete) throw FaultsTold{};
+  T::fields()([&](const auto& field) {
+    auto& entry = value.*field.member;
+    reader.read({field.key, field.range, slot.known}, field.is_required, field.meaning, &entry,
+                read_erased<std::decay_t<decltype(entry)>>);
+  });
+  reader.finish();
   if constexpr (HasFault<T>) {
     if (const std::string_view fault = value.fault(); !fault.empty())
       throw DeckError(map.place, std::string(fault));

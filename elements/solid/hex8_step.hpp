@@ -64,7 +64,7 @@ BRIO_CALLED void follow_motion(const NodalMotion<T, 8>& motion, T step, Symmetri
 }
 
 /// Elastic hourglass strain of the step. While the point yields, only a part of the increment is elastic;
-/// unloading is elastic. \param g that of the end (mean_gradient.hpp)
+/// unloading is elastic. \param moduli with the present shape \param has_yielded in this step
 template <class T>
 BRIO_INLINE void try_hourglass_strain(const Hex8& element, T step, const HourglassModuli<T>& moduli,
                                       MaskOf<T> has_yielded, HourglassState<T>& state, Hex8Step<T>& s) {

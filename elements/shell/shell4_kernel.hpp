@@ -81,9 +81,8 @@ struct Shell4Kernel : Shell4 {
   BRIO_INLINE Increment<T> force(const RotatingNodalMotion<T, 4>& motion, T step, const Law& law,
                                  Shell4State<T>& state, Point<T, Law>* point,
                                  RotatingNodalForces<T, 4>& nodal) const {
-    ShellGeometry<T> g;
-    ShellRates<T> rates;
-    follow_motion(motion, step, state.reference, warping_projection, g, rates);
+    const ShellGeometry<T> g = shell_geometry(motion.position, state.reference);
+    const ShellRates<T> rates = shell_rates(motion, g, step, warping_projection);
     Increment<T> increment;
     ShellRates<T> result;
     update_stress(g, rates, step, law, state, point, result, increment);

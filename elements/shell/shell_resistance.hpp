@@ -1,6 +1,6 @@
 #pragma once
 /// One time step of the Belytschko-Tsay shell around the updates of stress at its integration points, the
-/// same for all laws: motion, stable step, viscosity, resistance to hourglass modes and drilling, nodal
+/// same for all laws: stable step, viscosity, resistance to hourglass modes and drilling, nodal
 /// forces. Inlined: compiled once and called, it would make the sweep 1 to 3 % slower.
 
 #include <cmath>
@@ -137,17 +137,8 @@ BRIO_INLINE void resist_hourglass(const Shell4& element, const ShellGeometry<T>&
   }
 }
 
-/// Before the updates of stress.
-template <class T>
-BRIO_INLINE void follow_motion(const RotatingNodalMotion<T, 4>& motion, T step,
-                               const ReferenceShape<T>& reference, bool warping_projection,
-                               ShellGeometry<T>& g, ShellRates<T>& rates) {
-  const ShellGeometry<T> geometry = shell_geometry(motion.position, reference);
-  rates = shell_rates(motion, geometry, step, warping_projection);
-  g = geometry;
-}
-
-/// After them. \param result membrane forces, moments and shear forces per length that stress has
+/// After the updates of stress. \param result membrane forces, moments and shear forces per length that
+/// stress has
 template <class T>
 BRIO_INLINE void resist_motion(const Shell4& element, T step, const ElasticModuli<T>& elastic,
                                const ShellGeometry<T>& g, const ShellRates<T>& rates, Shell4State<T>& state,

@@ -1,5 +1,5 @@
 #pragma once
-/// Settings of the eight-node hexahedron with 2x2x2 integration points. Equations: hex8_full_kernel.hpp.
+/// Settings of the eight-node hexahedron with 2x2x2 integration points. Equations: hex8_full_step.hpp.
 
 #include <string_view>
 

@@ -1,6 +1,7 @@
 #pragma once
 /// One time step of the fully integrated hexahedron around the updates of its integration points: the same
-/// code for all laws, compiled once and called.
+/// code for all laws: what is done once a step is compiled once and called, what is done at each point
+/// inlined.
 ///
 /// As in hex8_step.hpp, gradients are taken once, on the configuration at the end of the step, and the
 /// middle follows exactly for affine motion. Point gradients need no nodal shape functions: with the pattern
@@ -199,7 +200,7 @@ BRIO_CALLED void begin_step(const NodalMotion<T, 8>& motion, T step, Hex8FullSte
 
 /// Before the update of a point: its motion, followed by stress or material axes.
 template <class T, ObjectiveRate rate>
-BRIO_CALLED void follow_motion(const double xi[3], T step, SymmetricTensor<T>& stress,
+BRIO_INLINE void follow_motion(const double xi[3], T step, SymmetricTensor<T>& stress,
                                RotationState<T, rate>& rotation, Hex8FullStep<T>& s, Hex8FullPoint<T>& p) {
   p.geometry = point_geometry(s.x, xi);
   const T least_determinant =
@@ -223,7 +224,7 @@ BRIO_CALLED void follow_motion(const double xi[3], T step, SymmetricTensor<T>& s
 
 /// After it. \param work per volume of the middle of the step
 template <ObjectiveRate rate, class T>
-BRIO_CALLED void add_point(const double xi[3], T work, const SymmetricTensor<T>& stress_on_axes,
+BRIO_INLINE void add_point(const double xi[3], T work, const SymmetricTensor<T>& stress_on_axes,
                            const ElasticModuli<T>& moduli, const Hex8FullPoint<T>& p, Hex8FullStep<T>& s) {
   s.internal_energy += p.middle_volume * work;
   const SymmetricTensor<T> stress = fixed_stress<rate>(stress_on_axes, p.axes);

@@ -110,7 +110,8 @@ void for_hulls(const Kind& kind, std::span<const int> list, const Visit& visit) 
     const std::size_t count = std::min<std::size_t>(pack_size, list.size() - begin);
     const PackOfHulls hulls = hulls_of(kind, &list[begin], count);
     const auto in_lane = [](const FlatHull<Pack>& of, std::size_t k) {
-      return FlatHull<double>{of.thickness[static_cast<int>(k)], of.unfolded[static_cast<int>(k)]};
+      const int lane = static_cast<int>(k);
+      return FlatHull<double>{of.thickness[lane], of.unfolded[lane], of.share[lane]};
     };
     for (std::size_t k = 0; k < count; ++k)
       visit(index(list[begin + k]), in_lane(hulls.start, k), in_lane(hulls.end, k));

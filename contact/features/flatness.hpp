@@ -10,6 +10,7 @@
 /// its radius, than 0.03 of that; a side, where its faces lie on both sides of it and the hull of both is so
 /// thin.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -95,8 +96,15 @@ class SurfaceFlatness {
  private:
   bool hides(const SurfaceFeatures& features, int flat, int other, bool radii) const {
     const EdgeFeature& edge = features.edge[index(flat)];
-    if (edge.is_diagonal()) return faces_.is_flat(edge.face[0], radii);
+    if (edge.is_diagonal())
+      return faces_.is_flat(edge.face[0], radii) && (length_[index(other)] <= 2 * length_[index(flat)] ||
+                                                     !ends_opposite(edge, features.edge[index(other)]));
     return sides_.is_flat(flat, radii) && length_[index(other)] <= width_[index(flat)];
+  }
+  /// Whether it ends at a corner that is opposite to a diagonal.
+  static bool ends_opposite(const EdgeFeature& diagonal, const EdgeFeature& other) {
+    return std::ranges::any_of(other.node,
+                               [&](int node) { return std::ranges::count(diagonal.wing, node) > 0; });
   }
   void measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge);
 

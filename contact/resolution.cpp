@@ -419,6 +419,7 @@ class Resolution {
     step.support_work_after += work.support_after;
     step.support_impulse += work.support_impulse;
     step.support_moment += work.support_moment;
+    step.wall_work += work.walls;
     if (scene_.log) log_supports();
     if (bodies_.empty()) return;
     for (const ConstraintRow& row : rows_.rows.row) {

@@ -33,8 +33,8 @@
 
 namespace brio {
 
-/// Contact in the last step. Work is that of all impulses J on all nodes, J.v with the velocities of the half
-/// step before and of the half step after; the mean of both is the kinetic energy added by contact (negative:
+/// Contact in the last step. Work is that of all impulses J, J.v with the relative velocities of the half
+/// step before and of the half step after; the mean of both is the energy added by contact (negative:
 /// dissipated).
 struct ContactStep {
   double normal_work_before = 0;
@@ -55,6 +55,7 @@ struct ContactStep {
   Vector3d support_moment{};  ///< about the origin
   Vector3d wall_impulse{};    ///< of walls on nodes
   Vector3d wall_moment{};     ///< about the origin
+  double wall_work = 0;       ///< of moving walls on nodes
 
   double normal_work() const { return 0.5 * (normal_work_before + normal_work_after); }
   double friction_work() const { return 0.5 * (friction_work_before + friction_work_after); }
@@ -64,7 +65,7 @@ struct ContactStep {
   void serialize(Archive& archive) {
     archive(normal_work_before, normal_work_after, friction_work_before, friction_work_after, contacts,
             active, deepest_overlap, passes, residual, searched, support_work_before, support_work_after,
-            support_impulse, support_moment, wall_impulse, wall_moment);
+            support_impulse, support_moment, wall_impulse, wall_moment, wall_work);
   }
 };
 

@@ -49,8 +49,8 @@ void account_supports(const RowMap& map, const Vector3d& impulse, std::span<cons
 void account_row(const ConstraintRows& rows, ConstraintRow& row, std::span<const Vector3d> before,
                  std::span<const VelocityBlock> after, std::span<const BlockPlace> places, RowWork& work) {
   const RowMap map(rows, row);
-  const Vector3d was = map.velocity([&](int b) { return before[index(b)]; });
-  const Vector3d is = map.velocity([&](int b) { return after[index(b)].velocity; });
+  const Vector3d was = map.velocity([&](int b) { return before[index(b)]; }) - row.wall_velocity;
+  const Vector3d is = map.relative_velocity(after);
   const double normal_before = row.impulse * dot(row.normal, was);
   const double normal_after = row.impulse * dot(row.normal, is);
   row.normal_work = 0.5 * (normal_before + normal_after);
@@ -58,6 +58,7 @@ void account_row(const ConstraintRows& rows, ConstraintRow& row, std::span<const
   work.normal_after += normal_after;
   work.friction_before += dot(row.friction, was);
   work.friction_after += dot(row.friction, is);
+  work.walls += dot(impulse_of(row), row.wall_velocity);
   account_supports(map, impulse_of(row), before, after, places, work);
 }
 
@@ -68,7 +69,6 @@ void sum_at_walls(const ConstraintRows& rows, std::span<ImpulseOnWall> walls) {
     ImpulseOnWall& wall = walls[index(row.wall)];
     wall.impulse = wall.impulse - impulse;
     wall.moment = wall.moment - cross(row.point, impulse);
-    wall.work += dot(impulse, row.wall_velocity);
   }
 }
 
@@ -83,6 +83,7 @@ RowWork& RowWork::operator+=(const RowWork& other) {
   support_after += other.support_after;
   support_impulse = support_impulse + other.support_impulse;
   support_moment = support_moment + other.support_moment;
+  walls += other.walls;
   return *this;
 }
 

@@ -30,15 +30,15 @@ struct RowWork {
   double support_after = 0;
   Vector3d support_impulse{0, 0, 0};
   Vector3d support_moment{0, 0, 0};  ///< about the origin
+  double walls = 0;                  ///< of moving walls on the bodies
 
   RowWork& operator+=(const RowWork& other);
 };
 
-/// Impulse and work of all rows at a rigid wall.
+/// Impulse of all rows at a rigid wall.
 struct ImpulseOnWall {
   Vector3d impulse{0, 0, 0};
   Vector3d moment{0, 0, 0};  ///< about the origin
-  double work = 0;           ///< of the wall on the bodies
 };
 
 /// Adds up work and reactions, and sets the normal work of each row.

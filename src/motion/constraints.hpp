@@ -83,11 +83,17 @@ struct WallReaction {
   Reaction normal, friction;
 };
 
-inline Contribution of_wall(const WallReaction& wall) {
-  Contribution sum{.contact = {.before = wall.normal.before, .after = wall.normal.after},
-                   .friction = {.before = wall.friction.before, .after = wall.friction.after},
-                   .walls = wall.normal.impulse};
-  sum.walls += wall.friction.impulse;
+/// Work at the velocity of the wall is external, the rest that of contact and friction.
+inline Contribution of_wall(const WallReaction& reaction, const WallInRun& entry) {
+  const auto moved = [&](const Reaction& part) { return dot(part.impulse.linear, entry.wall.velocity); };
+  const double normal = moved(reaction.normal), friction = moved(reaction.friction), both = normal + friction;
+  Contribution sum{
+      .external = {.before = both, .after = both},
+      .contact = {.before = reaction.normal.before - normal, .after = reaction.normal.after - normal},
+      .friction = {.before = reaction.friction.before - friction,
+                   .after = reaction.friction.after - friction},
+      .walls = reaction.normal.impulse};
+  sum.walls += reaction.friction.impulse;
   return sum;
 }
 

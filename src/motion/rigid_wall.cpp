@@ -114,9 +114,8 @@ Contribution stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& 
     account(reaction.friction, position, touch.friction, touch, motion);
   }
   const RigidSupport held = support_against(motion, motion.impulse, motion.moment);
-  Contribution sum = of_wall(reaction);
-  sum.external.before = held.work_before;
-  sum.external.after = held.work_after;
+  Contribution sum = of_wall(reaction, entry);
+  sum.external += Work{.before = held.work_before, .after = held.work_after};
   sum.supports.add(body.centre, held.impulse);
   sum.supports.angular += held.moment;
   return sum;

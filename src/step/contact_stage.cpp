@@ -18,7 +18,8 @@ void move_contact_walls(Model& model) {
 }
 
 Contribution contribution_of(const ContactStep& step) {
-  return {.external = {.before = step.support_work_before, .after = step.support_work_after},
+  return {.external = {.before = step.support_work_before + step.wall_work,
+                       .after = step.support_work_after + step.wall_work},
           .contact = {.before = step.normal_work_before, .after = step.normal_work_after},
           .friction = {.before = step.friction_work_before, .after = step.friction_work_after},
           .supports = {step.support_impulse, step.support_moment},
@@ -59,8 +60,8 @@ Contribution stop_body(const WallInRun& wall, std::size_t b, Model& model) {
 Contribution stop_tied(const WallInRun& wall, Model& model) {
   Contribution sum;
   const Reaction supports = stop_tied_at(wall, model.times, model.ties, model.nodes);
-  sum += of_wall(stop_at(wall, model.times, model.nodes));
-  sum += of_wall(reaction_of_tied(model.ties, model.times, model.nodes));
+  sum += of_wall(stop_at(wall, model.times, model.nodes), wall);
+  sum += of_wall(reaction_of_tied(model.ties, model.times, model.nodes), wall);
   sum += of_support(supports);
   return sum;
 }
@@ -82,7 +83,7 @@ Contribution stop_at_walls(Model& model) {
   const StageTimer timer(model.stages, Stage::constraints);
   for (const WallInRun& wall : model.walls) {
     Contribution one =
-        model.ties.empty() ? of_wall(stop_at(wall, model.times, model.nodes)) : stop_tied(wall, model);
+        model.ties.empty() ? of_wall(stop_at(wall, model.times, model.nodes), wall) : stop_tied(wall, model);
     for (std::size_t b = 0; b < model.rigid.body.size(); ++b) one += stop_body(wall, b, model);
     add_contact_impulses(model.rigid);
     if (model.forces) model.forces->add_reaction(wall.condition, one.walls.linear);

@@ -1,15 +1,20 @@
 #pragma once
-/// What the contacts of a step come to.
+/// What the contacts of a step come to: impulses, work, reactions and counts.
+
+#include <cstddef>
+#include <span>
+
+#include "contact/features/rigid_motion.hpp"
+#include "src/base/nodes.hpp"
+#include "src/base/parallel.hpp"
 
 namespace brio {
 
 struct ContactScene;
 
-/// Impulses of slave nodes from those of the contacts.
-void sum_impulses(ContactScene& scene);
-/// Contacts, active ones and the deepest overlap into the step.
-void count_contacts(ContactScene& scene);
-/// The step into the totals.
-void add_to_totals(ContactScene& scene);
+/// From the rows of a step that is solved: impulses of contacts, of slave nodes, of bodies and on walls, work
+/// and counts of the step, what is kept for the next one, and the totals. \param walls number of rigid walls
+void account_step(ContactScene& scene, Nodes& nodes, std::span<RigidMotion> bodies, std::size_t walls,
+                  ThreadTeam& team);
 
 }  // namespace brio

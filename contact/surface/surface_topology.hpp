@@ -9,11 +9,14 @@
 /// not taken over.
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "contact/surface/element_sides.hpp"
 #include "contact/surface/surface.hpp"
 #include "src/base/index.hpp"
 
@@ -132,6 +135,13 @@ inline const TopologyPart& part_of_side(const SurfaceTopology& topology, int sid
   std::size_t p = topology.part.size() - 1;
   while (topology.part[p].first_side > side) --p;
   return topology.part[p];
+}
+
+/// Nodes of a side of a hexahedron of that part. \returns false where it has collapsed.
+inline bool nodes_of_side(const TopologyPart& part, int side, std::array<int, 4>& nodes) {
+  const int local = side - part.first_side;
+  return side_nodes(part.connectivity.data() + 8 * static_cast<std::ptrdiff_t>(local / sides_of_hexahedron),
+                    local % sides_of_hexahedron, nodes);
 }
 
 /// Number through all parts of the element of a face.

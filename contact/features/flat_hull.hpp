@@ -20,7 +20,8 @@ struct FlatHull {
   T share;
 
   /// How far every corner may move until the hull is thicker than that, or nearly folded: what begins to be a
-  /// feature must still be apart from the corners; negative: it is.
+  /// feature must still be apart from the corners; negative: it is. Corners that move by d change the
+  /// thickness by up to 2 d, and by less than 0.5 d what the share allows.
   T slack(T most) const { return min(T(0.4) * (most * min(share, T(1.0)) - thickness), unfolded - most); }
 };
 

@@ -21,12 +21,11 @@ Deck slanting_impact(const WallCase& kind, const Vector3d& frame) {
   Deck deck;
   deck.materials = {{"material", elastic(0.3)}};
   const Element element = kind.rigid ? Element(Rigid{}) : Element(hex8());
-  deck.parts = {box("block", {0.3, 0.2, 0.1}, {3, 2, 2}, {0, 0, 0.051}, element)};
+  const double height = kind.tied ? 0.151 : 0.051;
+  deck.parts = {box("block", {0.3, 0.2, 0.1}, {3, 2, 2}, {0, 0, height}, element)};
   deck.initial_conditions = {moving("block", Vector3d{6, 4, -20} + frame)};
   if (kind.tied) {
-    deck.parts.push_back(box("cap", {0.2, 0.2, 0.1}, {4, 3, 1}, {0, 0, 0.151}, element));
-    deck.parts[0].placement.translate[2] += 0.1;
-    deck.parts[1].placement.translate[2] -= 0.1;
+    deck.parts.push_back(box("cap", {0.2, 0.2, 0.1}, {4, 3, 1}, {0, 0, 0.051}, element));
     deck.initial_conditions.push_back(moving("cap", Vector3d{6, 4, -20} + frame));
     TieToSurface tie;
     tie.names = {"cap.zmax", "block"};
@@ -60,7 +59,7 @@ TEST_P(MovingWall, WorkIsExternalAndDissipationThatOfAWallAtRest) {
   const Model at_rest = at_end({}), moves = at_end(of_wall_motion);
   const EnergyBalance &still = at_rest.energy, &moving = moves.energy;
   const double scale = still.kinetic_start;
-  EXPECT_LT(still.contact.at_step(), 0.01 * scale);
+  EXPECT_LT(still.contact.at_step(), -0.01 * scale);
   EXPECT_LT(still.friction.at_step(), -0.01 * scale);
   EXPECT_EQ(still.external.at_step(), 0);
   EXPECT_NEAR(moving.contact.at_step(), still.contact.at_step(), 1e-9 * scale);

@@ -15,7 +15,7 @@ namespace {
 
 // The triangles of the face, the one that is met first.
 std::optional<VelocityContact> first_touch(const MovingNode& node, const FaceVertices& start,
-                                           const FaceVertices& end, bool as_hull) {
+                                           const FaceVertices& end, bool as_hull, double floor) {
   constexpr std::size_t corner[4][3] = {{0, 1, 2}, {0, 2, 3}, {0, 1, 3}, {1, 2, 3}};
   std::optional<VelocityContact> first;
   const std::size_t triangles = is_triangle(start) ? 1 : as_hull ? 4 : 2;
@@ -26,7 +26,7 @@ std::optional<VelocityContact> first_touch(const MovingNode& node, const FaceVer
       moving.start[k] = start[c];
       moving.displacement[k] = end[c] - start[c];
     }
-    auto touch = velocity_check(node, moving, 0);
+    auto touch = velocity_check(node, moving, floor);
     if (!touch || (first && first->time <= touch->time)) continue;
     std::array<double, 4> weights{};
     for (std::size_t k = 0; k < 3; ++k) weights[corner[t][k]] = touch->weights[k];
@@ -51,7 +51,9 @@ std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
   }
   const Vector3d x = motion_.start(s), y = motion_.end(s);
   const bool as_hull = list.has_radii(pair);
-  const auto touch = first_touch({x, y - x}, start, end, as_hull);
+  const HullPoint first = closest_on_face(x, start, as_hull);
+  const double floor = std::min(floor_, floor_at_start * std::sqrt(first.squared_distance));
+  const auto touch = first_touch({x, y - x}, start, end, as_hull, floor);
   if (!touch) return std::nullopt;
   Hit hit{.kind = PairKind::node_face, .pair = pair, .time = touch->time, .at_start = {}, .at_hit = {}};
   Contact contact;
@@ -63,9 +65,8 @@ std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
   contact.friction_coefficient =
       surface_.pairs.friction(surface_.node[index(s)], face.part, options_.friction);
   contact.weight[0] = 1;
-  const HullPoint first = closest_on_face(x, start, as_hull);
   for (std::size_t k = 0; k < 4; ++k) contact.weight[k + 1] = -first.weights[k];
-  set_start(hit, contact, first.offset, 0);
+  set_start(hit, contact, first.offset, floor);
   for (std::size_t k = 0; k < 4; ++k) contact.weight[k + 1] = -touch->weights[k];
   set_hit(hit, contact, touch->side < 0 ? Vector3d(-touch->normal) : touch->normal, touch->side == 0);
   return hit;
@@ -80,10 +81,9 @@ std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   const Segment ea{motion_.end(a.node[0]), motion_.end(a.node[1])};
   const Segment eb{motion_.end(b.node[0]), motion_.end(b.node[1])};
   const ClosestSegments first = closest_points_of_segments(sa, sb);
-  double floor = 0;
-  if (a.is_point() || b.is_point())
-    floor =
-        std::min(floor_of_points * (a.radius + b.radius), floor_at_start * std::sqrt(first.squared_distance));
+  const bool of_points = a.is_point() || b.is_point();
+  const double floor = std::min(of_points ? floor_of_points * (a.radius + b.radius) : floor_,
+                                floor_at_start * std::sqrt(first.squared_distance));
   const MovingEdge moving_a{sa, {Vector3d(ea[0] - sa[0]), Vector3d(ea[1] - sa[1])}, floor};
   const MovingEdge moving_b{sb, {Vector3d(eb[0] - sb[0]), Vector3d(eb[1] - sb[1])}, 0};
   const auto touch = edge_check(moving_a, moving_b);

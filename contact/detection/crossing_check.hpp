@@ -8,9 +8,12 @@
 
 namespace brio {
 
-/// Edges that are points keep this fraction of the sum of their radii ...
+/// Distance that pairs keep over a time step, over the smallest edge: without one they have no direction in
+/// which they could be parted (an edge that a rigid wall lays on another in its plane) ...
+inline constexpr double least_distance_share = 1e-6;
+/// ... of edges that are points, this fraction of the sum of their radii ...
 inline constexpr double floor_of_points = 0.5;
-/// ... or of the distance at the start, where that is less.
+/// ... or this one of the distance at the start, where that is less.
 inline constexpr double floor_at_start = 0.9;
 
 class CrossingCheck {
@@ -22,6 +25,7 @@ class CrossingCheck {
         options_(options),
         pairs_(pairs),
         motion_(motion),
+        floor_(least_distance_share * features.smallest_edge),
         separation_(separation_share * features.smallest_edge) {}
 
   std::optional<Hit> node_and_face(std::size_t pair) const;
@@ -36,7 +40,7 @@ class CrossingCheck {
   const ContactOptions& options_;
   const FeaturePairs& pairs_;
   const FeatureMotion& motion_;
-  double separation_;
+  double floor_, separation_;
 };
 
 }  // namespace brio

@@ -11,8 +11,8 @@ namespace brio {
 
 namespace {
 
-/// Floors are rounded up by more than the lengths of directions are rounded down.
-constexpr double rounded_up = 1 + 1e-14;
+/// Longest direction that is kept in single precision.
+constexpr double longest_direction = 1 + rounding_of_direction;
 
 /// Passes over a range of pairs of one kind: along the direction that they had, along those of their closest
 /// points, and the exact check of the rest.
@@ -27,7 +27,8 @@ class Look {
         check_(check),
         start_rows_(kind.motion.node.data()->start),
         end_rows_(kind.motion.node.data()->end),
-        extent_(2 * kind.motion.magnitude()) {}
+        extent_(2 * kind.motion.magnitude()),
+        floor_(least_distance_share * kind.features.smallest_edge) {}
 
   void look(const std::vector<int>& pairs, std::size_t begin, std::size_t end,
             CrossingGuard::Range& range) const {
@@ -47,25 +48,21 @@ class Look {
   }
 
  private:
-  // Product of the floor that the pairs keep with the length of the direction.
-  static BRIO_INLINE Pack height_of(Pack floor, const Vector3<Pack>& d) {
-    return any(floor > Pack(0.0)) ? floor * (sqrt(dot(d, d)) * Pack(rounded_up)) : Pack(0.0);
-  }
   BRIO_INLINE MaskOf<Pack> separates(const Vector3<Pack>& d, const Points& start, const Points& end,
                                      Pack floor) const {
     return separation_within({Pack(extent_), Pack(extent_), Pack(extent_)}, d, start.first, end.first,
                              start.second, end.second)
-        .exceeds(height_of(floor, d));
+        .exceeds(Pack(longest_direction) * floor);
   }
 
-  // Edges that are points keep a distance; those of one piece are not kept apart at all.
-  Pack floor_of(const PackOfPairs<1, 4>&, unsigned&) const { return Pack(0.0); }
+  // Edges that are points and of one piece are not kept apart at all.
+  Pack floor_of(const PackOfPairs<1, 4>&, unsigned&) const { return Pack(floor_); }
   Pack floor_of(const PackOfPairs<2, 2>& pack, unsigned& lanes) const {
     unsigned points = 0;
     for (int lane = 0; lane < pack_size; ++lane)
       if (pack.node[0][lane] == pack.node[1][lane] || pack.node[2][lane] == pack.node[3][lane])
         points |= 1U << lane;
-    Pack floor(0.0);
+    Pack floor(floor_);
     if (points == 0) return floor;
     const Pack of_points = Pack(floor_of_points) * radii_of(kind_, pack);
     for_lanes(points, [&](int lane) { floor.set(lane, of_points[lane]); });
@@ -77,13 +74,13 @@ class Look {
                            CrossingGuard::Range& range) const {
     const Vector3d d = one.direction();
     const auto start = one.points(start_rows_), end = one.points(end_rows_);
-    double floor = 0;
+    double floor = floor_;
     if (is_of_points(one)) {
       if (one.record.spacing != Spacing::radii) return;
-      floor = floor_of_points * one.radii() * (std::sqrt(dot(d, d)) * rounded_up);
+      floor = floor_of_points * one.radii();
     }
     if (separation_within({extent_, extent_, extent_}, d, start.first, end.first, start.second, end.second)
-            .exceeds(floor))
+            .exceeds(longest_direction * floor))
       ++range.certified;
     else
       uncertain.add(kind_.list, static_cast<int>(one.pair));
@@ -134,7 +131,7 @@ class Look {
   const CrossingCheck& check_;
   const double* start_rows_;
   const double* end_rows_;
-  double extent_;
+  double extent_, floor_;
 };
 
 template <class Kind>

@@ -46,7 +46,7 @@ struct RandomScene {
       std::copy(v.data(), v.data() + 3, node.velocity);
     }
   }
-  /// To the end of the step, some of them a little farther, as walls and ties do.
+  /// To the end of the step, some of them a little farther: no path relies on what was predicted.
   void move(Random& random) {
     for (NodeRecord& node : nodes.record) {
       const Vector3d shift = random.integer(0, 19) == 0 ? random.vector(0.02) : Vector3d{};

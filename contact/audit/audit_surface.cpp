@@ -48,9 +48,17 @@ AuditedSurface::AuditedSurface(const Surface& the_surface, const Nodes& the_node
 void AuditedSurface::find_pieces() {
   std::vector<int> parent(surface.slaves());
   std::iota(parent.begin(), parent.end(), 0);
-  for (const Face& f : surface.face)
-    if (f.alive())
-      for (std::size_t k = 1; k < 4; ++k) join(parent, surface.slave(f.node[0]), surface.slave(f.node[k]));
+  // Sides around a cavity that deletions have left belong to the solid.
+  std::vector<int> first_of_body(index(surface.body_count), -1);
+  for (const Face& f : surface.face) {
+    if (!f.alive()) continue;
+    const int slave = surface.slave(f.node[0]);
+    for (std::size_t k = 1; k < 4; ++k) join(parent, slave, surface.slave(f.node[k]));
+    if (f.shell) continue;
+    int& first = first_of_body[index(f.body)];
+    if (first < 0) first = slave;
+    join(parent, first, slave);
+  }
   for (const RoundElement& round : surface.round)
     if (round.alive() && !round.is_point())
       join(parent, surface.slave(round.node[0]), surface.slave(round.node[1]));

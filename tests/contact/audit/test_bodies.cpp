@@ -79,5 +79,33 @@ TEST(AuditBodies, FindsASolidThatCutsItself) {
   EXPECT_EQ(found.deep_crossings, 3);
 }
 
+// What deletions leave free within a solid is not swallowed by it; what gets into its walls is.
+TEST(AuditBodies, CountsNothingInACavity) {
+  ThreadTeam team(1);
+  SpringModel model;
+  model.add_box({7, 7, 7}, {7, 7, 7}, 1, shifted({0, 0, 0}));
+  model.start_erodible({});
+  const auto element = [](int i, int j, int k) { return SurfaceElement{0, i + 7 * (j + 7 * k)}; };
+  model.erode(std::vector<SurfaceElement>{element(1, 1, 1)});
+  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+  std::vector<SurfaceElement> around;
+  for (int k = 2; k < 5; ++k)
+    for (int j = 2; j < 5; ++j)
+      for (int i = 2; i < 5; ++i)
+        if (i != 3 || j != 3 || k != 3) around.push_back(element(i, j, k));
+  model.erode(around);
+  EXPECT_EQ(audit(model.scene, model.nodes, team).missed(), 0);
+  const Vector3d middle{3.5, 3.5, 3.5}, in_wall{5.9, 3.6, 3.4};
+  for (int k = 3; k < 5; ++k)
+    for (int j = 3; j < 5; ++j)
+      for (int i = 3; i < 5; ++i) {
+        const int node = i + 8 * (j + 8 * k);
+        move_nodes(model, node, node + 1, in_wall - middle - 0.7 * (model.x(node) - middle));
+      }
+  const Audit found = audit(model.scene, model.nodes, team);
+  EXPECT_EQ(found.crossings, 0);
+  EXPECT_EQ(found.swallowed, 1);
+}
+
 }  // namespace
 }  // namespace brio::test

@@ -26,7 +26,7 @@ constexpr double same_prescription = 1e-10;
 /// Velocity at the centre of mass and angular velocity of a zone that moves as one.
 class RigidFit {
  public:
-  explicit RigidFit(std::span<const ZoneMember> members) {
+  RigidFit(std::span<const ZoneMember> members, std::span<const ZoneWall> walls) {
     double mass = 0;
     Vector3d velocity{};
     for (const ZoneMember& one : members) {
@@ -56,8 +56,11 @@ class RigidFit {
     matrix.topLeftCorner<3, 3>() = mass * Eigen::Matrix3d::Identity();
     matrix.bottomRightCorner<3, 3>() = to_eigen(axes.axis * diagonal(principal) * transposed(axes.axis));
     mass_.compute(matrix);
-    meet_prescriptions(members);
+    meet_prescriptions(members, walls);
   }
+
+  double velocity_at(const ZoneWall& wall) const { return derivative(wall.point, wall.normal).dot(motion_); }
+  double impulse_of(const ZoneWall& wall) const { return scaled(wall).dot(support_); }
 
   /// Less what a support gives to prescribed components.
   void give_impulses(ZoneMember& one) const {
@@ -71,32 +74,40 @@ class RigidFit {
   }
 
  private:
-  // Of a velocity component by the six of the zone.
-  Vector6d derivative(const ZoneMember& one, int component) const {
-    Vector6d by = Vector6d::Zero();
-    const Vector3d axis = one.axes.column(component % 3);
-    by.segment<3>(component < 3 ? 0 : 3) = to_eigen(axis);
-    if (component < 3) by.tail<3>() = to_eigen(cross(one.position - centre_, axis));
+  // Of the velocity of a point along an axis by the six of the zone.
+  Vector6d derivative(const Vector3d& point, const Vector3d& axis) const {
+    Vector6d by;
+    by << to_eigen(axis), to_eigen(cross(point - centre_, axis));
     return by;
   }
-  Vector6d scaled(const ZoneMember& one, int component) const {
-    return mass_.matrixL().solve(derivative(one, component));
+  Vector6d derivative(const ZoneMember& one, int component) const {
+    const Vector3d axis = one.axes.column(component % 3);
+    if (component < 3) return derivative(one.position, axis);
+    Vector6d by = Vector6d::Zero();
+    by.tail<3>() = to_eigen(axis);
+    return by;
   }
+  Vector6d scaled(const Vector6d& derivative) const { return mass_.matrixL().solve(derivative); }
+  Vector6d scaled(const ZoneMember& one, int component) const { return scaled(derivative(one, component)); }
+  Vector6d scaled(const ZoneWall& wall) const { return scaled(derivative(wall.point, wall.normal)); }
   static double velocity(const ZoneMember& one, int component) {
     return dot(component < 3 ? one.velocity : one.angular_velocity, one.axes.column(component % 3));
   }
 
   // In components scaled by the root of the mass matrix: change = B+ r, and the supports' B^T change.
-  void meet_prescriptions(std::span<const ZoneMember> members) {
+  void meet_prescriptions(std::span<const ZoneMember> members, std::span<const ZoneWall> walls) {
     Matrix6d normal = Matrix6d::Zero();
     Vector6d missing = Vector6d::Zero();
+    const auto prescribe = [&](const Vector6d& row, double difference) {
+      normal += row * row.transpose();
+      missing += row * difference;
+    };
     for (const ZoneMember& one : members)
       for (int c = 0; c < 6; ++c)
-        if (one.prescribed[index(c)]) {
-          const Vector6d row = scaled(one, c);
-          normal += row * row.transpose();
-          missing += row * (velocity(one, c) - derivative(one, c).dot(motion_));
-        }
+        if (one.prescribed[index(c)])
+          prescribe(scaled(one, c), velocity(one, c) - derivative(one, c).dot(motion_));
+    for (const ZoneWall& wall : walls)
+      if (wall.pushes) prescribe(scaled(wall), wall.least_velocity - velocity_at(wall));
     if (normal.isZero(0)) return;
     const Eigen::SelfAdjointEigenSolver<Matrix6d> modes(normal);
     const double least = same_prescription * modes.eigenvalues()[5];
@@ -144,6 +155,7 @@ class Zones {
       }
     std::sort(members.begin(), members.end());
     members.erase(std::unique(members.begin(), members.end()), members.end());
+    find_wall_rows();
     for (std::size_t begin = 0; begin < members.size();) {
       std::size_t end = begin;
       std::vector<int> units;
@@ -227,9 +239,56 @@ class Zones {
         unit_of.push_back(u);
       }
     if (members.empty()) return;
-    find_zone_impulses(members);
-    if (scene_.log) log_zone(unit_of, members);
+    std::vector<ZoneWall> walls = walls_of(find(units.front()));
+    find_zone_impulses(members, walls);
     for (std::size_t i = 0; i < members.size(); ++i) push(unit_of[i], members[i]);
+    for (const ZoneWall& wall : walls)
+      if (wall.pushes) push(wall, unit_of, members);
+    if (scene_.log) log_zone(unit_of, members);
+    for (std::size_t i = 0; i < members.size(); ++i) account(unit_of[i], members[i]);
+  }
+
+  // Of nodes of zones. One whose impulse would turn nodes is left out.
+  void find_wall_rows() {
+    wall_rows_.clear();
+    auto touch = scene_.walls.touch.begin();
+    for (std::size_t r = 0; r < scene_.rows.rows.size(); ++r) {
+      const ConstraintRow& row = scene_.rows.rows.row[r];
+      if (row.wall < 0) continue;
+      const int own = unit(touch++->slave), zone = find(own);
+      const bool turns_nodes = row.rotation.size() > 0 && !is_body(own);
+      if (turns_nodes || !(RowMap(scene_.rows.rows, row).inverse_mass(row.normal, scene_.rows.block) > 0))
+        continue;
+      wall_rows_.emplace_back(zone, r);
+    }
+    std::sort(wall_rows_.begin(), wall_rows_.end());
+  }
+  std::vector<ZoneWall> walls_of(int zone) const {
+    std::vector<ZoneWall> walls;
+    for (auto it = std::lower_bound(wall_rows_.begin(), wall_rows_.end(), std::pair(zone, std::size_t{0}));
+         it != wall_rows_.end() && it->first == zone; ++it) {
+      const ConstraintRow& row = scene_.rows.rows.row[it->second];
+      walls.push_back({.row = it->second,
+                       .point = row.point,
+                       .normal = row.normal,
+                       .least_velocity = row.target_velocity + dot(row.normal, row.wall_velocity)});
+    }
+    return walls;
+  }
+  // The impulse of a wall is that of its row, and not of the zone.
+  void push(const ZoneWall& wall, const std::vector<int>& units, std::span<ZoneMember> members) {
+    ConstraintRow& row = scene_.rows.rows.row[wall.row];
+    row.impulse += wall.impulse;
+    RowMap(scene_.rows.rows, row).spread(wall.impulse * wall.normal, [&](int block, const Vector3d& given) {
+      const BlockOwner& owner = scene_.rows.owner[index(block)];
+      const bool of_body =
+          owner.kind == BlockOwner::Kind::body || owner.kind == BlockOwner::Kind::rotation_of_body;
+      const int own = of_body ? slaves_ + owner.index : scene_.surface.slave(owner.index);
+      const auto found = std::lower_bound(units.begin(), units.end(), own);
+      if (found == units.end() || *found != own) return;
+      ZoneMember& one = members[index(found - units.begin())];
+      (owner.kind == BlockOwner::Kind::rotation_of_body ? one.moment : one.impulse) -= given;
+    });
   }
 
   void log_zone(const std::vector<int>& units, const std::vector<ZoneMember>& members) {
@@ -246,8 +305,6 @@ class Zones {
   void push(int u, const ZoneMember& one) {
     if (is_body(u)) {
       RigidMotion& motion = body(u);
-      motion.impulse += one.impulse;
-      motion.moment += one.moment;
       motion.velocity += motion.free_inverse_mass() * one.impulse;
       motion.angular_velocity += motion.inverse_inertia * one.moment;
       return;
@@ -259,8 +316,15 @@ class Zones {
     velocity[1] += change.y;
     velocity[2] += change.z;
     scene_.velocity[s] = vector_at(velocity);
-    scene_.zone_impulse[s] += one.impulse;
     scene_.in_contact.insert(u);
+  }
+  void account(int u, const ZoneMember& one) {
+    if (is_body(u)) {
+      body(u).impulse += one.impulse;
+      body(u).moment += one.moment;
+    } else {
+      scene_.zone_impulse[index(u)] += one.impulse;
+    }
   }
 
   ContactScene& scene_;
@@ -268,13 +332,23 @@ class Zones {
   const Ties& ties_;
   std::span<RigidMotion> bodies_;
   int slaves_;
+  std::vector<std::pair<int, std::size_t>> wall_rows_;  ///< (zone, row)
 };
 
 }  // namespace
 
-void find_zone_impulses(std::span<ZoneMember> members) {
-  const RigidFit fit(members);
-  for (ZoneMember& one : members) fit.give_impulses(one);
+void find_zone_impulses(std::span<ZoneMember> members, std::span<ZoneWall> walls) {
+  for (;;) {
+    const RigidFit fit(members, walls);
+    bool passes = false;
+    for (ZoneWall& wall : walls)
+      if (!wall.pushes && fit.velocity_at(wall) < wall.least_velocity) wall.pushes = passes = true;
+    if (passes) continue;
+    for (ZoneMember& one : members) fit.give_impulses(one);
+    for (ZoneWall& wall : walls)
+      if (wall.pushes) wall.impulse = fit.impulse_of(wall);
+    return;
+  }
 }
 
 void move_zones_as_one(ContactScene& scene, Nodes& nodes, const Ties& ties, std::span<RigidMotion> bodies) {

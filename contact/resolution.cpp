@@ -166,7 +166,7 @@ class Resolution {
 
   // Rows for nodes pushed behind a wall by other impulses.
   bool find_missed_at_walls(int round) {
-    if (walls_.empty() || round >= most_rounds) return false;
+    if (walls_.empty() || round >= most_rounds + most_zone_rounds) return false;
     const std::size_t known = scene_.walls.touch.size();
     if (!scene_.walls.find_missed(walls_, scene_.surface, scene_.motion, dt_,
                                   behind_wall * scene_.features.smallest_edge))
@@ -194,6 +194,7 @@ class Resolution {
                                     : scene_.solver.solve_further(options, rows_.rows, rows_.block, team_);
     scene_.step.passes += report.iterations;
     scene_.step.residual = report.residual;
+    if (!walls_.empty()) stop_at_walls(rows_.rows, rows_.block);
     store();
   }
 

@@ -58,4 +58,21 @@ bool NodesAtWalls::find_missed(std::span<const ContactWall> walls, const Surface
   return touch.size() > known;
 }
 
+void stop_at_walls(ConstraintRows& rows, std::span<VelocityBlock> blocks) {
+  for (ConstraintRow& row : rows.row) {
+    if (row.wall < 0) continue;
+    const RowMap map(rows, row);
+    const double missing = row.target_velocity - dot(row.normal, map.relative_velocity(blocks));
+    if (!(missing > 0)) continue;
+    const double inverse = map.inverse_mass(row.normal, blocks);
+    if (!(inverse > 0)) continue;
+    const double impulse = missing / inverse;
+    row.impulse += impulse;
+    map.spread(impulse * row.normal, [&](int block, const Vector3d& given) {
+      VelocityBlock& moved = blocks[index(block)];
+      moved.velocity += moved.inverse_mass * given;
+    });
+  }
+}
+
 }  // namespace brio

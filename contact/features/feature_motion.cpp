@@ -11,7 +11,7 @@ namespace brio {
 
 namespace {
 
-constexpr std::size_t features_a_range = 1024, groups_a_range = 4;
+constexpr std::size_t features_a_range = 1024, groups_a_range = 4, bodies_a_range = 64;
 
 // Of rows of four numbers, the last of which do not count.
 double length_in_frame(const double* from, const double* to, const Vector3d& frame) {
@@ -161,6 +161,7 @@ void FeatureMotion::take_positions(const Surface& surface, const Nodes& nodes, d
                                    std::span<const RigidMotion> bodies, ThreadTeam& team,
                                    const Before& before, const After& after) {
   const Row4 steps{dt, dt, dt, 0};
+  follow_bodies(bodies, dt, team);
   sum_.assign((node.size() + features_a_range - 1) / features_a_range, {});
   team.for_ranges(node.size(), features_a_range, [&](std::size_t begin, std::size_t end) {
     Row4 magnitude{};
@@ -174,7 +175,7 @@ void FeatureMotion::take_positions(const Surface& surface, const Nodes& nodes, d
       store_row(node[s].start, start);
       store_row(node[s].end, start + steps * load_row(record.velocity));
       if (const int body = bodies.empty() ? -1 : surface.rigid_body(global); body >= 0)
-        end_of_body_node(s, bodies[index(body)], dt);
+        end_of_body_node(s, index(body));
       magnitude = larger(magnitude, larger(absolute(start), absolute(load_row(node[s].end))));
       exceeds = after(s) || exceeds;
     }
@@ -308,8 +309,26 @@ void FeatureMotion::watch_only(std::span<const std::uint8_t> flagged) {
     if (watched_[e] &= flagged[e]; watched_[e] != 0) watched_edge_.push_back(static_cast<int>(e));
 }
 
-void FeatureMotion::end_of_body_node(std::size_t slave, const RigidMotion& body, double dt) {
-  set_end(slave, body.velocity_at(vector_at(node[slave].start) - body.centre), dt);
+void FeatureMotion::follow_bodies(std::span<const RigidMotion> bodies, double dt, ThreadTeam& team) {
+  body_.resize(bodies.size());
+  team.for_ranges(bodies.size(), bodies_a_range, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const RigidMotion& motion = bodies[b];
+      BodyStep& body = body_[b];
+      body = {motion.centre, dt * motion.velocity, {}};
+      if (is_zero(motion.angular_velocity)) continue;
+      const auto turn = turn_over(motion, motion.inertia * motion.angular_velocity, dt);
+      body.turn = turn ? turn->change_of_arms() : dt * cross_matrix(motion.angular_velocity);
+    }
+  });
+}
+
+// Nothing is lost where a body does not turn.
+void FeatureMotion::end_of_body_node(std::size_t slave, std::size_t body) {
+  const BodyStep& moved = body_[body];
+  const Vector3d start = vector_at(node[slave].start),
+                 end = start + (moved.displacement + moved.turn * (start - moved.centre));
+  store_row(node[slave].end, Row4{end.x, end.y, end.z, 0});
 }
 
 // As a row: it is read as one at once.
@@ -347,6 +366,7 @@ void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surfa
   sum_.assign(ranges + (driven + features_a_range - 1) / features_a_range, {});
   is_solution_ = true;
   corrected_ = &in_contact;
+  follow_bodies(bodies, dt, team);
   in_contact.for_each(team, [&](std::size_t range, std::size_t s) {
     set_end(s, corrected[s], dt);
     if (!bodies.empty() && surface.rigid_body(surface.node[s]) >= 0) return;
@@ -358,7 +378,7 @@ void FeatureMotion::end_by_solution(const SurfaceFeatures& features, const Surfa
       const std::size_t s = index(driven_[i]);
       const int body = surface.rigid_body(surface.node[s]);
       if (body < 0) continue;
-      end_of_body_node(s, bodies[index(body)], dt);
+      end_of_body_node(s, index(body));
       sum.exceeds = raise(s) || sum.exceeds;
     }
   });

@@ -5,8 +5,8 @@
 /// The distance of two features decreases by no more than the sum of their paths and that of their groups'
 /// relation (motion_groups.hpp): a path is the sum over the steps of the longest displacement of a corner in
 /// the frame of the group, since a point of a feature is a fixed mean of its corners. Positions move linearly
-/// over a step (bodies that turn: along the chord), so a height above a direction that is positive at both
-/// ends is positive in between.
+/// over a step (those of bodies that turn, along the chord), so a height above a direction that is positive
+/// at both ends is positive in between.
 
 #include <cstdint>
 #include <span>
@@ -124,7 +124,14 @@ class FeatureMotion {
     bool exceeds = false;
   };
 
-  void end_of_body_node(std::size_t slave, const RigidMotion& body, double dt);
+  /// Of a rigid body over the step: with it its nodes end where it takes them.
+  struct BodyStep {
+    Vector3d centre, displacement;
+    Tensor<double> turn;  ///< less the identity
+  };
+
+  void follow_bodies(std::span<const RigidMotion> bodies, double dt, ThreadTeam& team);
+  void end_of_body_node(std::size_t slave, std::size_t body);
   void set_end(std::size_t slave, const Vector3d& velocity, double dt);
   const Vector3d& frame_of(std::size_t slave) const {
     return groups.group[index(groups.of_node(static_cast<int>(slave)))].step;
@@ -152,6 +159,7 @@ class FeatureMotion {
   std::vector<int> watched_edge_;      ///< those that are
   std::vector<double> solution_step_;  ///< likewise, of those that contact has moved in this step
   std::vector<Sum> sum_;               ///< one a range of nodes
+  std::vector<BodyStep> body_;         ///< of each rigid body
   std::vector<Vector3d> position_;
   std::vector<std::pair<double, double>> of_groups_;  ///< displacement along an axis, nodes
   std::vector<int> driven_;                           ///< slave nodes of rigid bodies

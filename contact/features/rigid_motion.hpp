@@ -1,6 +1,8 @@
 #pragma once
 /// Motion of a rigid body within one time step, for contact and walls.
 
+#include <optional>
+
 #include "src/base/tensor.hpp"
 
 namespace brio {
@@ -60,6 +62,47 @@ struct RigidMotion {
 
   static constexpr double rounding = 1e-14;  ///< of what supports along any axes leave free
 };
+
+/// Inverse within the rows and columns of the free rotations about the body's axes, 0 elsewhere.
+/// \param is_given whether rotation about an axis is prescribed
+template <class IsGiven>
+Tensor<double> free_inverse(const Tensor<double>& inertia, const Tensor<double>& axes,
+                            const IsGiven& is_given) {
+  if (!is_given(0) && !is_given(1) && !is_given(2)) return inverse(inertia);
+  const Tensor<double> along_axes = axes * inertia * transposed(axes);
+  Tensor<double> reduced = along_axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_given(axis)) continue;
+    reduced.set_row(axis, {});
+    reduced.set_column(axis, {});
+    reduced(axis, axis) = along_axes(axis, axis);
+  }
+  Tensor<double> result = inverse(reduced);
+  for (int axis = 0; axis < 3; ++axis)
+    if (is_given(axis)) result(axis, axis) = 0;
+  return transposed(axes) * result * axes;
+}
+
+/// The angular velocity whose given components are those of `given` and whose momentum has the free
+/// components of `momentum`.
+Vector3d angular_velocity_of(const RigidMotion& motion, const Vector3d& momentum, Vector3d given);
+
+/// Rotation of a body over a step, and its angular momentum at the end.
+struct RigidTurn {
+  Vector3d rotation{};  ///< along the axis, with the length 2 tan(angle / 2)
+  Vector3d momentum{};
+
+  /// Rotation matrix less the identity (Cayley transform).
+  Tensor<double> change_of_arms() const {
+    const Tensor<double> v = cross_matrix(rotation);
+    return 1 / (1 + 0.25 * squared_norm(rotation)) * (v + 0.5 * (v * v));
+  }
+};
+/// Of a body that nothing pushes during the step. Free rotation is that of the midpoint rule for the angular
+/// momentum in the body's frame; of one with prescribed components, free components of the angular momentum
+/// are kept, given components of the angular velocity too, and the turn is by the mean of the angular
+/// velocities at both ends. \return none: it turns too far
+std::optional<RigidTurn> turn_over(const RigidMotion& motion, const Vector3d& momentum, double step);
 
 /// Reaction of the supports of prescribed components to an impulse and a moment on a body.
 struct RigidSupport {

@@ -98,7 +98,8 @@ Reaction prescribe(PrescribedNodes& given, const StepTimes& times, Nodes& nodes)
   return reaction;
 }
 
-WallReaction stop_at(const WallInRun& entry, const StepTimes& times, Nodes& nodes) {
+WallReaction stop_at(const WallInRun& entry, const StepTimes& times, NodesInContact in_contact,
+                     Nodes& nodes) {
   const RigidWall& wall = entry.wall;
   WallReaction reaction;
   double offset = 0;  // of the plane along its normal at the end of the step
@@ -109,7 +110,7 @@ WallReaction stop_at(const WallInRun& entry, const StepTimes& times, Nodes& node
     const double height = wall.normal[0] * (record.position[0] + times.next * record.velocity[0]) +
                           wall.normal[1] * (record.position[1] + times.next * record.velocity[1]) +
                           wall.normal[2] * (record.position[2] + times.next * record.velocity[2]) - offset;
-    if (height >= 0 || times.next <= 0) continue;
+    if (height >= 0 || times.next <= 0 || in_contact.has(node)) continue;
     // Impulse along the normal that puts the node on the wall; prescribed axes do not move.
     const SymmetricTensor<double> free = nodes.free_translations(node);
     const double yielding = compliance(free, record.inverse_mass, wall.normal);

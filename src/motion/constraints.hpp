@@ -97,12 +97,20 @@ inline Contribution of_wall(const WallReaction& reaction, const WallInRun& entry
   return sum;
 }
 
-/// Stops nodes; \return normal and frictional reaction.
-WallReaction stop_at(const WallInRun& wall, const StepTimes& times, Nodes& nodes);
+/// Nodes that contact has stopped at walls together with its own constraints: stopped here, they could cross
+/// other surfaces.
+struct NodesInContact {
+  std::span<const int> slave_of;  ///< of each node: its number among them, or -1; empty: there are none
+  bool has(std::size_t node) const { return !slave_of.empty() && slave_of[node] >= 0; }
+};
+
+/// Stops nodes but those in contact; \return normal and frictional reaction.
+WallReaction stop_at(const WallInRun& wall, const StepTimes& times, NodesInContact in_contact, Nodes& nodes);
 
 /// Stops tied nodes, by impulses on the corners of their faces; before the others. Tied nodes then move with
 /// their faces. \return the reaction of supports of the corners
-Reaction stop_tied_at(const WallInRun& wall, const StepTimes& times, Ties& ties, Nodes& nodes);
+Reaction stop_tied_at(const WallInRun& wall, const StepTimes& times, NodesInContact in_contact, Ties& ties,
+                      Nodes& nodes);
 /// Reaction of the wall on tied nodes, once all nodes have been stopped.
 WallReaction reaction_of_tied(const Ties& ties, const StepTimes& times, Nodes& nodes);
 

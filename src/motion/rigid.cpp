@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "src/base/breakdown.hpp"
 #include "src/base/index.hpp"
@@ -14,106 +15,25 @@ bool rotation_is_given(const RigidBody& body) {
   return body.is_given(3) || body.is_given(4) || body.is_given(5);
 }
 
-// Inverse within the rows and columns of the free rotations about the body's axes, 0 elsewhere.
-Tensor<double> free_inverse(const RigidBody& body, const Tensor<double>& inertia) {
-  if (!rotation_is_given(body)) return inverse(inertia);
-  const Tensor<double> along_axes = body.axes * inertia * transposed(body.axes);
-  Tensor<double> reduced = along_axes;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!body.is_given(axis + 3)) continue;
-    reduced.set_row(axis, {});
-    reduced.set_column(axis, {});
-    reduced(axis, axis) = along_axes(axis, axis);
-  }
-  Tensor<double> result = inverse(reduced);
-  for (int axis = 0; axis < 3; ++axis)
-    if (body.is_given(axis + 3)) result(axis, axis) = 0;
-  return transposed(body.axes) * result * body.axes;
-}
-
 Tensor<double> turned(const Tensor<double>& inertia, const Quaternion<double>& attitude) {
   const Tensor<double> turn = rotation_matrix(attitude);
   return turn * inertia * transposed(turn);
-}
-
-// The angular velocity whose given components are those of `given` and whose momentum has the free components
-// of `momentum`.
-Vector3d angular_velocity_of(const RigidMotion& motion, const Vector3d& momentum, Vector3d given) {
-  given = motion.axes * given;
-  for (int axis = 0; axis < 3; ++axis)
-    if (!motion.rotation_is_given(axis)) given[axis] = 0;
-  given = transposed_times(motion.axes, given);
-  return given + motion.inverse_inertia * (momentum - motion.inertia * given);
 }
 
 // Inertia and the velocities before, at the present attitude.
 void prepare(const RigidBody& body, RigidMotion& motion) {
   motion.centre = body.centre;
   motion.inertia = turned(body.inertia, body.attitude);
-  motion.inverse_inertia = free_inverse(body, motion.inertia);
+  motion.inverse_inertia =
+      free_inverse(motion.inertia, body.axes, [&](int axis) { return body.is_given(axis + 3); });
   motion.velocity_before = motion.velocity;
   motion.angular_velocity = angular_velocity_of(motion, body.angular_momentum, motion.angular_velocity);
   motion.angular_velocity_before = motion.angular_velocity;
 }
 
-// Cayley transform of a vector: a turn by the angle 2 atan(|v|/2) about it.
-Quaternion<double> cayley(const Vector3d& v) {
-  return normalized(Quaternion<double>{1, 0.5 * v.x, 0.5 * v.y, 0.5 * v.z});
-}
-
 [[noreturn]] void turns_too_far() {
   throw Breakdown(
       "a rigid part rotates too far in one time step; time.step_scale or time.step must be smaller");
-}
-
-constexpr int most_iterations = 50;
-// Newton's method doubles the digits: after a change below this share the next would be rounding.
-constexpr double newton_share = 1e-9;
-constexpr double converged_change = 1e-15;
-
-// Midpoint rule for the angular momentum m in the body's frame, m' = m x (J^-1 m).
-Quaternion<double> free_turn(const RigidBody& body, double step) {
-  const Vector3d start = rotated(conjugate(body.attitude), body.angular_momentum);
-  const Tensor<double> of_momentum = inverse(body.inertia);
-  Vector3d end = start + step * cross(start, of_momentum * start);
-  for (int i = 0; i < most_iterations; ++i) {
-    const Vector3d mean = 0.5 * (start + end);
-    const Vector3d rate = of_momentum * mean;
-    const Vector3d residual = end - start - step * cross(mean, rate);
-    const Tensor<double> slope =
-        identity<double>() - 0.5 * step * (cross_matrix(mean) * of_momentum - cross_matrix(rate));
-    const Vector3d change = inverse(slope) * residual;
-    end -= change;
-    if (norm(change) <= newton_share * norm(start))
-      return normalized(body.attitude * cayley(step * (of_momentum * (0.5 * (start + end)))));
-  }
-  turns_too_far();
-}
-
-// Free components of the angular momentum are kept, given components of the angular velocity too; the turn is
-// by the mean of the angular velocities at both ends. \return the momentum that supports added.
-Vector3d given_turn(RigidBody& body, RigidMotion& motion, double step) {
-  const Quaternion<double> attitude = body.attitude;
-  const Vector3d start = motion.angular_velocity;
-  Vector3d end = start;
-  double last_change = HUGE_VAL;
-  for (int i = 0; i < most_iterations; ++i) {
-    body.attitude = normalized(rotation_by(0.5 * step * (start + end)) * attitude);
-    motion.inertia = turned(body.inertia, body.attitude);
-    motion.inverse_inertia = free_inverse(body, motion.inertia);
-    const Vector3d next = angular_velocity_of(motion, body.angular_momentum, start);
-    const double change = norm(next - end);
-    end = next;
-    // Below the rounding of what it is computed from, a change does not get smaller.
-    const bool is_rounding = change <= newton_share * norm(start) && change >= last_change;
-    last_change = change;
-    if (is_rounding || change <= converged_change * norm(start)) {
-      Vector3d added = motion.inertia * end - body.angular_momentum;
-      body.angular_momentum += added;
-      return added;
-    }
-  }
-  turns_too_far();
 }
 
 constexpr std::size_t nodes_per_task = 512;
@@ -309,15 +229,18 @@ Reaction move(RigidBodies& bodies, double step, Nodes& nodes, ThreadTeam& team) 
     RigidMotion& motion = bodies.motion[b];
     keep_joints(body);
     body.centre += step * motion.velocity;
+    const std::optional<RigidTurn> turn = turn_over(motion, body.angular_momentum, step);
+    if (!turn) turns_too_far();
+    const Vector3d half = 0.5 * turn->rotation;
+    body.attitude = normalized(Quaternion<double>{1, half.x, half.y, half.z} * body.attitude);
     if (rotation_is_given(body)) {
       const Vector3d rate = motion.angular_velocity;
-      const Vector3d added = given_turn(body, motion, step);
+      const Vector3d added = turn->momentum - body.angular_momentum;
+      body.angular_momentum += added;
       reaction.impulse.angular += added;
       for (int axis = 0; axis < 3; ++axis)
         if (body.is_given(axis + 3))
           reaction.after += dot(body.axes.row(axis), added) * dot(body.axes.row(axis), rate);
-    } else {
-      body.attitude = free_turn(body, step);
     }
     prepare(body, motion);
     place_nodes(body, nodes, team);

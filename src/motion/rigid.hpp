@@ -129,9 +129,10 @@ void carry_velocities(const RigidBodies& bodies, Nodes& nodes, ThreadTeam& team)
 /// \throws Breakdown where a body turns too far in one step.
 Reaction move(RigidBodies& bodies, double step, Nodes& nodes, ThreadTeam& team);
 
-/// Stops the nodes of a body at a wall. \return of the wall, and of supports of prescribed components
-Contribution stop_at(const WallInRun& wall, const StepTimes& times, RigidBody& body, RigidMotion& motion,
-                     const Nodes& nodes);
+/// Stops the nodes of a body at a wall, but those in contact. \return of the wall, and of supports of
+/// prescribed components
+Contribution stop_at(const WallInRun& wall, const StepTimes& times, NodesInContact in_contact,
+                     RigidBody& body, RigidMotion& motion, const Nodes& nodes);
 /// Of the lowest node of the body above the wall as it stands at the start.
 double height_above(const WallInRun& wall, const RigidBody& body, const Nodes& nodes);
 

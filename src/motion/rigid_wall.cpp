@@ -19,13 +19,14 @@ constexpr double overlap_recovery = 0.1;
 // rotate the body towards it.
 constexpr double approach_factor = 2;
 
-void find_touches(const WallInRun& entry, const StepTimes& times, RigidBody& body, const RigidMotion& motion,
-                  const Nodes& nodes) {
+void find_touches(const WallInRun& entry, const StepTimes& times, NodesInContact in_contact, RigidBody& body,
+                  const RigidMotion& motion, const Nodes& nodes) {
   const Vector3d normal = entry.wall.normal;
   const Vector3d wall_velocity = entry.wall.velocity;
   const double offset = dot(normal, entry.wall.point + times.time * wall_velocity);
   body.touch.clear();
   for (int node : body.node) {
+    if (in_contact.has(index(node))) continue;
     const Vector3d x = position(nodes, node);
     const double height = dot(normal, x) - offset;
     const Vector3d arm = x - body.centre;
@@ -88,10 +89,10 @@ double height_above(const WallInRun& entry, const RigidBody& body, const Nodes& 
   return least;
 }
 
-Contribution stop_at(const WallInRun& entry, const StepTimes& times, RigidBody& body, RigidMotion& motion,
-                     const Nodes& nodes) {
+Contribution stop_at(const WallInRun& entry, const StepTimes& times, NodesInContact in_contact,
+                     RigidBody& body, RigidMotion& motion, const Nodes& nodes) {
   if (times.next <= 0) return {};
-  find_touches(entry, times, body, motion, nodes);
+  find_touches(entry, times, in_contact, body, motion, nodes);
   if (body.touch.empty()) return {};
   const Vector3d normal = entry.wall.normal;
   const Vector3d wall_velocity = entry.wall.velocity;

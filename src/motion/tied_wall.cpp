@@ -72,7 +72,8 @@ void apply(const Ties& ties, Nodes& nodes, int node, const Vector3d& given, Reac
 
 }  // namespace
 
-Reaction stop_tied_at(const WallInRun& entry, const StepTimes& times, Ties& ties, Nodes& nodes) {
+Reaction stop_tied_at(const WallInRun& entry, const StepTimes& times, NodesInContact in_contact, Ties& ties,
+                      Nodes& nodes) {
   Reaction support;
   ties.wall_impulse.assign(ties.node.size(), Vector3d{});
   ties.wall_friction.assign(ties.node.size(), Vector3d{});
@@ -82,6 +83,7 @@ Reaction stop_tied_at(const WallInRun& entry, const StepTimes& times, Ties& ties
   const double offset = dot(normal, entry.wall.point + (times.time + times.next) * wall_velocity);
   for (std::size_t i = ties.node.size(); i-- > 0;) {
     const Tie& tie = ties.node[i].tie;
+    if (in_contact.has(index(tie.node))) continue;
     const Vector3d x = vector_at(nodes.record[index(tie.node)].position);
     const Vector3d v = tied_velocity(tie, nodes, times.next);
     const double height = dot(normal, x + times.next * v) - offset;

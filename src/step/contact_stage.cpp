@@ -50,17 +50,21 @@ Contribution resolve_scene(ContactScene& scene, Model& model, ThreadTeam& team) 
   return contribution_of(scene.step);
 }
 
+NodesInContact nodes_in_contact(const Model& model) {
+  return {model.contacts.empty() ? std::span<const int>() : model.contacts.front().surface.slave_of};
+}
+
 Contribution stop_body(const WallInRun& wall, std::size_t b, Model& model) {
-  const Contribution sum =
-      stop_at(wall, model.times, model.rigid.body[b], model.rigid.motion[b], model.nodes);
+  const Contribution sum = stop_at(wall, model.times, nodes_in_contact(model), model.rigid.body[b],
+                                   model.rigid.motion[b], model.nodes);
   if (model.forces) model.forces->add_support_of_body(b, sum.supports.linear);
   return sum;
 }
 
 Contribution stop_tied(const WallInRun& wall, Model& model) {
   Contribution sum;
-  const Reaction supports = stop_tied_at(wall, model.times, model.ties, model.nodes);
-  sum += of_wall(stop_at(wall, model.times, model.nodes), wall);
+  const Reaction supports = stop_tied_at(wall, model.times, nodes_in_contact(model), model.ties, model.nodes);
+  sum += of_wall(stop_at(wall, model.times, nodes_in_contact(model), model.nodes), wall);
   sum += of_wall(reaction_of_tied(model.ties, model.times, model.nodes), wall);
   sum += of_support(supports);
   return sum;
@@ -82,8 +86,9 @@ Contribution stop_at_walls(Model& model) {
   if (model.walls.empty()) return sum;
   const StageTimer timer(model.stages, Stage::constraints);
   for (const WallInRun& wall : model.walls) {
-    Contribution one =
-        model.ties.empty() ? of_wall(stop_at(wall, model.times, model.nodes), wall) : stop_tied(wall, model);
+    Contribution one = model.ties.empty()
+                           ? of_wall(stop_at(wall, model.times, nodes_in_contact(model), model.nodes), wall)
+                           : stop_tied(wall, model);
     for (std::size_t b = 0; b < model.rigid.body.size(); ++b) one += stop_body(wall, b, model);
     add_contact_impulses(model.rigid);
     if (model.forces) model.forces->add_reaction(wall.condition, one.walls.linear);

@@ -154,6 +154,38 @@ TEST_P(Zone, KeepsMomentumWhereSupportsContradict) {
   expect_no_sums();
 }
 
+// What the walls give is what the zone gains, and no point passes them; those that it does not reach do
+// nothing.
+TEST_P(Zone, StopsAtWalls) {
+  fill(6, GetParam() % 2);
+  std::vector<ZoneWall> walls;
+  for (const ZoneMember& one : members_) {
+    walls.push_back({.point = one.position, .normal = {0, 0, 1}, .least_velocity = 0.3});
+    walls.push_back({.point = one.position, .normal = {0, 0.6, -0.8}, .least_velocity = -100});
+  }
+  find_zone_impulses(members_, walls);
+  expect_rigid();
+  Vector3d linear{}, angular{}, given{}, turning{};
+  int pushing = 0;
+  for (const ZoneMember& one : members_) {
+    EXPECT_GT(velocity_after(one)[2], 0.3 - 1e-10);
+    linear += one.impulse;
+    angular += cross(one.position, one.impulse) + one.moment;
+  }
+  for (const ZoneWall& wall : walls) {
+    if (wall.least_velocity < 0) {
+      EXPECT_FALSE(wall.pushes);
+    }
+    pushing += wall.pushes ? 1 : 0;
+    given += wall.impulse * wall.normal;
+    turning += cross(wall.point, wall.impulse * wall.normal);
+  }
+  EXPECT_GT(pushing, 0);
+  EXPECT_GT(given[2], 0);
+  EXPECT_LT(norm(linear - given), 1e-11);
+  EXPECT_LT(norm(angular - turning), 1e-11);
+}
+
 // The diagonals of two cells are driven through each other along z and slide freely.
 TEST(ImpactZone, AccountsForWhatSupportsTake) {
   ThreadTeam team(1);

@@ -33,7 +33,7 @@ MATERIALS = {
     "brittle": {"model": "power_law_hardening", "density": 2700, "youngs_modulus": 7e10, "poissons_ratio": 0.3,
                 "yield_stress": 1e8, "hardening_constant": 2e8, "hardening_exponent": 0.4},
 }
-REFUSED = re.compile(r"contact: part .* (overlaps|lies in|goes through) part|all parts are rigid")
+REFUSED = re.compile(r"contact: part .* (overlaps|lies in|goes through) part|all parts are rigid|begins behind the rigid wall")
 
 
 def box(rng):
@@ -128,8 +128,8 @@ def look_at(program, deck, folder):
     return ", ".join(wrong), contact
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def main(description, scene):
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--scenes", type=int, default=50)
     parser.add_argument("--first", type=int, default=0)
@@ -139,9 +139,9 @@ def main():
     program = str(pathlib.Path(options.program).resolve())
     failures, audited, too_close, zones, refused = 0, 0, 0, 0, 0
     for number in range(options.first, options.first + options.scenes):
-        with tempfile.TemporaryDirectory(prefix="brio-collide-") as name:
+        with tempfile.TemporaryDirectory(prefix="brio-fuzz-") as name:
             folder = pathlib.Path(name)
-            deck = folder / f"collision{number}.yaml"
+            deck = folder / f"scene{number}.yaml"
             deck.write_text(yaml.safe_dump(scene(options.seed, number), sort_keys=False))
             fault, contact = look_at(program, deck, folder)
             if fault:
@@ -160,4 +160,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(__doc__, scene)

@@ -176,7 +176,8 @@ class Resolution {
   }
 
   Recovery recovery() const {
-    return recovery_of(scene_.options, scene_.features.smallest_edge, 2 * scene_.features.skin);
+    return recovery_of(scene_.options, scene_.features.smallest_edge, 2 * scene_.features.skin,
+                       dt_ / scene_.longest_dt);
   }
   void set_target(ConstraintRow& row, double returned) const {
     double mass = 0;
@@ -317,6 +318,7 @@ void resolve(ContactScene& scene, Nodes& nodes, double dt, ThreadTeam& team, std
   scene.walls.push.clear();
   if (scene.log) scene.log->begin_step();
   if (scene.surface.node.empty()) return;
+  scene.longest_dt = std::max(scene.longest_dt, dt);
   Resolution(scene, nodes, dt, team, bodies, ties, walls).run();
   scene.last_dt = dt;
 }

@@ -105,6 +105,7 @@ struct ContactScene {
   std::vector<Contact> contacts;  ///< of the last step, by Contact::slave
   std::vector<Contact> last;      ///< of the step before, while one is resolved
   double last_dt = 0;
+  double longest_dt = 0;  ///< of all steps so far
 
   ContactRows rows;  ///< of this step
   std::vector<std::size_t> row_of_contact;
@@ -140,8 +141,9 @@ struct ContactScene {
   template <class Archive>
   void serialize(Archive& archive) {
     if (erosion) archive(surface, excluded, *erosion, features);
-    archive(motion, pairs, proximity, guard, contacts, last_dt, walls, steps_with_hits, rounds, zones,
-            unresolved, loaded, in_contact, velocity, pushed, normal_impulse, friction_impulse, step, totals);
+    archive(motion, pairs, proximity, guard, contacts, last_dt, longest_dt, walls, steps_with_hits, rounds,
+            zones, unresolved, loaded, in_contact, velocity, pushed, normal_impulse, friction_impulse, step,
+            totals);
   }
 };
 

@@ -25,9 +25,10 @@ void each_node(const Contact& contact, Visit&& visit) {
 
 }  // namespace
 
-Recovery recovery_of(const ContactOptions& options, double smallest_edge, double gap, double deep_share) {
-  return {options.overlap_recovery, deep_share * smallest_edge, options.overlap_recovery_cap * smallest_edge,
-          sunk_share * gap};
+Recovery recovery_of(const ContactOptions& options, double smallest_edge, double gap, double of_step,
+                     double deep_share) {
+  return {of_step * options.overlap_recovery, deep_share * smallest_edge,
+          of_step * options.overlap_recovery_cap * smallest_edge, sunk_share * gap};
 }
 
 double target_velocity(const Recovery& recovery, double gap, double impulse, double mass, double returned,

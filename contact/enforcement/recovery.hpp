@@ -17,9 +17,10 @@ struct Recovery {
   double cap = 0;      ///< largest overlap removed in a step
   double sunk = 0;     ///< depth allowed under load
 };
-/// As the options say. \param gap that surfaces without thickness keep. \param deep_share of the smallest
-/// edge: from there on an overlap is deep.
-Recovery recovery_of(const ContactOptions& options, double smallest_edge, double gap,
+/// As the options say. \param gap that surfaces without thickness keep. \param of_step share of the longest
+/// time step: overlaps are opened at velocities that do not grow where elements that collapse shorten it.
+/// \param deep_share of the smallest edge: from there on an overlap is deep.
+Recovery recovery_of(const ContactOptions& options, double smallest_edge, double gap, double of_step = 1,
                      double deep_share = 0.1);
 
 /// Least normal relative velocity over a step: a gap may close, no more; an overlap is opened slowly. Small

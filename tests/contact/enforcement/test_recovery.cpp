@@ -26,6 +26,18 @@ TEST(TargetVelocity, GapsCloseAndOverlapsOpenALittle) {
   EXPECT_DOUBLE_EQ(target_velocity(recovery, -0.005, 1e9, 1, 1, 0.5), 1e-3 / 0.5);
 }
 
+// A collapsing element shortens the time step: bodies that overlap elsewhere are not shot apart.
+TEST(TargetVelocity, IsThatOfTheLongestStepWhateverTheStep) {
+  const ContactOptions options;
+  for (const double overlap : {1e-4, 0.03, 0.2, 0.7}) {
+    const double wanted = target_velocity(recovery_of(options, 1, 0.01), -overlap, 1e-9, 1, 0, 0.5);
+    EXPECT_GT(wanted, 0);
+    for (const double share : {0.3, 1e-4})
+      EXPECT_NEAR(target_velocity(recovery_of(options, 1, 0.01, share), -overlap, 1e-9, 1, 0, share * 0.5),
+                  wanted, 1e-14);
+  }
+}
+
 constexpr double dt = 0.5;
 constexpr double gap = 0.1;
 constexpr Recovery recovery{.share = 0.1, .deep = 1, .cap = 1, .sunk = 0.3 * gap};

@@ -137,6 +137,10 @@ BRIO_INLINE void resist_hourglass(const Shell4& element, const ShellGeometry<T>&
   }
 }
 
+/// A step that more than halves the area of an element has crushed it or turned it over: strains mean
+/// nothing.
+inline constexpr double most_shrinkage = 2;
+
 /// After the updates of stress. \param result membrane forces, moments and shear forces per length that
 /// stress has
 template <class T>
@@ -158,7 +162,8 @@ BRIO_INLINE void resist_motion(const Shell4& element, T step, const ElasticModul
   if (element.drilling_stiffness > 0) damping += drilling_damping(element, g, state);
   increment.frequency_squared = frequency;
   increment.strain_rate_squared = strain_rate_squared(rates, state.thickness);
-  increment.stable_step = where(g.is_valid, undamped * damped_share(damping), 0.0);
+  const MaskOf<T> is_whole = g.is_valid & (rates.squared_area_at_start < T(square(most_shrinkage)));
+  increment.stable_step = where(is_whole, undamped * damped_share(damping), 0.0);
 
   // Viscosity as if the stiffness of equal stretch in both directions, E' (1 + nu) / 2, acted for b1 stable
   // steps.

@@ -28,12 +28,13 @@ namespace brio {
 /// total (hourglass, drilling).
 template <class T>
 struct ShellRates {
-  T membrane[3];   ///< 11, 22, 12 (tensor component)
-  T curvature[3];  ///< 11, 22, 12
-  T shear[2];      ///< engineering shear 13, 23
-  T hourglass[3];  ///< of velocity: along e1, e2, normal
-  T rotation[2];   ///< of angular velocity, along m1 ~ e2 and m2 ~ -e1
-  T drilling;      ///< mean of the nodes' spins about the normal, less that of the material
+  T membrane[3];            ///< 11, 22, 12 (tensor component)
+  T curvature[3];           ///< 11, 22, 12
+  T shear[2];               ///< engineering shear 13, 23
+  T hourglass[3];           ///< of velocity: along e1, e2, normal
+  T rotation[2];            ///< of angular velocity, along m1 ~ e2 and m2 ~ -e1
+  T drilling;               ///< mean of the nodes' spins about the normal, less that of the material
+  T squared_area_at_start;  ///< of the step, over that at its end; of rates alone
 };
 
 /// D:D in the plane, of the middle and what bending adds at a surface.
@@ -154,6 +155,10 @@ BRIO_INLINE ShellRates<T> shell_rates(const RotatingNodalMotion<T, 4>& motion, c
   const T spin = 0.5 * (across[1] - across[0]);
   rates.drilling = dot(mean_spin, normal) - spin;
   if (warping_projection) add_twist_coupling(g, -rates.drilling, rates);
+  // By the metric of where the axes of the end stood at the start, e_a - dt L_a.
+  const T twice = 2.0 * step;
+  rates.squared_area_at_start = (1.0 - twice * rates.membrane[0]) * (1.0 - twice * rates.membrane[1]) -
+                                square(twice * rates.membrane[2]);
   refer_to_middle(g, half_step, rates);
   return rates;
 }

@@ -89,6 +89,33 @@ TEST(Erosion, InvertedElementIsDeletedOrStopsTheRunAsTheDeckSays) {
   EXPECT_TRUE(std::isfinite(model.energy.sum()));
 }
 
+// One side of a soft shell is driven towards the other, or through it, where its area is positive again, in a
+// step.
+TEST(Erosion, ShellThatAStepHalvesOrTurnsOverHasInverted) {
+  for (const double share : {0.45, 0.55, 0.99, 1.01, 1.4}) {
+    Deck deck;
+    deck.materials = {{"material", elastic(0.0)}};
+    PlateMesh plate;
+    plate.size = {1, 1};
+    plate.elements = {1, 1};
+    Shell4 shell;
+    shell.thickness = 0.1;
+    deck.parts = {{"sheet", plate, {}, shell, "material"}};
+    deck.boundary_conditions = {fix("sheet.all", {1, 2, 3, 4, 5}), fix("sheet.xmin", {0})};
+    deck.numerics.energy_error_limit = 100;
+    deck.time.step = 1e-4;
+    deck.boundary_conditions.push_back(pull("sheet.xmax", 0, -share / 1e-4));
+    deck.time.end = 1e-3;
+    Model model = build_model(deck);
+    ThreadTeam team(1);
+    if (share < 0.5) {
+      EXPECT_NO_THROW(make_steps(model, 1, 100, team)) << share;
+    } else {
+      EXPECT_THROW(make_steps(model, 1, 100, team), Breakdown) << share;
+    }
+  }
+}
+
 TEST(Erosion, PressureGoesWithTheElementItPushes) {
   Deck deck = stretched_bar(2, brittle(0.02, 0.05), 1);
   deck.loads = {Pressure{"bar.xmin", Curve{{{0, 1e3}}}}, Pressure{"bar.ymax", Curve{{{0, 1e3}}}}};

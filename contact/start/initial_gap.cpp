@@ -1,7 +1,6 @@
 #include "contact/start/initial_gap.hpp"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include "contact/enforcement/impulse_solver.hpp"
 #include "contact/pairs/piercing.hpp"
 #include "contact/start/enclosed.hpp"
+#include "contact/start/overlap_report.hpp"
 #include "contact/start/retraction.hpp"
 #include "contact/start/sided_pairs.hpp"
 #include "contact/surface/exclusion.hpp"
@@ -23,8 +23,6 @@ namespace {
 
 /// Overlaps are searched to a depth of this fraction of an edge, or to the limit.
 constexpr double least_searched_share = 0.75;
-/// Tolerance of a missing gap, over the scale: rounding.
-constexpr double resolved_share = 1e-9;
 /// Additional displacement, over the smallest edge, so that no error of the solver remains.
 constexpr double surplus_share = 1e-8;
 /// Of a unit vector.
@@ -76,6 +74,7 @@ class GapMaker {
         nodes_(nodes),
         team_(team),
         displacements_(nodes),
+        report_(scene.features, scene.surface),
         block_(scene.surface.slaves(), -1) {}
 
   std::vector<InitialOverlap> run() {
@@ -94,17 +93,16 @@ class GapMaker {
     }
     expect_within_limit();
     for (const SidedPair& pair : found_)
-      if (is_missing(pair) && (!is_fixed(pair) || must_move(pair))) record(pair);
+      if (is_missing(pair) && (!is_fixed(pair) || must_move(pair))) report_.add(pair);
     const bool moves = !report_.empty() && make_gap();
-    record_motion();
+    report_.add_motion(nodes_, start_);
     if (crosses || moves) expect_uncrossed(false);
     expect_bodies_apart(scene_, nodes_, 0);
     scene_.pairs.take_rest_of(pairs_);
-    return std::move(report_);
+    return report_.take();
   }
 
  private:
-  static double overlap(const SidedPair& pair) { return -pair.contact.gap - pair.skin; }
   bool is_missing(const SidedPair& pair) const { return pair.contact.gap < -resolved_share * pair.scale; }
   // Whether it is more than a gap that is missing.
   bool must_move(const SidedPair& pair) const {
@@ -216,14 +214,7 @@ class GapMaker {
 
   void retract() {
     const std::vector<TouchingPair> touching = retract_touching_faces(features_, surface_, pairs_, nodes_);
-    for (const TouchingPair& pair : touching) {
-      const std::size_t entry = entry_of(pair.part);
-      report_[entry].gap = std::max(report_[entry].gap, 2 * features_.skin);
-      if (pair.depth > resolved_share * features_.smallest_edge)
-        report_[entry].depth = std::max(report_[entry].depth, pair.depth);
-      near_[entry].insert(pair.slave);
-      report_[entry].nodes = static_cast<int>(near_[entry].size());
-    }
+    for (const TouchingPair& pair : touching) report_.add(pair);
     if (!touching.empty() && has_left_boxes()) search();
   }
 
@@ -231,24 +222,6 @@ class GapMaker {
   bool has_left_boxes() {
     motion_.predict(features_, surface_, nodes_, 1, {}, team_);
     return pairs_.is_due(features_, surface_, motion_, team_);
-  }
-
-  std::size_t entry_of(const std::array<int, 2>& parts) {
-    const auto [known, is_new] = entry_.try_emplace(parts, report_.size());
-    if (is_new) {
-      report_.push_back({.node_part = part_name(parts[0]), .face_part = part_name(parts[1])});
-      near_.emplace_back();
-    }
-    return known->second;
-  }
-
-  void record(const SidedPair& pair) {
-    const std::size_t entry = entry_of(pair.part);
-    InitialOverlap& known = report_[entry];
-    if (overlap(pair) > resolved_share * pair.scale) known.depth = std::max(known.depth, overlap(pair));
-    known.gap = std::max(known.gap, pair.skin);
-    near_[entry].insert(pair.contact.node.begin(), pair.contact.node.begin() + pair.contact.own);
-    known.nodes = static_cast<int>(near_[entry].size());
   }
 
   // Projection on the directions in which a node may be moved.
@@ -302,16 +275,6 @@ class GapMaker {
       move_apart();
       search_for_moves();
       find(0);
-    }
-  }
-
-  void record_motion() {
-    for (std::size_t s = 0; s < start_.size(); ++s) {
-      const double moved = norm(position(nodes_, surface_.node[s]) - start_[s]);
-      for (std::size_t i = 0; moved > 0 && i < report_.size(); ++i)
-        if (const std::string& part = part_name(part_of(static_cast<int>(s)));
-            report_[i].node_part == part || report_[i].face_part == part)
-          report_[i].moved = std::max(report_[i].moved, moved);
     }
   }
 
@@ -387,15 +350,6 @@ class GapMaker {
 
   int first_body(const Contact& contact) const { return surface_.body[index(contact.node[0])]; }
 
-  int part_of(int slave) const {
-    if (const auto faces = surface_.faces_of.of(slave); !faces.empty())
-      return surface_.face[index(faces.front())].part;
-    const int node = surface_.node[index(slave)];
-    for (const RoundElement& element : surface_.round)
-      if (element.alive() && (element.node[0] == node || element.node[1] == node)) return element.part;
-    return 0;
-  }
-
   bool any_crosses() const {
     return find_piercing(features_, surface_, scene_.excluded, scene_.options, nodes_, false, team_)
         .has_value();
@@ -415,9 +369,7 @@ class GapMaker {
   std::vector<double> node_depth_;  ///< to which overlaps are looked for
   std::vector<Vector3d> start_;     ///< of each slave node
   std::vector<SidedPair> found_;
-  std::vector<InitialOverlap> report_;
-  std::map<std::array<int, 2>, std::size_t> entry_;  ///< of two parts, in `report_`
-  std::vector<std::set<int>> near_;                  ///< nodes of each entry
+  OverlapReport report_;
   ConstraintRows rows_;
   std::vector<VelocityBlock> blocks_;
   std::vector<int> block_;  ///< of each slave node, while rows are formed

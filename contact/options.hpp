@@ -46,8 +46,8 @@ struct ContactOptions {
   bool velocity_check = true;
   /// Edge-edge contact of faces; without it crossed edges penetrate up to the distance of their nodes.
   bool edges = true;
-  /// Fraction of an overlap of a tenth of the smallest edge removed in a time step, of smaller ones
-  /// proportionally less, ...
+  /// Fraction of an overlap of a tenth of the smallest edge removed in a time step as long as the longest so
+  /// far, of smaller ones and in shorter steps proportionally less, ...
   double overlap_recovery = 0.1;
   /// ... and the largest length removed, over the smallest edge: about 0.001 of the speed of sound, so that
   /// no overlap of any depth causes an impact.
@@ -86,10 +86,12 @@ struct ContactOptions {
                  "continuous collision detection: find and prevent crossings within a time step"),
         optional("edges", &ContactOptions::edges, any_number, "edge-edge contact of solids and shells"),
         optional("overlap_recovery", &ContactOptions::overlap_recovery, fraction,
-                 "fraction of an overlap of a tenth of the smallest edge that is removed in a time step, in "
-                 "proportion less of smaller ones, -"),
-        optional("overlap_recovery_cap", &ContactOptions::overlap_recovery_cap, non_negative,
-                 "largest overlap removed in a time step, in smallest edges, -"),
+                 "fraction of an overlap of a tenth of the smallest edge that is removed in a time step as "
+                 "long as "
+                 "the longest so far, in proportion less of smaller overlaps and in shorter steps, -"),
+        optional(
+            "overlap_recovery_cap", &ContactOptions::overlap_recovery_cap, non_negative,
+            "largest overlap removed in a time step as long as the longest so far, in smallest edges, -"),
         optional("shell_thickness_scale", &ContactOptions::shell_thickness_scale,
                  Range{.lower = 0, .upper = 2, .lower_open = true},
                  "contact thickness over thickness of shells, -"),

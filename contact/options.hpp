@@ -85,10 +85,10 @@ struct ContactOptions {
         optional("velocity_check", &ContactOptions::velocity_check, any_number,
                  "continuous collision detection: find and prevent crossings within a time step"),
         optional("edges", &ContactOptions::edges, any_number, "edge-edge contact of solids and shells"),
-        optional("overlap_recovery", &ContactOptions::overlap_recovery, fraction,
-                 "fraction of an overlap of a tenth of the smallest edge that is removed in a time step as "
-                 "long as "
-                 "the longest so far, in proportion less of smaller overlaps and in shorter steps, -"),
+        optional(
+            "overlap_recovery", &ContactOptions::overlap_recovery, fraction,
+            "fraction of an overlap of a tenth of the smallest edge that is removed in a time step as "
+            "long as the longest so far, in proportion less of smaller overlaps and in shorter steps, -"),
         optional(
             "overlap_recovery_cap", &ContactOptions::overlap_recovery_cap, non_negative,
             "largest overlap removed in a time step as long as the longest so far, in smallest edges, -"),

@@ -195,7 +195,7 @@ class Resolution {
                                     : scene_.solver.solve_further(options, rows_.rows, rows_.block, team_);
     scene_.step.passes += report.iterations;
     scene_.step.residual = report.residual;
-    if (!walls_.empty()) stop_at_walls(rows_.rows, rows_.block);
+    if (!walls_.empty()) project_wall_rows(rows_.rows, rows_.block);
     store();
   }
 

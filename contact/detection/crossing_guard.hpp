@@ -6,8 +6,8 @@
 /// A pair is disjoint if a plane separates it at the start and at the end of the step, since heights are
 /// linear in time: the direction stored with the pair, else that of the closest points at the start, at the
 /// end, or their mean. Pairs without such a separating plane are examined by the velocity checks, which have
-/// no false negatives (velocity_check.hpp, edge_check.hpp). Edges that are points are kept at a fraction of
-/// the sum of their radii.
+/// no false negatives (velocity_check.hpp, edge_check.hpp). Every pair keeps a least distance, edges that
+/// are points a fraction of the sum of their radii (crossing_check.hpp).
 
 #include <cstdint>
 #include <optional>

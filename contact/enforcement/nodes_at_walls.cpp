@@ -58,7 +58,7 @@ bool NodesAtWalls::find_missed(std::span<const ContactWall> walls, const Surface
   return touch.size() > known;
 }
 
-void stop_at_walls(ConstraintRows& rows, std::span<VelocityBlock> blocks) {
+void project_wall_rows(ConstraintRows& rows, std::span<VelocityBlock> blocks) {
   for (ConstraintRow& row : rows.row) {
     if (row.wall < 0) continue;
     const RowMap map(rows, row);

@@ -52,6 +52,6 @@ struct NodesAtWalls {
 
 /// After a solution, of which each row has a residual: rows at walls, one by one, so that their nodes end the
 /// step in front. Impulses only grow.
-void stop_at_walls(ConstraintRows& rows, std::span<VelocityBlock> blocks);
+void project_wall_rows(ConstraintRows& rows, std::span<VelocityBlock> blocks);
 
 }  // namespace brio

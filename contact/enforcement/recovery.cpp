@@ -15,6 +15,8 @@ namespace {
 constexpr double sunk_share = 0.3;
 /// Of what was taken, in a step: opening raises the load by as much as is not known ahead.
 constexpr double returned_share = 0.1;
+/// Of the smallest edge: from there on an overlap is deep.
+constexpr double deep_overlap_share = 0.1;
 
 // `visit(slave, share of the contact)`
 template <class Visit>
@@ -25,9 +27,8 @@ void each_node(const Contact& contact, Visit&& visit) {
 
 }  // namespace
 
-Recovery recovery_of(const ContactOptions& options, double smallest_edge, double gap, double of_step,
-                     double deep_share) {
-  return {of_step * options.overlap_recovery, deep_share * smallest_edge,
+Recovery recovery_of(const ContactOptions& options, double smallest_edge, double gap, double of_step) {
+  return {of_step * options.overlap_recovery, deep_overlap_share * smallest_edge,
           of_step * options.overlap_recovery_cap * smallest_edge, sunk_share * gap};
 }
 

@@ -19,9 +19,7 @@ struct Recovery {
 };
 /// As the options say. \param gap that surfaces without thickness keep. \param of_step share of the longest
 /// time step: overlaps are opened at velocities that do not grow where elements that collapse shorten it.
-/// \param deep_share of the smallest edge: from there on an overlap is deep.
-Recovery recovery_of(const ContactOptions& options, double smallest_edge, double gap, double of_step = 1,
-                     double deep_share = 0.1);
+Recovery recovery_of(const ContactOptions& options, double smallest_edge, double gap, double of_step = 1);
 
 /// Least normal relative velocity over a step: a gap may close, no more; an overlap is opened slowly. Small
 /// overlaps are opened more slowly: while iterations are unfinished, opening in proportion to depth

@@ -52,7 +52,9 @@ std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
   const Vector3d x = motion_.start(s), y = motion_.end(s);
   const bool as_hull = list.has_radii(pair);
   const HullPoint first = closest_on_face(x, start, as_hull);
-  const double floor = std::min(floor_, floor_at_start * std::sqrt(first.squared_distance));
+  const double radii = as_hull ? features_.node_radius[index(s)] + features_.face_radius[index(f)] : 0;
+  const double floor =
+      std::min(least_distance(features_, radii), floor_at_start * std::sqrt(first.squared_distance));
   const auto touch = first_touch({x, y - x}, start, end, as_hull, floor);
   if (!touch) return std::nullopt;
   Hit hit{.kind = PairKind::node_face, .pair = pair, .time = touch->time, .at_start = {}, .at_hit = {}};
@@ -68,7 +70,7 @@ std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
   for (std::size_t k = 0; k < 4; ++k) contact.weight[k + 1] = -first.weights[k];
   set_start(hit, contact, first.offset, floor);
   for (std::size_t k = 0; k < 4; ++k) contact.weight[k + 1] = -touch->weights[k];
-  set_hit(hit, contact, touch->side < 0 ? Vector3d(-touch->normal) : touch->normal, touch->side == 0);
+  set_hit(hit, contact, touch->side < 0 ? Vector3d(-touch->normal) : touch->normal, touch->side == 0, floor);
   return hit;
 }
 
@@ -82,7 +84,8 @@ std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   const Segment eb{motion_.end(b.node[0]), motion_.end(b.node[1])};
   const ClosestSegments first = closest_points_of_segments(sa, sb);
   const bool of_points = a.is_point() || b.is_point();
-  const double floor = std::min(of_points ? floor_of_points * (a.radius + b.radius) : floor_,
+  const double radii = list.has_radii(pair) ? a.radius + b.radius : 0;
+  const double floor = std::min(of_points ? floor_of_points * radii : least_distance(features_, radii),
                                 floor_at_start * std::sqrt(first.squared_distance));
   const MovingEdge moving_a{sa, {Vector3d(ea[0] - sa[0]), Vector3d(ea[1] - sa[1])}, floor};
   const MovingEdge moving_b{sb, {Vector3d(eb[0] - sb[0]), Vector3d(eb[1] - sb[1])}, 0};
@@ -102,7 +105,7 @@ std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   weigh(first.parameters);
   set_start(hit, contact, first.offset, floor);
   weigh(touch->parameters);
-  set_hit(hit, contact, touch->normal, touch->side == 0);
+  set_hit(hit, contact, touch->normal, touch->side == 0, floor);
   return hit;
 }
 
@@ -115,7 +118,8 @@ void CrossingCheck::set_start(Hit& hit, Contact& contact, const Vector3d& offset
   hit.at_start = contact;
 }
 
-void CrossingCheck::set_hit(Hit& hit, Contact contact, Vector3d normal, bool without_side) const {
+void CrossingCheck::set_hit(Hit& hit, Contact contact, Vector3d normal, bool without_side,
+                            double floor) const {
   if (squared_norm(normal) < 0.5) return;
   Vector3d offset{};
   for (std::size_t k = 0; k < 5; ++k) offset += contact.weight[k] * motion_.start(contact.node[k]);
@@ -124,7 +128,7 @@ void CrossingCheck::set_hit(Hit& hit, Contact contact, Vector3d normal, bool wit
   contact.along_meeting = true;
   const double gap = dot(normal, offset);
   if (gap <= 0) return;
-  contact.gap = gap - separation_;
+  contact.gap = gap - floor - separation_;
   hit.at_hit = contact;
 }
 

@@ -5,16 +5,22 @@
 #include <optional>
 
 #include "contact/detection/crossing_guard.hpp"
+#include "contact/features/flatness.hpp"
 
 namespace brio {
 
-/// Distance that pairs keep over a time step, over the smallest edge: without one they have no direction in
-/// which they could be parted (an edge that a rigid wall lays on another in its plane) ...
-inline constexpr double least_distance_share = 1e-6;
-/// ... of edges that are points, this fraction of the sum of their radii ...
+/// Of edges that are points: their least distance over the sum of their radii.
 inline constexpr double floor_of_points = 0.5;
-/// ... or this one of the distance at the start, where that is less.
+/// Of pairs that start the step nearer than the least distance: over their distance at the start.
 inline constexpr double floor_at_start = 0.9;
+
+/// Distance that a pair keeps over a time step: twice the thickness up to which hulls are flat
+/// (flatness.hpp). Edges that keep it from the sides of a flat face, and nodes that do from its hull, do not
+/// pass over its diagonals either, which are not paired. \param radii their sum; zero: two skins are kept
+template <class T>
+T least_distance(const SurfaceFeatures& features, T radii) {
+  return T(2.0) * max(T(flat_share_of_skin * features.skin), T(flat_share_of_radius) * radii);
+}
 
 class CrossingCheck {
  public:
@@ -25,7 +31,6 @@ class CrossingCheck {
         options_(options),
         pairs_(pairs),
         motion_(motion),
-        floor_(least_distance_share * features.smallest_edge),
         separation_(separation_share * features.smallest_edge) {}
 
   std::optional<Hit> node_and_face(std::size_t pair) const;
@@ -33,14 +38,14 @@ class CrossingCheck {
 
  private:
   void set_start(Hit& hit, Contact& contact, const Vector3d& offset, double floor) const;
-  void set_hit(Hit& hit, Contact contact, Vector3d normal, bool without_side) const;
+  void set_hit(Hit& hit, Contact contact, Vector3d normal, bool without_side, double floor) const;
 
   const SurfaceFeatures& features_;
   const Surface& surface_;
   const ContactOptions& options_;
   const FeaturePairs& pairs_;
   const FeatureMotion& motion_;
-  double floor_, separation_;
+  double separation_;
 };
 
 }  // namespace brio

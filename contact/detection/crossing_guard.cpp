@@ -27,8 +27,7 @@ class Look {
         check_(check),
         start_rows_(kind.motion.node.data()->start),
         end_rows_(kind.motion.node.data()->end),
-        extent_(2 * kind.motion.magnitude()),
-        floor_(least_distance_share * kind.features.smallest_edge) {}
+        extent_(2 * kind.motion.magnitude()) {}
 
   void look(const std::vector<int>& pairs, std::size_t begin, std::size_t end,
             CrossingGuard::Range& range) const {
@@ -56,17 +55,19 @@ class Look {
   }
 
   // Edges that are points and of one piece are not kept apart at all.
-  Pack floor_of(const PackOfPairs<1, 4>&, unsigned&) const { return Pack(floor_); }
-  Pack floor_of(const PackOfPairs<2, 2>& pack, unsigned& lanes) const {
+  template <class Pairs>
+  Pack floor_of(const Pairs& pack, unsigned& lanes) const {
+    const MaskOf<Pack> keep_radii = have_spacing(Spacing::radii, kind_.list, pack);
+    const Pack radii = where(keep_radii, radii_of(kind_, pack), Pack(0.0));
+    Pack floor = least_distance(kind_.features, radii);
     unsigned points = 0;
-    for (int lane = 0; lane < pack_size; ++lane)
-      if (pack.node[0][lane] == pack.node[1][lane] || pack.node[2][lane] == pack.node[3][lane])
-        points |= 1U << lane;
-    Pack floor(floor_);
+    if constexpr (Pairs::first_points > 1)
+      for (int lane = 0; lane < pack_size; ++lane)
+        if (pack.node[0][lane] == pack.node[1][lane] || pack.node[2][lane] == pack.node[3][lane])
+          points |= 1U << lane;
     if (points == 0) return floor;
-    const Pack of_points = Pack(floor_of_points) * radii_of(kind_, pack);
-    for_lanes(points, [&](int lane) { floor.set(lane, of_points[lane]); });
-    lanes &= ~points | lane_bits(have_spacing(Spacing::radii, kind_.list, pack));
+    for_lanes(points, [&](int lane) { floor.set(lane, floor_of_points * radii[lane]); });
+    lanes &= ~points | lane_bits(keep_radii);
     return floor;
   }
 
@@ -74,11 +75,10 @@ class Look {
                            CrossingGuard::Range& range) const {
     const Vector3d d = one.direction();
     const auto start = one.points(start_rows_), end = one.points(end_rows_);
-    double floor = floor_;
-    if (is_of_points(one)) {
-      if (one.record.spacing != Spacing::radii) return;
-      floor = floor_of_points * one.radii();
-    }
+    const bool keeps_radii = one.record.spacing == Spacing::radii, of_points = is_of_points(one);
+    if (of_points && !keeps_radii) return;
+    const double radii = keeps_radii ? one.radii() : 0;
+    const double floor = of_points ? floor_of_points * radii : least_distance(kind_.features, radii);
     if (separation_within({extent_, extent_, extent_}, d, start.first, end.first, start.second, end.second)
             .exceeds(longest_direction * floor))
       ++range.certified;
@@ -131,7 +131,7 @@ class Look {
   const CrossingCheck& check_;
   const double* start_rows_;
   const double* end_rows_;
-  double extent_, floor_;
+  double extent_;
 };
 
 template <class Kind>

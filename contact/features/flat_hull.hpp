@@ -25,8 +25,9 @@ struct FlatHull {
   T slack(T most) const { return min(T(0.4) * (most * min(share, T(1.0)) - thickness), unfolded - most); }
 };
 
-/// Of a quadrilateral: between both diagonals. Edges at its corners up to twice as long as the diagonals pass
-/// by these, two skins above its plane at their other ends, above a hull half a skin thick.
+/// Of a quadrilateral: between both diagonals. An edge at one of its corners that is, where it ends or leaves
+/// the face, by twice the hull of a square above it, passes over the diagonal; in others the hull is thinner
+/// in the ratio of how near the corner is.
 template <class T>
 BRIO_INLINE FlatHull<T> flat_hull(const std::array<Vector3<T>, 4>& at) {
   const Vector3<T> a = at[2] - at[0], b = at[3] - at[1], across = cross(a, b);

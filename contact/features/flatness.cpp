@@ -14,7 +14,6 @@ namespace brio {
 
 namespace {
 
-constexpr double share_of_skin = 0.5, share_of_radius = 0.03;
 /// Of the thickness up to which a shape stays flat, so that it does not change at every search.
 constexpr double share_to_become_flat = 0.5;
 constexpr std::size_t shapes_a_range = 256;
@@ -243,8 +242,8 @@ std::array<int, 6> nodes_of_side(const SurfaceFeatures& features, const EdgeFeat
 }  // namespace
 
 double flat_thickness(const SurfaceFeatures& features, double radius, Flatness flatness) {
-  const double for_all = share_of_skin * features.skin;
-  return flatness == Flatness::all ? for_all : std::max(for_all, share_of_radius * radius);
+  const double for_all = flat_share_of_skin * features.skin;
+  return flatness == Flatness::all ? for_all : std::max(for_all, flat_share_of_radius * radius);
 }
 
 void FlatShapes::forget(std::size_t count) {

@@ -6,9 +6,9 @@
 /// edges that are not longer than these faces are wide: the ends of such an edge are nodes in contact with
 /// these faces or their neighbours, and over its length the surface bends by little more than at the side.
 ///
-/// A face counts as flat where it is convex and its hull is thinner than half of the skin, or for what keeps
-/// its radius, than 0.03 of that; a side, where its faces lie on both sides of it and the hull of both is so
-/// thin.
+/// A face counts as flat where it is convex and its hull is thinner than a quarter of the skin, or for what
+/// keeps its radius, than 0.03 of that; a side, where its faces lie on both sides of it and the hull of both
+/// is so thin. Pairs keep twice as much as their least distance (crossing_check.hpp).
 
 #include <algorithm>
 #include <array>
@@ -21,6 +21,10 @@
 #include "src/base/index.hpp"
 
 namespace brio {
+
+/// Thickness of the hull up to which shapes are flat: over the skin, and for pairs that keep their radii,
+/// over the radius of the face if that is more.
+inline constexpr double flat_share_of_skin = 0.25, flat_share_of_radius = 0.03;
 
 /// What a shape is flat for: pairs that keep two skins, and so all; pairs that keep their radii; none.
 enum class Flatness : std::uint8_t { all, radii, none };
@@ -96,15 +100,8 @@ class SurfaceFlatness {
  private:
   bool hides(const SurfaceFeatures& features, int flat, int other, bool radii) const {
     const EdgeFeature& edge = features.edge[index(flat)];
-    if (edge.is_diagonal())
-      return faces_.is_flat(edge.face[0], radii) && (length_[index(other)] <= 2 * length_[index(flat)] ||
-                                                     !ends_opposite(edge, features.edge[index(other)]));
+    if (edge.is_diagonal()) return faces_.is_flat(edge.face[0], radii);
     return sides_.is_flat(flat, radii) && length_[index(other)] <= width_[index(flat)];
-  }
-  /// Whether it ends at a corner that is opposite to a diagonal.
-  static bool ends_opposite(const EdgeFeature& diagonal, const EdgeFeature& other) {
-    return std::ranges::any_of(other.node,
-                               [&](int node) { return std::ranges::count(diagonal.wing, node) > 0; });
   }
   void measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge);
 

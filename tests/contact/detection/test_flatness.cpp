@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 
+#include "contact/detection/crossing_check.hpp"
 #include "contact/features/flat_hull.hpp"
 #include "src/base/index.hpp"
 
@@ -51,29 +54,84 @@ TEST(Flatness, OfANarrowFaceIsThinner) {
   EXPECT_LT(flat_hull(rectangle(0.1 * share * 1.001)).slack(0.1), 0);
 }
 
-// An edge at a corner of a flat face, up to twice as long as the longer diagonal, is two skins from the plane
-// of the corner where it leaves the face. Before, it passes over the other diagonal, not under it.
-TEST(Flatness, EdgesAtACornerPassOverTheDiagonal) {
-  constexpr double skin = 0.01;
+/// The hull of a face over its mean plane, and where edges over it begin and end.
+class OverFace {
+ public:
+  OverFace(const Quad& at, const Point& up) : at_(at), up_(up) {}
+
+  const Point& corner(std::mt19937& random) const { return at_[random() % 4]; }
+  /// That high above a point of the hull: any one, most often on the rim.
+  Point above(std::mt19937& random, double height) const {
+    std::uniform_real_distribution<double> value(-0.5, 1.5);
+    const Point x = point({std::clamp(value(random), 0.0, 1.0), std::clamp(value(random), 0.0, 1.0)});
+    return x + (top(x) + height) * up_;
+  }
+
+ private:
+  Point point(const std::array<double, 2>& uv) const {
+    const auto [u, v] = uv;
+    return (1 - v) * ((1 - u) * at_[0] + u * at_[1]) + v * ((1 - u) * at_[3] + u * at_[2]);
+  }
+  // Of the hull above a point near it: the higher one of both pairs of triangles.
+  double top(const Point& x) const {
+    double highest = -HUGE_VAL;
+    for (const std::size_t first : {0, 1}) {
+      const Point &a = at_[first], &c = at_[first + 2];
+      const bool beyond = dot(cross(c - a, x - a), up_) < 0;
+      const Point normal = cross(c - a, at_[beyond ? (first + 1) % 4 : (first + 3) % 4] - a);
+      highest = std::max(highest, dot(a - x, normal) / dot(up_, normal));
+    }
+    return highest;
+  }
+
+  const Quad& at_;
+  Point up_;
+};
+
+// How far a segment is above another where they cross as seen along a direction; none: they do not.
+std::optional<double> height_above(const std::array<Point, 2>& upper, const std::array<Point, 2>& lower,
+                                   const Point& up) {
+  const Point a = upper[1] - upper[0], b = lower[1] - lower[0], between = lower[0] - upper[0];
+  const double area = dot(cross(a, b), up);
+  const double s = dot(cross(between, b), up) / area, t = dot(cross(between, a), up) / area;
+  constexpr double end = 1e-9;
+  if (!(s > end && s < 1 - end && t > end && t < 1 - end)) return {};
+  return dot(upper[0] + s * a - lower[0] - t * b, up);
+}
+
+SurfaceFeatures features_with(double skin) {
+  SurfaceFeatures features;
+  features.skin = skin;
+  return features;
+}
+
+// Edges that end at a corner of a flat face, or keep the least distance from its hull and its sides, pass
+// over its diagonals too.
+TEST(Flatness, EdgesThatKeepTheLeastDistancePassOverDiagonals) {
+  const SurfaceFeatures features = features_with(0.01);
+  const double least = least_distance(features, 0.0), flat = flat_thickness(features, 0, Flatness::all);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> value(-1, 1);
-  int flat = 0;
-  for (int trial = 0; trial < 200000; ++trial) {
+  int crossed = 0;
+  double lowest = HUGE_VAL;
+  for (int trial = 0; trial < 400000; ++trial) {
     Quad at = warped(0);
-    for (Point& x : at) x = x + Point{0.5 * value(random), 0.5 * value(random), 0.4 * skin * value(random)};
-    if (flat_hull(at).slack(0.5 * skin) < 0) continue;
-    ++flat;
-    const Point first = at[2] - at[0], second = at[3] - at[1], across = cross(first, second);
-    const double longest = std::max(norm(first), norm(second));
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Point& begin = at[(k + 1) % 4];
-      const Point way = begin + 0.5 * (1 + value(random)) * (at[(k + 3) % 4] - begin) - at[k];
-      const double rise = dot(way, across) / norm(across),
-                   length = std::sqrt(squared_norm(way) - rise * rise);
-      EXPECT_GT(2 * skin * length / (2 * longest), std::abs(rise));
-    }
+    for (Point& x : at) x = x + Point{0.5 * value(random), 0.5 * value(random), flat * value(random)};
+    if (flat_hull(at).slack(flat) < 0) continue;
+    const Point normal = cross(at[2] - at[0], at[3] - at[1]),
+                up = (trial % 2 == 0 ? 1 : -1) / norm(normal) * normal;
+    const OverFace over(at, up);
+    const std::array edge{trial % 3 == 0 ? over.corner(random) : over.above(random, least),
+                          over.above(random, least)};
+    for (const std::size_t k : {0, 1})
+      if (const auto height = height_above(edge, {at[k], at[k + 2]}, up)) {
+        ++crossed;
+        lowest = std::min(lowest, *height);
+      }
   }
-  EXPECT_GT(flat, 10000);
+  EXPECT_GT(lowest, 0);
+  EXPECT_LT(lowest, 0.05 * least) << "the rule is no stricter than it has to be";
+  EXPECT_GT(crossed, 50000);
 }
 
 // Two faces of widths 1 and 2 at a side of length 1, bent by an angle.

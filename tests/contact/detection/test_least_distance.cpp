@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "tests/contact/detection/reference_passes.hpp"
 
 namespace brio {
@@ -36,21 +40,27 @@ class Pair {
   ThreadTeam& team_;
 };
 
+// A quarter of the contact distance of solids, or 0.06 of that of pairs that keep their radii.
+double distance_kept(const RandomScene& scene, Spacing spacing, double first, double second) {
+  const double of_solids = 1e-3 * scene.features.smallest_edge;
+  return spacing == Spacing::radii ? std::max(of_solids, 0.06 * (first + second)) : of_solids;
+}
+
 TEST(LeastDistance, IsKeptByEveryPair) {
   ThreadTeam team(1);
   Random random(5);
-  int judged = 0;
+  std::map<std::pair<PairKind, Spacing>, int> judged;
   for (int s = 0; s < 30; ++s) {
-    RandomScene scene({.sheets = 0, .cubes = 3, .beams = 0, .particles = 0}, random);
+    RandomScene scene({.sheets = 1, .cubes = 2, .beams = 0, .particles = 0}, random);
     const FeaturePairs all = all_pairs(scene, team);
     Pair one(scene, all, team);
-    const double floor = least_distance_share * scene.features.smallest_edge;
-    const auto judge = [&](PairKind kind, std::size_t pair, const Approach& approach) {
+    const auto judge = [&](PairKind kind, const PairList& list, std::size_t pair, const Approach& approach,
+                           double floor) {
       const double distance = norm(approach.offset);
-      if (distance < 1e3 * floor) return;
+      if (distance < 1.2 * floor) return;
       EXPECT_TRUE(one.hits(kind, pair, approach, 0.98 * floor / distance)) << s << ' ' << pair;
       EXPECT_FALSE(one.hits(kind, pair, approach, 1.02 * floor / distance)) << s << ' ' << pair;
-      ++judged;
+      ++judged[{kind, list.spacing(pair)}];
     };
     const auto start = [&](int slave) {
       return vector_at(scene.nodes.record[index(scene.surface.node[index(slave)])].position);
@@ -58,21 +68,28 @@ TEST(LeastDistance, IsKeptByEveryPair) {
     for (std::size_t i = 0; i < all.edge_edge.size(); i += 7) {
       const EdgeFeature &a = scene.features.edge[index(all.edge_edge.first(i))],
                         &b = scene.features.edge[index(all.edge_edge.second(i))];
-      if (all.edge_edge.spacing(i) != Spacing::radii) continue;
+      if (all.edge_edge.spacing(i) == Spacing::none) continue;
       const ClosestSegments closest = closest_points_of_segments({start(a.node[0]), start(a.node[1])},
                                                                  {start(b.node[0]), start(b.node[1])});
-      judge(PairKind::edge_edge, i, {closest.offset, a.node});
+      judge(PairKind::edge_edge, all.edge_edge, i, {closest.offset, a.node},
+            distance_kept(scene, all.edge_edge.spacing(i), a.radius, b.radius));
     }
     for (std::size_t i = 0; i < all.node_face.size(); i += 7) {
-      if (all.node_face.spacing(i) != Spacing::radii) continue;
+      if (all.node_face.spacing(i) == Spacing::none) continue;
       const std::array<int, 1> node{all.node_face.first(i)};
-      const std::array<int, 4>& corner = scene.features.face_node[index(all.node_face.second(i))];
+      const auto face = index(all.node_face.second(i));
+      const std::array<int, 4>& corner = scene.features.face_node[face];
       const HullPoint closest = closest_on_face(
-          start(node[0]), {start(corner[0]), start(corner[1]), start(corner[2]), start(corner[3])}, true);
-      judge(PairKind::node_face, i, {closest.offset, node});
+          start(node[0]), {start(corner[0]), start(corner[1]), start(corner[2]), start(corner[3])},
+          all.node_face.has_radii(i));
+      judge(PairKind::node_face, all.node_face, i, {closest.offset, node},
+            distance_kept(scene, all.node_face.spacing(i), scene.features.node_radius[index(node[0])],
+                          scene.features.face_radius[face]));
     }
   }
-  EXPECT_GT(judged, 3000);
+  for (const PairKind kind : {PairKind::node_face, PairKind::edge_edge})
+    for (const Spacing spacing : {Spacing::skins, Spacing::radii})
+      EXPECT_GT((judged[{kind, spacing}]), 100) << static_cast<int>(kind) << static_cast<int>(spacing);
 }
 
 TEST(LeastDistance, OfWhatIsNearerIsNineTenthsOfWhatItWas) {
@@ -80,7 +97,7 @@ TEST(LeastDistance, OfWhatIsNearerIsNineTenthsOfWhatItWas) {
   Random random(6);
   RandomScene scene({.sheets = 0, .cubes = 2, .beams = 0, .particles = 0}, random);
   const FeaturePairs all = all_pairs(scene, team);
-  const double floor = least_distance_share * scene.features.smallest_edge;
+  const double floor = 1e-3 * scene.features.smallest_edge;
   int judged = 0;
   for (std::size_t i = 0; i < all.edge_edge.size(); ++i) {
     if (all.edge_edge.spacing(i) != Spacing::radii) continue;

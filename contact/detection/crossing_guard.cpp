@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "contact/detection/crossing_check.hpp"
 #include "contact/pairs/pair_packs.hpp"
@@ -162,6 +163,12 @@ void find_hits(CrossingGuard& guard, const Proximity& proximity, const SurfaceFe
   const CrossingCheck check(features, surface, options, pairs, motion);
   look_at_kind(guard, NodesAndFaces{features, motion, pairs.node_face}, check, proximity.node_face, team);
   look_at_kind(guard, EdgesAndEdges{features, motion, pairs.edge_edge}, check, proximity.edge_edge, team);
+  // The order of pairs is that of searches.
+  const auto features_of = [&](const Hit& hit) {
+    const PairList& list = hit.kind == PairKind::node_face ? pairs.node_face : pairs.edge_edge;
+    return std::tuple(hit.kind, list.first(hit.pair), list.second(hit.pair));
+  };
+  std::ranges::sort(guard.hits, {}, features_of);
   guard.found += guard.hits.size();
 }
 

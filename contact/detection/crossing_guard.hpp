@@ -34,7 +34,7 @@ struct Hit {
 };
 
 struct CrossingGuard {
-  std::vector<Hit> hits;  ///< of the last check, in the order of pairs
+  std::vector<Hit> hits;  ///< of the last check, by features
   struct Range {
     std::vector<Hit> hits;
     std::uint64_t certified = 0, renewed = 0, checked = 0;

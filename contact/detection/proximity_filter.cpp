@@ -115,7 +115,7 @@ bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint&
       if (f < 0) continue;
       const std::array<int, 4>& corner = features_.face_node[index(f)];
       if (std::find(corner.begin(), corner.end(), neighbour) != corner.end())
-        thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, f, radii));
+        thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, motion_, f, radii));
     }
     return thickest;
   });
@@ -350,7 +350,8 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, radii, faces_of_b,
                           on_a) ||
       !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, radii, faces_of_a,
-                          on_b))
+                          on_b) ||
+      !pairs_.flatness().are_features(features_, motion_, ea, eb, radii))
     return;
 
   Contact contact;

@@ -83,13 +83,15 @@ class SurfaceFlatness {
   bool pairs(const SurfaceFeatures& features, int a, int b, bool radii) const {
     return !hides(features, a, b, radii) && !hides(features, b, a, radii);
   }
-  /// Thickness below which the hull of a face stays while its diagonals are not paired, with what keeps their
-  /// radii; 0: they are.
-  double thickness_of_flat(const SurfaceFeatures& features, int face, bool radii) const {
-    return faces_.is_flat(face, radii)
-               ? flat_thickness(features, features.face_radius[index(face)], faces_.flat[index(face)])
-               : 0;
+  /// Whether two edges are features of their own at the start of the step, paired or not: so that constraints
+  /// do not depend on when pairs were searched for.
+  bool are_features(const SurfaceFeatures& features, const FeatureMotion& motion, int a, int b,
+                    bool radii) const {
+    return !is_hidden(features, motion, a, b, radii) && !is_hidden(features, motion, b, a, radii);
   }
+  /// Thickness below which the hull of a face is at the start of the step; 0: it is not flat.
+  double thickness_of_flat(const SurfaceFeatures& features, const FeatureMotion& motion, int face,
+                           bool radii) const;
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
@@ -103,6 +105,8 @@ class SurfaceFlatness {
     if (edge.is_diagonal()) return faces_.is_flat(edge.face[0], radii);
     return sides_.is_flat(flat, radii) && length_[index(other)] <= width_[index(flat)];
   }
+  bool is_hidden(const SurfaceFeatures& features, const FeatureMotion& motion, int flat, int other,
+                 bool radii) const;
   void measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge);
 
   FlatShapes faces_, sides_;              ///< sides by edge; of diagonals and beams nothing

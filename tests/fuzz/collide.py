@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Throws bodies of all kinds at each other and lets the audit look for what crosses.
 
-    collide.py BRIO [--scenes N] [--first K] [--seed S] [--keep FOLDER]
+    collide.py BRIO [--scenes N] [--first K] [--seed S] [--keep FOLDER] [--twice]
 
 A scene has two to six bodies of bricks, shells, beams or particles, of one to some hundreds of elements, elastic,
 plastic, brittle (bricks that are deleted) or rigid, turned at random, that meet in one place at 20 to 1500 m/s. The
 same seed and number make the same scene. What is a failure: a crossing at any dump, a body swallowed by another, a
 step that ended unresolved, an exit code that is neither 0 nor 3, 60 s without an end. Scenes that are refused because
 bodies overlap as drawn, or all are rigid, are counted apart, as are distances below the touching distance and impact
-zones. Prints a line for each failure and a table at the end; exit code 1 if there were failures.
+zones. With --twice every scene runs again with a wider search margin: its history must be the same, byte for byte.
+Prints a line for each failure and a table at the end; exit code 1 if there were failures.
 """
 
 import argparse
@@ -107,9 +108,8 @@ def scene(seed, number):
             "time": {"end": end}, "output": {"fields": {"every": end / DUMPS}}}
 
 
-def look_at(program, deck, folder):
+def look_at(program, deck, results):
     """What went wrong, '' if nothing did; the summary's section of contact."""
-    results = folder / "results"
     try:
         run = subprocess.run([program, "run", str(deck), "--quiet", "--threads", "1", "--output", str(results)],
                              capture_output=True, text=True, errors="replace", timeout=LONGEST)
@@ -128,6 +128,19 @@ def look_at(program, deck, folder):
     return ", ".join(wrong), contact
 
 
+def look_twice(program, made, deck, first):
+    """What went wrong with a wider search margin."""
+    made["contact"]["reach_buffer"] = 0.35
+    deck.write_text(yaml.safe_dump(made, sort_keys=False))
+    second = deck.parent / "wider"
+    fault, _ = look_at(program, deck, second)
+    return fault or ("" if history(first) == history(second) else "the history depends on the search margin")
+
+
+def history(results):
+    return [path.read_bytes() for path in results.glob("*.history.csv")]
+
+
 def main(description, scene):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
@@ -135,6 +148,7 @@ def main(description, scene):
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", help="folder for the decks that failed")
+    parser.add_argument("--twice", action="store_true", help="compare runs with two search margins")
     options = parser.parse_args()
     program = str(pathlib.Path(options.program).resolve())
     failures, audited, too_close, zones, refused = 0, 0, 0, 0, 0
@@ -142,8 +156,11 @@ def main(description, scene):
         with tempfile.TemporaryDirectory(prefix="brio-fuzz-") as name:
             folder = pathlib.Path(name)
             deck = folder / f"scene{number}.yaml"
-            deck.write_text(yaml.safe_dump(scene(options.seed, number), sort_keys=False))
-            fault, contact = look_at(program, deck, folder)
+            made = scene(options.seed, number)
+            deck.write_text(yaml.safe_dump(made, sort_keys=False))
+            fault, contact = look_at(program, deck, folder / "results")
+            if options.twice and not fault and not contact.get("refused"):
+                fault = look_twice(program, made, deck, folder / "results")
             if fault:
                 failures += 1
                 print(f"scene {number}: {fault}", flush=True)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Presses heaps of bodies of all kinds flat and lets the audit look for what crosses.
 
-    press.py BRIO [--scenes N] [--first K] [--seed S] [--keep FOLDER]
+    press.py BRIO [--scenes N] [--first K] [--seed S] [--keep FOLDER] [--twice]
 
 A scene has two to six bodies as collide.py makes them, on top of or beside each other, between two presses of which the
 upper one moves at 30 to 1000 m/s: rigid walls, with four more around them, shells, bricks or rigid plates. What is a

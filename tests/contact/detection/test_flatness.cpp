@@ -134,6 +134,41 @@ TEST(Flatness, EdgesThatKeepTheLeastDistancePassOverDiagonals) {
   EXPECT_GT(crossed, 50000);
 }
 
+// Edges up to 1.1 times as long as the narrower face is wide that end over both faces of a flat side, or at
+// corners of them, pass over the side.
+TEST(Flatness, EdgesThatKeepTheLeastDistancePassOverFlatSides) {
+  const SurfaceFeatures features = features_with(0.01);
+  const double least = least_distance(features, 0.0), flat = flat_thickness(features, 0, Flatness::all);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1, 1);
+  int crossed = 0;
+  double lowest = HUGE_VAL;
+  for (int trial = 0; trial < 600000; ++trial) {
+    // Corners of the first face from the side on, and of the second.
+    std::array<Point, 6> at{Point{0, 0, 0},  Point{0, 1, 0}, Point{-1, 0, 0},
+                            Point{-1, 1, 0}, Point{1, 0, 0}, Point{1, 1, 0}};
+    for (Point& x : at) x = x + Point{0.3 * value(random), 0.3 * value(random), flat * value(random)};
+    const Quad first{at[0], at[1], at[3], at[2]}, second{at[1], at[0], at[4], at[5]};
+    if (flat_hull(at).slack(flat) < 0 || flat_hull(first).slack(flat) < 0 ||
+        flat_hull(second).slack(flat) < 0)
+      continue;
+    const Point along = at[1] - at[0], normal = cross(0.5 * ((at[4] + at[5]) - (at[2] + at[3])), along),
+                up = (trial % 2 == 0 ? 1 : -1) / norm(normal) * normal;
+    const auto area = [](const Quad& q) { return 0.5 * norm(cross(q[2] - q[0], q[3] - q[1])); };
+    const double width = std::min(area(first), area(second)) / norm(along);
+    const OverFace over_first(first, up), over_second(second, up);
+    const std::array edge{trial % 3 == 0 ? at[2 + trial / 3 % 2] : over_first.above(random, least),
+                          over_second.above(random, least)};
+    if (norm(edge[1] - edge[0]) > 1.1 * width) continue;
+    if (const auto height = height_above(edge, {at[0], at[1]}, up)) {
+      ++crossed;
+      lowest = std::min(lowest, *height);
+    }
+  }
+  EXPECT_GT(lowest, 0);
+  EXPECT_GT(crossed, 5000);
+}
+
 // Two faces of widths 1 and 2 at a side of length 1, bent by an angle.
 std::array<Point, 6> bent(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);

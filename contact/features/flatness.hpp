@@ -7,7 +7,7 @@
 /// these faces or their neighbours, and over its length the surface bends by little more than at the side.
 ///
 /// A face counts as flat where it is convex and its hull is thinner than a quarter of the skin, or for what
-/// keeps its radius, than 0.03 of that; a side, where its faces lie on both sides of it and the hull of both
+/// keeps its radius, than 0.02 of that; a side, where its faces lie on both sides of it and the hull of both
 /// is so thin. Pairs keep twice as much as their least distance (crossing_check.hpp).
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace brio {
 
 /// Thickness of the hull up to which shapes are flat: over the skin, and for pairs that keep their radii,
 /// over the radius of the face if that is more.
-inline constexpr double flat_share_of_skin = 0.25, flat_share_of_radius = 0.03;
+inline constexpr double flat_share_of_skin = 0.25, flat_share_of_radius = 0.02;
 
 /// What a shape is flat for: pairs that keep two skins, and so all; pairs that keep their radii; none.
 enum class Flatness : std::uint8_t { all, radii, none };

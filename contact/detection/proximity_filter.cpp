@@ -115,7 +115,7 @@ bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint&
       if (f < 0) continue;
       const std::array<int, 4>& corner = features_.face_node[index(f)];
       if (std::find(corner.begin(), corner.end(), neighbour) != corner.end())
-        thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, motion_, f, radii));
+        thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, f, radii));
     }
     return thickest;
   });
@@ -130,21 +130,6 @@ bool ProximityFilter::is_near(const Contact& contact) const {
   Vector3d relative{};
   for (std::size_t k = 0; k < 5; ++k) relative += contact.weight[k] * motion_.displacement(contact.node[k]);
   return contact.gap <= band_ + approach_factor * std::abs(dot(contact.normal, relative));
-}
-
-// Whether boxes around the paths of both features meet within that distance and the band: of these all pairs
-// are listed, of others those whose boxes happen to be large.
-bool ProximityFilter::paths_meet(const Contact& contact, double reach) const {
-  if (contact.gap <= band_) return true;
-  CaptureBox first = empty_box, second = empty_box;
-  for (int k = 0; k < 5; ++k) {
-    const int node = contact.node[index(k)];
-    const Vector3d step = motion_.displacement(node) - vector_at(motion_.frame());
-    CaptureBox& box = k < contact.own ? first : second;
-    box.include(motion_.start(node));
-    box.include(motion_.start(node) + approach_factor * step);
-  }
-  return grown(first, reach + band_).overlaps(second);
 }
 
 // Whether the foot on the face is a local minimum on the union of faces; what it lies on: a node, two nodes,
@@ -273,7 +258,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   for (std::size_t k = 0; k < 4; ++k) contact.weight[k + 1] = -near.at[k];
   contact.normal = near.normal;
   contact.gap = near.distance - near.reach;
-  if (!is_near(contact) || !paths_meet(contact, near.reach)) return;
+  if (!is_near(contact)) return;
   std::array<int, 2> support{};
   MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d{}};
   foot.end = foot.start;
@@ -365,8 +350,7 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, radii, faces_of_b,
                           on_a) ||
       !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, radii, faces_of_a,
-                          on_b) ||
-      !pairs_.flatness().are_features(features_, motion_, ea, eb, radii))
+                          on_b))
     return;
 
   Contact contact;
@@ -383,7 +367,7 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const double tilt = of_faces ? tilt_of(std::max(of_a.cosine, of_b.cosine)) : 0;
   const bool skins = of_faces && of_a.sharp && of_b.sharp && !a.shell && !b.shell;
   if (skins) contact.gap += spared_skin(tilt);
-  if (!is_near(contact) || !paths_meet(contact, near.reach)) return;
+  if (!is_near(contact)) return;
   if (contact.gap > passing_gap(tilt) &&
       passes_by(a, b, near.reach - (skins ? spared_skin(tilted_angle) : 0)))
     return;

@@ -57,7 +57,6 @@ class ProximityFilter {
   MovingPoint point_of(int node) const;
   static double slack_of(const Vector3d& foot, double distance);
   bool is_near(const Contact& contact) const;
-  bool paths_meet(const Contact& contact, double reach) const;
   double rounding_of_foot(double slack, double distance) const;
   bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const MovingPoint& foot,
                           const Vector3d& normal, double slack, OtherSide other,

@@ -16,9 +16,6 @@ namespace {
 
 /// Of the thickness up to which a shape stays flat, so that it does not change at every search.
 constexpr double share_to_become_flat = 0.5;
-/// Of edges that have no constraint with a flat side, over its width. Pairs are listed from the width on, so
-/// that no constraint of meshes that have the same size depends on when they were searched.
-constexpr double longest_over_width = 1.1;
 constexpr std::size_t shapes_a_range = 256;
 constexpr float not_measured = std::numeric_limits<float>::infinity();
 
@@ -231,32 +228,6 @@ void begin_to_watch(const Kind& kind, FlatShapes& shapes, int i) {
             });
 }
 
-Flatness flatness_for(bool radii) { return radii ? Flatness::radii : Flatness::all; }
-
-template <class Kind>
-bool is_flat_at_start(const Kind& kind, std::size_t i, double thickness) {
-  std::array<Vector3d, std::tuple_size_v<std::remove_cvref_t<decltype(kind.nodes(0))>>> at;
-  for (std::size_t k = 0; k < at.size(); ++k) at[k] = kind.motion.start(kind.nodes(i)[k]);
-  return flat_hull(at).slack(thickness) >= 0;
-}
-
-double length_at_start(const FeatureMotion& motion, const EdgeFeature& edge) {
-  return norm(motion.start(edge.node[1]) - motion.start(edge.node[0]));
-}
-
-// Of the narrower face across a side.
-double width_at_start(const Sides& sides, std::size_t e) {
-  double area = std::numeric_limits<double>::infinity();
-  for (int face : sides.features.edge[e].face) {
-    const std::array<int, 4>& corner = sides.features.face_node[index(face)];
-    const auto diagonal = [&](std::size_t k) {
-      return Vector3d(sides.motion.start(corner[k + 2]) - sides.motion.start(corner[k]));
-    };
-    area = std::min(area, 0.5 * norm(cross(diagonal(0), diagonal(1))));
-  }
-  return area / length_at_start(sides.motion, sides.features.edge[e]);
-}
-
 std::array<int, 6> nodes_of_side(const SurfaceFeatures& features, const EdgeFeature& edge) {
   std::array<int, 6> node{edge.node[0], edge.node[1]};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -343,32 +314,20 @@ void SurfaceFlatness::watch(const SurfaceFeatures& features, const FeatureMotion
   }
 }
 
-double SurfaceFlatness::thickness_of_flat(const SurfaceFeatures& features, const FeatureMotion& motion,
-                                          int face, bool radii) const {
-  if (!finds_flat_) return 0;
-  const double thickness = flat_thickness(features, features.face_radius[index(face)], flatness_for(radii));
-  return is_flat_at_start(Faces{features, motion}, index(face), thickness) ? thickness : 0;
-}
-
-bool SurfaceFlatness::is_hidden(const SurfaceFeatures& features, const FeatureMotion& motion, int flat,
-                                int other, bool radii) const {
-  const EdgeFeature& edge = features.edge[index(flat)];
-  if (edge.is_diagonal()) return thickness_of_flat(features, motion, edge.face[0], radii) > 0;
-  const Sides sides{Faces{features, motion}, side_node_};
-  const auto e = index(flat);
-  return finds_flat_ && sides.exists(e) &&
-         length_at_start(motion, features.edge[index(other)]) <=
-             longest_over_width * width_at_start(sides, e) &&
-         is_flat_at_start(sides, e, flat_thickness(features, sides.radius(e), flatness_for(radii)));
-}
-
 void SurfaceFlatness::measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge) {
   const EdgeFeature& own = features.edge[index(edge)];
-  length_[index(edge)] = static_cast<float>(length_at_start(motion, own));
-  const Sides sides{Faces{features, motion}, side_node_};
-  if (!sides.exists(index(edge))) return;
+  const double length = norm(motion.start(own.node[1]) - motion.start(own.node[0]));
+  length_[index(edge)] = static_cast<float>(length);
+  if (!Sides{Faces{features, motion}, side_node_}.exists(index(edge))) return;
   side_node_[index(edge)] = nodes_of_side(features, own);
-  width_[index(edge)] = static_cast<float>(width_at_start(sides, index(edge)));
+  double area = std::numeric_limits<double>::infinity();
+  for (int face : own.face) {
+    const std::array<int, 4>& corner = features.face_node[index(face)];
+    const Vector3d first = motion.start(corner[2]) - motion.start(corner[0]),
+                   second = motion.start(corner[3]) - motion.start(corner[1]);
+    area = std::min(area, 0.5 * norm(cross(first, second)));
+  }
+  width_[index(edge)] = static_cast<float>(area / length);
 }
 
 bool SurfaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion,

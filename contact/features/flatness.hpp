@@ -7,7 +7,7 @@
 /// these faces or their neighbours, and over its length the surface bends by little more than at the side.
 ///
 /// A face counts as flat where it is convex and its hull is thinner than a quarter of the skin, or for what
-/// keeps its radius, than 0.02 of that; a side, where its faces lie on both sides of it and the hull of both
+/// keeps its radius, than 0.03 of that; a side, where its faces lie on both sides of it and the hull of both
 /// is so thin. Pairs keep twice as much as their least distance (crossing_check.hpp).
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace brio {
 
 /// Thickness of the hull up to which shapes are flat: over the skin, and for pairs that keep their radii,
 /// over the radius of the face if that is more.
-inline constexpr double flat_share_of_skin = 0.25, flat_share_of_radius = 0.02;
+inline constexpr double flat_share_of_skin = 0.25, flat_share_of_radius = 0.03;
 
 /// What a shape is flat for: pairs that keep two skins, and so all; pairs that keep their radii; none.
 enum class Flatness : std::uint8_t { all, radii, none };
@@ -83,15 +83,13 @@ class SurfaceFlatness {
   bool pairs(const SurfaceFeatures& features, int a, int b, bool radii) const {
     return !hides(features, a, b, radii) && !hides(features, b, a, radii);
   }
-  /// Whether two edges are features of their own at the start of the step, paired or not: so that constraints
-  /// do not depend on when pairs were searched for.
-  bool are_features(const SurfaceFeatures& features, const FeatureMotion& motion, int a, int b,
-                    bool radii) const {
-    return !is_hidden(features, motion, a, b, radii) && !is_hidden(features, motion, b, a, radii);
+  /// Thickness below which the hull of a face stays while its diagonals are not paired, with what keeps their
+  /// radii; 0: they are.
+  double thickness_of_flat(const SurfaceFeatures& features, int face, bool radii) const {
+    return faces_.is_flat(face, radii)
+               ? flat_thickness(features, features.face_radius[index(face)], faces_.flat[index(face)])
+               : 0;
   }
-  /// Thickness below which the hull of a face is at the start of the step; 0: it is not flat.
-  double thickness_of_flat(const SurfaceFeatures& features, const FeatureMotion& motion, int face,
-                           bool radii) const;
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
@@ -105,8 +103,6 @@ class SurfaceFlatness {
     if (edge.is_diagonal()) return faces_.is_flat(edge.face[0], radii);
     return sides_.is_flat(flat, radii) && length_[index(other)] <= width_[index(flat)];
   }
-  bool is_hidden(const SurfaceFeatures& features, const FeatureMotion& motion, int flat, int other,
-                 bool radii) const;
   void measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge);
 
   FlatShapes faces_, sides_;              ///< sides by edge; of diagonals and beams nothing

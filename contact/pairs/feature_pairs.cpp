@@ -80,7 +80,7 @@ bool FeaturePairs::is_due(const SurfaceFeatures& features, const Surface& surfac
   std::atomic<bool> any_left = false;
   team.for_ranges(reach_.size(), nodes_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s)
-      if (surface.node[s] >= 0 && !is_inside(s, motion, approach_factor)) {
+      if (surface.node[s] >= 0 && !is_inside(s, motion, 1)) {
         any_left.store(true, std::memory_order_relaxed);
         return;
       }

@@ -40,10 +40,10 @@ class Pair {
   ThreadTeam& team_;
 };
 
-// A quarter of the contact distance of solids, or 0.04 of that of pairs that keep their radii.
+// A quarter of the contact distance of solids, or 0.06 of that of pairs that keep their radii.
 double distance_kept(const RandomScene& scene, Spacing spacing, double first, double second) {
   const double of_solids = 1e-3 * scene.features.smallest_edge;
-  return spacing == Spacing::radii ? std::max(of_solids, 0.04 * (first + second)) : of_solids;
+  return spacing == Spacing::radii ? std::max(of_solids, 0.06 * (first + second)) : of_solids;
 }
 
 TEST(LeastDistance, IsKeptByEveryPair) {

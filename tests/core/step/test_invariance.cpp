@@ -120,8 +120,13 @@ TEST(Invariance, FrameAtAThousandTimesTheSpeedOfTheImpactSeesTheSameContacts) {
 // Positions have an ulp of 1e-10 there, and an element an edge of 0.05.
 TEST(Invariance, PlaceAMillionSizesAwaySeesTheSameImpact) {
   const Vector3d place{1048576, -524288, 786432};
-  const Watched reference(collision());
-  const Watched other(collision({}, {}, place));
+  Deck here = collision(), there = collision({}, {}, place);
+  for (Deck* deck : {&here, &there}) {
+    // How many iterations there are depends on rounding: by less than that they may differ.
+    deck->contact->options.tolerance = 1e-10;
+    deck->contact->options.passes = 500;
+  }
+  const Watched reference(here), other(there);
   const Difference found = difference(reference.model, other.model, {}, place);
   EXPECT_LE(found.velocity, 1e-3 * 10);
   EXPECT_LE(found.position, 1e-6);

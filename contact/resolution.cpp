@@ -50,7 +50,7 @@ class Resolution {
       look_again();
       if (scene_.options.velocity_check)
         find_hits(scene_.guard, scene_.proximity, scene_.features, scene_.surface, scene_.options,
-                  scene_.pairs, scene_.motion, team_);
+                  scene_.pairs, scene_.motion, std::span(scene_.contacts).first(ordinary), team_);
       const bool behind_walls = find_missed_at_walls(round);
       if (scene_.guard.hits.empty() && !behind_walls) break;
       if (round == 0) ++scene_.steps_with_hits;
@@ -91,17 +91,18 @@ class Resolution {
 
   void find_constraints() {
     scene_.motion.predict(scene_.features, scene_.surface, nodes_, dt_, bodies_, team_);
-    if (scene_.pairs.is_due(scene_.features, scene_.surface, scene_.motion, team_)) search();
+    if (scene_.pairs.begin_step(scene_.features, scene_.surface, scene_.motion, team_)) search();
     select();
     scene_.motion.set_limits(2, allowed_surplus(scene_.features));
     scene_.last.swap(scene_.contacts);
     find_proximities(scene_.proximity, scene_.features, scene_.surface, scene_.excluded, scene_.options,
-                     scene_.pairs, scene_.motion, team_, scene_.contacts);
+                     scene_.pairs, scene_.motion, team_, scene_.last, scene_.contacts);
     warm_start(scene_.last, step_ratio(), scene_.contacts, rows_.taken);
   }
 
   void search() {
     const Clock::time_point start = Clock::now();
+    scene_.pairs.hold(scene_.contacts);
     scene_.pairs.find(scene_.features, scene_.surface, scene_.excluded, scene_.options, scene_.motion, team_);
     scene_.step.searched = true;
     scene_.step.search_seconds += seconds_since(start);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/detection/approach.hpp"
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/geometry/edge_check.hpp"
 #include "contact/geometry/hull_point.hpp"
@@ -74,6 +75,16 @@ std::optional<Hit> CrossingCheck::node_and_face(std::size_t pair) const {
   return hit;
 }
 
+// Of listed edges: whether flat shapes hide one of them over the step, so that others of the kind may not be
+// listed.
+bool CrossingCheck::is_hidden(int a, int b, bool radii) const {
+  for (const Moment moment : {Moment::start, Moment::end})
+    if (pairs_.flatness().are_features(features_, motion_, a, b, {.radii = radii, .moment = moment}))
+      return false;
+  const std::array<int, 2>&first = features_.edge_node[index(a)], &second = features_.edge_node[index(b)];
+  return !has_edges(constraints_, a, {first[0], first[1], second[0], second[1], second[1]});
+}
+
 std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   const PairList& list = pairs_.edge_edge;
   const EdgeFeature& a = features_.edge[index(list.first(pair))];
@@ -90,7 +101,7 @@ std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   const MovingEdge moving_a{sa, {Vector3d(ea[0] - sa[0]), Vector3d(ea[1] - sa[1])}, floor};
   const MovingEdge moving_b{sb, {Vector3d(eb[0] - sb[0]), Vector3d(eb[1] - sb[1])}, 0};
   const auto touch = edge_check(moving_a, moving_b);
-  if (!touch) return std::nullopt;
+  if (!touch || is_hidden(list.first(pair), list.second(pair), list.has_radii(pair))) return std::nullopt;
   Hit hit{.kind = PairKind::edge_edge, .pair = pair, .time = touch->time, .at_start = {}, .at_hit = {}};
   Contact contact;
   contact.slave = first_edge_slave + list.first(pair);

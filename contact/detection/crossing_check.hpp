@@ -25,18 +25,20 @@ T least_distance(const SurfaceFeatures& features, T radii) {
 class CrossingCheck {
  public:
   CrossingCheck(const SurfaceFeatures& features, const Surface& surface, const ContactOptions& options,
-                const FeaturePairs& pairs, const FeatureMotion& motion)
+                const FeaturePairs& pairs, const FeatureMotion& motion, std::span<const Contact> constraints)
       : features_(features),
         surface_(surface),
         options_(options),
         pairs_(pairs),
         motion_(motion),
+        constraints_(constraints),
         separation_(separation_share * features.smallest_edge) {}
 
   std::optional<Hit> node_and_face(std::size_t pair) const;
   std::optional<Hit> edge_and_edge(std::size_t pair) const;
 
  private:
+  bool is_hidden(int a, int b, bool radii) const;
   void set_start(Hit& hit, Contact& contact, const Vector3d& offset, double floor) const;
   void set_hit(Hit& hit, Contact contact, Vector3d normal, bool without_side, double floor) const;
 
@@ -45,6 +47,7 @@ class CrossingCheck {
   const ContactOptions& options_;
   const FeaturePairs& pairs_;
   const FeatureMotion& motion_;
+  std::span<const Contact> constraints_;  ///< of this step, by Contact::slave
   double separation_;
 };
 

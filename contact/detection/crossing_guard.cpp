@@ -158,9 +158,9 @@ void look_at_kind(CrossingGuard& guard, const Kind& kind, const CrossingCheck& c
 
 void find_hits(CrossingGuard& guard, const Proximity& proximity, const SurfaceFeatures& features,
                const Surface& surface, const ContactOptions& options, FeaturePairs& pairs,
-               const FeatureMotion& motion, ThreadTeam& team) {
+               const FeatureMotion& motion, std::span<const Contact> constraints, ThreadTeam& team) {
   guard.hits.clear();
-  const CrossingCheck check(features, surface, options, pairs, motion);
+  const CrossingCheck check(features, surface, options, pairs, motion, constraints);
   look_at_kind(guard, NodesAndFaces{features, motion, pairs.node_face}, check, proximity.node_face, team);
   look_at_kind(guard, EdgesAndEdges{features, motion, pairs.edge_edge}, check, proximity.edge_edge, team);
   // The order of pairs is that of searches.

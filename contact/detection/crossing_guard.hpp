@@ -56,6 +56,6 @@ inline constexpr double separation_share = 1e-3;
 /// The same bits for any number of threads.
 void find_hits(CrossingGuard& guard, const Proximity& proximity, const SurfaceFeatures& features,
                const Surface& surface, const ContactOptions& options, FeaturePairs& pairs,
-               const FeatureMotion& motion, ThreadTeam& team);
+               const FeatureMotion& motion, std::span<const Contact> constraints, ThreadTeam& team);
 
 }  // namespace brio

@@ -263,11 +263,12 @@ void select_active(Proximity& proximity, const SurfaceFeatures& features, const 
 
 void find_proximities(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
                       const Lists& excluded, const ContactOptions& options, FeaturePairs& pairs,
-                      const FeatureMotion& motion, ThreadTeam& team, std::vector<Contact>& contacts) {
+                      const FeatureMotion& motion, ThreadTeam& team, std::span<const Contact> last,
+                      std::vector<Contact>& contacts) {
   const std::size_t most = std::max(motion.node.size(), features.edge_node.size());
   proximity.last_found.resize(most, -1);
   proximity.features.resize(most);
-  const ProximityFilter filter(features, surface, excluded, options, pairs, motion);
+  const ProximityFilter filter(features, surface, excluded, options, pairs, motion, last);
   const NodesAndFaces nodes_and_faces{features, motion, pairs.node_face};
   std::size_t end = find_of_kind(proximity, nodes_and_faces, filter, proximity.node_face, 0, team, contacts);
   const EdgesAndEdges edges_and_edges{features, motion, pairs.edge_edge};

@@ -70,10 +70,11 @@ void select_active(Proximity& proximity, const SurfaceFeatures& features, const 
 /// Directions and motion bounds of the pairs are renewed. Active pairs that are not near are dropped: they
 /// are farther apart than twice their predicted motion, their radii and the band, which is more than what the
 /// limits of the motion allow. The same bits for any number of threads. \param
-/// excluded pairs of nodes and faces that are one piece
+/// excluded pairs of nodes and faces that are one piece \param last constraints of the step before
 void find_proximities(Proximity& proximity, const SurfaceFeatures& features, const Surface& surface,
                       const Lists& excluded, const ContactOptions& options, FeaturePairs& pairs,
-                      const FeatureMotion& motion, ThreadTeam& team, std::vector<Contact>& contacts);
+                      const FeatureMotion& motion, ThreadTeam& team, std::span<const Contact> last,
+                      std::vector<Contact>& contacts);
 
 /// Of all pairs: how far the solution may move a node beyond twice its predicted displacement before inactive
 /// pairs have to be examined again.

@@ -108,28 +108,37 @@ bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot,
 // Of an edge. The diagonals of a flat face are no features: if one of its corners is nearer by less than the
 // allowed thickness of the face, the edge keeps the distance.
 bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint& foot, const Vector3d& away,
-                                      double slack, bool radii, OtherSide other) const {
+                                      double slack, const EdgePair& pair, OtherSide other) const {
   return look_away(own.wing, foot, away, slack, other, [&](int neighbour) {
     double thickest = 0;
     for (int f : own.face) {
       if (f < 0) continue;
       const std::array<int, 4>& corner = features_.face_node[index(f)];
       if (std::find(corner.begin(), corner.end(), neighbour) != corner.end())
-        thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, f, radii));
+        thickest = std::max(thickest, pairs_.flatness().thickness_of_flat(features_, motion_, f, pair.radii,
+                                                                          was_constraint(pair)));
     }
     return thickest;
   });
 }
 
-ProximityFilter::MovingPoint ProximityFilter::point_of(int node) const {
-  return {motion_.start(node), motion_.start(node) + motion_.displacement(node)};
+std::array<int, 5> ProximityFilter::nodes_of(const EdgePair& pair) const {
+  const EdgeFeature &a = edge(pair.first), &b = edge(pair.second);
+  return {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
+}
+bool ProximityFilter::was_constraint(const EdgePair& pair) const {
+  return has_edges(last_, pair.first, nodes_of(pair));
 }
 
-// Whether the step's approach, or twice it, closes the gap.
-bool ProximityFilter::is_near(const Contact& contact) const {
-  Vector3d relative{};
-  for (std::size_t k = 0; k < 5; ++k) relative += contact.weight[k] * motion_.displacement(contact.node[k]);
-  return contact.gap <= band_ + approach_factor * std::abs(dot(contact.normal, relative));
+// Whether no flat shape hides one of them. Once they are a constraint they are one until they part: shapes
+// whose hulls are about as thick as flat ones may be would otherwise dissipate energy at every other step.
+bool ProximityFilter::are_features(const EdgePair& pair) const {
+  return pairs_.flatness().are_features(features_, motion_, pair.first, pair.second, {.radii = pair.radii}) ||
+         was_constraint(pair);
+}
+
+ProximityFilter::MovingPoint ProximityFilter::point_of(int node) const {
+  return {motion_.start(node), motion_.start(node) + motion_.displacement(node)};
 }
 
 // Whether the foot on the face is a local minimum on the union of faces; what it lies on: a node, two nodes,
@@ -223,7 +232,8 @@ bool ProximityFilter::lay_in_plane(const NearPair<4>& near, double slack, Contac
 // another face. \param contact its gap is enlarged at sharp edges
 bool ProximityFilter::is_kept_beside_rim(const NearPair<4>& near, const std::array<int, 2>& support,
                                          bool in_plane, double slack, Contact& contact) const {
-  if (in_plane && contact.gap <= passing_gap(0)) return is_near(contact);  // whatever the faces at both
+  if (in_plane && contact.gap <= passing_gap(0))
+    return is_near(contact, near.reach);  // whatever the faces at both
   const int s = contact.slave, f = contact.face;
   const std::array<int, 2> beside = support[1] >= 0 ? faces_of_side(f, support) : std::array{-1, -1};
   const std::span<const int> at_foot =
@@ -237,7 +247,7 @@ bool ProximityFilter::is_kept_beside_rim(const NearPair<4>& near, const std::arr
   const bool skins = of_face.sharp && of_node.sharp && !surface_.face[index(f)].shell &&
                      features_.node_radius[index(s)] <= features_.skin;
   if (skins) contact.gap += spared_skin(tilt);
-  if (!is_near(contact)) return false;
+  if (!is_near(contact, near.reach)) return false;
   const double reach = near.reach - (skins ? spared_skin(tilted_angle) : 0);
   const bool as_hull = pairs_.node_face.has_radii(index(near.pair));
   return contact.gap <= passing_gap(tilt) || !passes_by(s, f, as_hull, reach);
@@ -258,7 +268,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   for (std::size_t k = 0; k < 4; ++k) contact.weight[k + 1] = -near.at[k];
   contact.normal = near.normal;
   contact.gap = near.distance - near.reach;
-  if (!is_near(contact)) return;
+  if (!is_near(contact, near.reach)) return;
   std::array<int, 2> support{};
   MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d{}};
   foot.end = foot.start;
@@ -286,8 +296,8 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
 // Whether the foot on an edge is a local minimum on the union of edges and faces. Ends of edges of faces are
 // nodes, which have their own constraints. \param on the number of the edge, or of the end's node below -1
 bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const MovingPoint& foot,
-                                         const Vector3d& away, double slack, double distance, bool radii,
-                                         OtherSide other, int& on) const {
+                                         const Vector3d& away, double slack, double distance,
+                                         const EdgePair& pair, OtherSide other, int& on) const {
   const EdgeFeature& own = edge(e);
   on = e;
   if (own.is_point()) return true;
@@ -296,7 +306,7 @@ bool ProximityFilter::is_minimum_on_edge(int e, double parameter, const MovingPo
     const bool at_end = std::min(parameter, 1 - parameter) <= rounding_of_foot(slack, distance);
     if (at_end && own.of_face() && look_away(features_.ring.of(end), point_of(end), away, slack, other))
       return false;
-    return own.faces > 2 || wings_look_away(own, foot, away, slack, radii, other);
+    return own.faces > 2 || wings_look_away(own, foot, away, slack, pair, other);
   }
   if (own.of_face()) return false;
   on = -2 - end;
@@ -346,11 +356,12 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const bool own = a.shell && b.shell && a.body == b.body;
   const OtherSide faces_of_a = own ? OtherSide(a.face) : OtherSide();
   const OtherSide faces_of_b = own ? OtherSide(b.face) : OtherSide();
-  const bool radii = pairs_.edge_edge.has_radii(pair);
-  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, radii, faces_of_b,
+  const EdgePair edges{ea, eb, pairs_.edge_edge.has_radii(pair)};
+  if (!is_minimum_on_edge(ea, near.at[0], foot_a, near.normal, slack, near.distance, edges, faces_of_b,
                           on_a) ||
-      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, radii, faces_of_a,
-                          on_b))
+      !is_minimum_on_edge(eb, near.at[1], foot_b, -near.normal, slack, near.distance, edges, faces_of_a,
+                          on_b) ||
+      !are_features(edges))
     return;
 
   Contact contact;
@@ -358,7 +369,7 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   contact.face = -1;
   contact.body = b.body;
   contact.own = 2;
-  contact.node = {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
+  contact.node = nodes_of(edges);
   contact.weight = {1 - near.at[0], near.at[0], near.at[1] - 1, -near.at[1], 0};
   contact.normal = near.normal;
   contact.gap = near.distance - near.reach;
@@ -367,7 +378,7 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const double tilt = of_faces ? tilt_of(std::max(of_a.cosine, of_b.cosine)) : 0;
   const bool skins = of_faces && of_a.sharp && of_b.sharp && !a.shell && !b.shell;
   if (skins) contact.gap += spared_skin(tilt);
-  if (!is_near(contact)) return;
+  if (!is_near(contact, near.reach)) return;
   if (contact.gap > passing_gap(tilt) &&
       passes_by(a, b, near.reach - (skins ? spared_skin(tilted_angle) : 0)))
     return;

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "contact/detection/approach.hpp"
 #include "contact/detection/proximity.hpp"
 #include "contact/geometry/closest_point.hpp"
 #include "src/base/index.hpp"
@@ -23,13 +24,15 @@ struct NearPair {
 class ProximityFilter {
  public:
   ProximityFilter(const SurfaceFeatures& features, const Surface& surface, const Lists& excluded,
-                  const ContactOptions& options, const FeaturePairs& pairs, const FeatureMotion& motion)
+                  const ContactOptions& options, const FeaturePairs& pairs, const FeatureMotion& motion,
+                  std::span<const Contact> last)
       : features_(features),
         surface_(surface),
         excluded_(excluded),
         options_(options),
         pairs_(pairs),
         motion_(motion),
+        last_(last),
         band_(proximity_band * features.smallest_edge) {}
 
   /// Append the constraint of the pair, if it is one.
@@ -38,6 +41,13 @@ class ProximityFilter {
 
  private:
   const EdgeFeature& edge(int e) const { return features_.edge[index(e)]; }
+  struct EdgePair {
+    int first, second;
+    bool radii;  ///< whether these are kept
+  };
+  std::array<int, 5> nodes_of(const EdgePair& pair) const;
+  bool was_constraint(const EdgePair& pair) const;
+  bool are_features(const EdgePair& pair) const;
   /// At both ends of the step, as predicted.
   struct MovingPoint {
     Vector3d start, end;
@@ -53,16 +63,19 @@ class ProximityFilter {
   bool look_away(const List& neighbours, const MovingPoint& foot, const Vector3d& away, double slack,
                  OtherSide other) const;
   bool wings_look_away(const EdgeFeature& own, const MovingPoint& foot, const Vector3d& away, double slack,
-                       bool radii, OtherSide other) const;
+                       const EdgePair& pair, OtherSide other) const;
   MovingPoint point_of(int node) const;
   static double slack_of(const Vector3d& foot, double distance);
-  bool is_near(const Contact& contact) const;
+  bool is_near(const Contact& contact, double reach) const {
+    return closes_gap(contact, motion_, band_) && paths_meet(contact, motion_, reach, band_);
+  }
   double rounding_of_foot(double slack, double distance) const;
   bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const MovingPoint& foot,
                           const Vector3d& normal, double slack, OtherSide other,
                           std::array<int, 2>& support) const;
   bool is_minimum_on_edge(int edge, double parameter, const MovingPoint& foot, const Vector3d& away,
-                          double slack, double distance, bool radii, OtherSide other, int& on) const;
+                          double slack, double distance, const EdgePair& pair, OtherSide other,
+                          int& on) const;
   bool lay_in_plane(const NearPair<4>& near, double slack, Contact& contact) const;
   bool is_kept_beside_rim(const NearPair<4>& near, const std::array<int, 2>& support, bool in_plane,
                           double slack, Contact& contact) const;
@@ -89,6 +102,7 @@ class ProximityFilter {
   const ContactOptions& options_;
   const FeaturePairs& pairs_;
   const FeatureMotion& motion_;
+  std::span<const Contact> last_;  ///< constraints of the step before, by Contact::slave
   double band_;
 };
 

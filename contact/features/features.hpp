@@ -44,6 +44,11 @@ struct EdgeFeature {
   bool of_face() const { return kind <= EdgeKind::cross_diagonal; }
   bool is_diagonal() const { return kind == EdgeKind::diagonal || kind == EdgeKind::cross_diagonal; }
   bool alive() const { return kind != EdgeKind::none; }
+  /// Opposite sides of a face do, as neither is a diagonal.
+  bool shares_face(const EdgeFeature& other) const {
+    const auto has = [&](int f) { return f >= 0 && (f == other.face[0] || f == other.face[1]); };
+    return has(face[0]) || has(face[1]);
+  }
 };
 
 /// Distances below this fraction of the smallest edge have no direction.

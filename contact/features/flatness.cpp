@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contact/features/flat_hull.hpp"
+#include "contact/features/flat_kinds.hpp"
 #include "contact/features/gather.hpp"
 #include "src/base/index.hpp"
 
@@ -17,62 +18,6 @@ namespace {
 /// Of the thickness up to which a shape stays flat, so that it does not change at every search.
 constexpr double share_to_become_flat = 0.5;
 constexpr std::size_t shapes_a_range = 256;
-constexpr float not_measured = std::numeric_limits<float>::infinity();
-
-/// Faces, as what follows asks of a kind of shapes.
-struct Faces {
-  const SurfaceFeatures& features;
-  const FeatureMotion& motion;
-
-  bool exists(std::size_t f) const { return features.diagonal_of_face[f][0] >= 0; }
-  const std::array<int, 4>& nodes(std::size_t f) const { return features.face_node[f]; }
-  double radius(std::size_t f) const { return features.face_radius[f]; }
-  double path(std::size_t f) const { return motion.of_face.path[f]; }
-  double ahead(std::size_t f) const { return motion.of_face.ahead[f]; }
-  /// Of the corners that contact has moved in this step.
-  double step_of_solution(std::size_t f) const {
-    double longest = 0;
-    for (int slave : nodes(f)) longest = std::max(longest, motion.step_of_solution(slave));
-    return longest;
-  }
-  /// Whether contact has moved a corner with a number below that farther than predicted.
-  bool exceeds_prediction(std::size_t f, int below = std::numeric_limits<int>::max()) const {
-    const std::array<int, 4>& corner = nodes(f);
-    return std::any_of(corner.begin(), corner.end(),
-                       [&](int slave) { return slave < below && motion.exceeds_prediction(slave); });
-  }
-  /// Of the corners over that of the shape.
-  double path_of_corners(std::size_t) const { return 1; }
-};
-
-/// Sides between two faces. Their corners move by no more than the sum of the paths of both faces in the
-/// frame of either, and by half as much again where these have frames of different groups, which corners that
-/// they share hold together.
-struct Sides {
-  const Faces& faces;
-  const std::vector<std::array<int, 6>>& node;
-  const SurfaceFeatures& features = faces.features;
-  const FeatureMotion& motion = faces.motion;
-
-  bool exists(std::size_t e) const {
-    const EdgeFeature& edge = features.edge[e];
-    return edge.kind == EdgeKind::side && edge.faces == 2 && edge.face[1] >= 0;
-  }
-  const std::array<int, 6>& nodes(std::size_t e) const { return node[e]; }
-  std::size_t face(std::size_t e, std::size_t k) const { return index(features.edge[e].face[k]); }
-  double radius(std::size_t e) const { return std::min(faces.radius(face(e, 0)), faces.radius(face(e, 1))); }
-  double path(std::size_t e) const { return faces.path(face(e, 0)) + faces.path(face(e, 1)); }
-  double ahead(std::size_t e) const { return faces.ahead(face(e, 0)) + faces.ahead(face(e, 1)); }
-  double step_of_solution(std::size_t e) const {
-    return faces.step_of_solution(face(e, 0)) + faces.step_of_solution(face(e, 1));
-  }
-  double path_of_corners(std::size_t e) const {
-    const auto group = [&](std::size_t k) {
-      return motion.groups.of_node(features.face_node[face(e, k)][0]);
-    };
-    return group(0) == group(1) ? 1 : 1.5;
-  }
-};
 
 /// At most eight shapes at both ends of the step.
 struct PackOfHulls {
@@ -280,68 +225,60 @@ void SurfaceFlatness::forget(const SurfaceFeatures& features, bool finds_flat) {
   is_watched_.assign(features.face_node.size(), 0);
   finds_flat_ = finds_flat;
   side_node_.assign(features.edge.size(), {});
-  length_.assign(features.edge.size(), not_measured);
-  width_.assign(features.edge.size(), 0);
 }
 
-void SurfaceFlatness::change(const SurfaceFeatures& features, std::span<const int> faces,
-                             std::span<const int> edges) {
+void SurfaceFlatness::change(const SurfaceFeatures& features, const FeatureMotion& motion,
+                             std::span<const int> faces, std::span<const int> edges) {
+  lengths_.change(features, motion, edges);
   faces_.change(features.face_node.size(), faces);
   sides_.change(features.edge.size(), edges);
   is_watched_.resize(features.face_node.size(), 0);
   side_node_.resize(features.edge.size());
-  length_.resize(features.edge.size(), not_measured);
-  width_.resize(features.edge.size(), 0);
   for (int f : faces) is_watched_[index(f)] = 0;
-  for (int e : edges) {
-    length_[index(e)] = not_measured;
+  for (int e : edges)
     for (int f : features.edge[index(e)].face)
       if (f >= 0) is_watched_[index(f)] = 0;
-  }
+}
+
+void SurfaceFlatness::hold(std::span<const Contact> constraints) {
+  held_.clear();
+  for (const Contact& contact : constraints)
+    if (contact.of_edges())
+      for (const std::size_t k : {0, 2}) held_.push_back({contact.node[k], contact.node[k + 1]});
+  std::sort(held_.begin(), held_.end());
+}
+
+bool SurfaceFlatness::is_held(const EdgeFeature& edge) const {
+  return std::binary_search(held_.begin(), held_.end(), edge.node);
 }
 
 void SurfaceFlatness::watch(const SurfaceFeatures& features, const FeatureMotion& motion, int face) {
   if (!finds_flat_ || is_watched_[index(face)] != 0) return;
   is_watched_[index(face)] = 1;
-  const Faces faces{features, motion};
-  begin_to_watch(faces, faces_, face);
-  for (int e : features.diagonal_of_face[index(face)])
-    if (e >= 0) measure_edge(features, motion, e);
+  const FlatFaces faces{features, motion};
+  const FlatSides sides{faces, side_node_};
+  const auto& [first, second] = features.diagonal_of_face[index(face)];
+  if (first >= 0 && !is_held(features.edge[index(first)]) && !is_held(features.edge[index(second)]))
+    begin_to_watch(faces, faces_, face);
   for (int e : features.edge_of_face[index(face)]) {
-    if (e < 0) continue;
-    measure_edge(features, motion, e);
-    begin_to_watch(Sides{faces, side_node_}, sides_, e);
+    if (e < 0 || !sides.exists(index(e))) continue;
+    side_node_[index(e)] = nodes_of_side(features, features.edge[index(e)]);
+    if (!is_held(features.edge[index(e)])) begin_to_watch(sides, sides_, e);
   }
-}
-
-void SurfaceFlatness::measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge) {
-  const EdgeFeature& own = features.edge[index(edge)];
-  const double length = norm(motion.start(own.node[1]) - motion.start(own.node[0]));
-  length_[index(edge)] = static_cast<float>(length);
-  if (!Sides{Faces{features, motion}, side_node_}.exists(index(edge))) return;
-  side_node_[index(edge)] = nodes_of_side(features, own);
-  double area = std::numeric_limits<double>::infinity();
-  for (int face : own.face) {
-    const std::array<int, 4>& corner = features.face_node[index(face)];
-    const Vector3d first = motion.start(corner[2]) - motion.start(corner[0]),
-                   second = motion.start(corner[3]) - motion.start(corner[1]);
-    area = std::min(area, 0.5 * norm(cross(first, second)));
-  }
-  width_[index(edge)] = static_cast<float>(area / length);
 }
 
 bool SurfaceFlatness::any_bends(const SurfaceFeatures& features, const FeatureMotion& motion,
                                 ThreadTeam& team) {
-  const Faces faces{features, motion};
-  return any_bends_of(faces, faces_, team) || any_bends_of(Sides{faces, side_node_}, sides_, team);
+  const FlatFaces faces{features, motion};
+  return any_bends_of(faces, faces_, team) || any_bends_of(FlatSides{faces, side_node_}, sides_, team);
 }
 
 // Those at risk as predicted, and those with a corner that has moved farther than predicted: a face at the
 // first of these corners, a side with the first of its faces that has one.
 bool SurfaceFlatness::any_bends_by_solution(const SurfaceFeatures& features, const Surface& surface,
                                             const FeatureMotion& motion, ThreadTeam& team) {
-  const Faces faces{features, motion};
-  const Sides sides{faces, side_node_};
+  const FlatFaces faces{features, motion};
+  const FlatSides sides{faces, side_node_};
   if (any_at_risk_bends(faces, faces_, team) || any_at_risk_bends(sides, sides_, team)) return true;
   std::atomic<bool> any = false;
   motion.for_each_corrected(team, [&](std::size_t, std::size_t s) {
@@ -367,12 +304,15 @@ bool SurfaceFlatness::any_bends_by_solution(const SurfaceFeatures& features, con
 
 void SurfaceFlatness::take_over(const SurfaceFeatures& features, const FeatureMotion& motion,
                                 std::uint8_t mark, std::vector<std::uint8_t>& flags, ThreadTeam& team) {
-  const Faces faces{features, motion};
+  const FlatFaces faces{features, motion};
   const auto flag = [&](int face) { std::atomic_ref(flags[index(face)]).fetch_or(mark); };
   take_over_bent(faces, faces_, team, [&](std::size_t f) { flag(static_cast<int>(f)); });
-  take_over_bent(Sides{faces, side_node_}, sides_, team, [&](std::size_t e) {
+  take_over_bent(FlatSides{faces, side_node_}, sides_, team, [&](std::size_t e) {
     for (int face : features.edge[e].face) flag(face);
   });
+  for (int e : lengths_.strained())
+    for (int face : features.edge[index(e)].face)
+      if (face >= 0) flag(face);
 }
 
 }  // namespace brio

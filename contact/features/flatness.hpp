@@ -16,8 +16,10 @@
 #include <span>
 #include <vector>
 
+#include "contact/features/edge_lengths.hpp"
 #include "contact/features/feature_motion.hpp"
 #include "contact/features/features.hpp"
+#include "contact/pair.hpp"
 #include "src/base/index.hpp"
 
 namespace brio {
@@ -31,6 +33,13 @@ enum class Flatness : std::uint8_t { all, radii, none };
 
 /// Thickness of the hull of faces with that radius below which they are flat.
 double flat_thickness(const SurfaceFeatures& features, double radius, Flatness flatness);
+
+/// Of a pair of edges, and when it is asked whether a flat shape hides one of them from the other.
+enum class Moment : std::uint8_t { start, end };
+struct FlatnessQuery {
+  bool radii = false;  ///< what they keep
+  Moment moment = Moment::start;
+};
 
 /// What is known of shapes of one kind.
 struct FlatShapes {
@@ -65,8 +74,20 @@ class SurfaceFlatness {
  public:
   /// No face is watched. \param finds_flat whether any will be found flat
   void forget(const SurfaceFeatures& features, bool finds_flat);
+  /// Lengths of all edges, at the start of the step.
+  void measure(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team) {
+    lengths_.measure(features, motion, team);
+  }
+  /// Of each step, at its start. \returns whether edges are paired now that were not, by their lengths
+  bool follow_lengths(const SurfaceFeatures& features, const FeatureMotion& motion, ThreadTeam& team) {
+    return lengths_.follow(features, motion, team);
+  }
   /// The surface has changed. \param faces, edges that are not flat until they are watched anew
-  void change(const SurfaceFeatures& features, std::span<const int> faces, std::span<const int> edges);
+  void change(const SurfaceFeatures& features, const FeatureMotion& motion, std::span<const int> faces,
+              std::span<const int> edges);
+  /// Edges of these constraints hide behind none that is watched from now on: once a pair is a constraint it
+  /// is in the list until it parts.
+  void hold(std::span<const Contact> constraints);
   /// A face and its sides, as they are over the present step.
   void watch(const SurfaceFeatures& features, const FeatureMotion& motion, int face);
 
@@ -81,36 +102,48 @@ class SurfaceFlatness {
 
   /// Whether two edges are paired. \param radii as what keeps them
   bool pairs(const SurfaceFeatures& features, int a, int b, bool radii) const {
-    return !hides(features, a, b, radii) && !hides(features, b, a, radii);
+    return are_of_one_face(features, a, b) ||
+           (!hides(features, a, b, radii) && !hides(features, b, a, radii));
   }
-  /// Thickness below which the hull of a face stays while its diagonals are not paired, with what keeps their
-  /// radii; 0: they are.
-  double thickness_of_flat(const SurfaceFeatures& features, int face, bool radii) const {
-    return faces_.is_flat(face, radii)
-               ? flat_thickness(features, features.face_radius[index(face)], faces_.flat[index(face)])
-               : 0;
+  /// Whether two edges of a pair in the list are features of their own, whenever that was searched for: no
+  /// flat shape hides either.
+  bool are_features(const SurfaceFeatures& features, const FeatureMotion& motion, int a, int b,
+                    const FlatnessQuery& query) const {
+    return are_of_one_face(features, a, b) ||
+           (!is_hidden(features, motion, a, b, query) && !is_hidden(features, motion, b, a, query));
   }
+  /// Thickness below which the hull of a face is at the start of the step, so that edges beside it are
+  /// constraints in place of its diagonals; 0: it is not flat. \param is_constraint the edge, in the step
+  /// before
+  double thickness_of_flat(const SurfaceFeatures& features, const FeatureMotion& motion, int face, bool radii,
+                           bool is_constraint) const;
 
   /// Saved and restored (src/base/state_archive.hpp).
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(faces_, sides_, is_watched_, finds_flat_, side_node_, length_, width_);
+    archive(faces_, sides_, is_watched_, finds_flat_, side_node_, held_, lengths_);
   }
 
  private:
+  /// Opposite sides, which a face that collapses keeps apart.
+  static bool are_of_one_face(const SurfaceFeatures& features, int a, int b) {
+    return features.edge[index(a)].shares_face(features.edge[index(b)]);
+  }
   bool hides(const SurfaceFeatures& features, int flat, int other, bool radii) const {
     const EdgeFeature& edge = features.edge[index(flat)];
     if (edge.is_diagonal()) return faces_.is_flat(edge.face[0], radii);
-    return sides_.is_flat(flat, radii) && length_[index(other)] <= width_[index(flat)];
+    return sides_.is_flat(flat, radii) && lengths_.spans(flat, other);
   }
-  void measure_edge(const SurfaceFeatures& features, const FeatureMotion& motion, int edge);
+  bool is_held(const EdgeFeature& edge) const;
+  bool is_hidden(const SurfaceFeatures& features, const FeatureMotion& motion, int flat, int other,
+                 const FlatnessQuery& query) const;
 
+  EdgeLengths lengths_;
   FlatShapes faces_, sides_;              ///< sides by edge; of diagonals and beams nothing
   std::vector<std::uint8_t> is_watched_;  ///< each face
   bool finds_flat_ = false;
+  std::vector<std::array<int, 2>> held_;       ///< EdgeFeature::node, ascending
   std::vector<std::array<int, 6>> side_node_;  ///< of each side: its ends, then the others of either face
-  std::vector<float> length_;                  ///< of each edge; infinite: not measured yet
-  std::vector<float> width_;                   ///< of each side: that of the narrower face across it
 };
 
 }  // namespace brio

@@ -74,13 +74,19 @@ bool FeaturePairs::is_inside(std::size_t slave, const FeatureMotion& motion, dou
   return true;
 }
 
+bool FeaturePairs::begin_step(const SurfaceFeatures& features, const Surface& surface,
+                              const FeatureMotion& motion, ThreadTeam& team) {
+  const bool hides_less = flat_.follow_lengths(features, motion, team);
+  return is_due(features, surface, motion, team) || hides_less;
+}
+
 bool FeaturePairs::is_due(const SurfaceFeatures& features, const Surface& surface,
                           const FeatureMotion& motion, ThreadTeam& team) {
   if (reach_.size() != surface.slaves() || !changes_.empty()) return true;
   std::atomic<bool> any_left = false;
   team.for_ranges(reach_.size(), nodes_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s)
-      if (surface.node[s] >= 0 && !is_inside(s, motion, 1)) {
+      if (surface.node[s] >= 0 && !is_inside(s, motion, approach_factor)) {
         any_left.store(true, std::memory_order_relaxed);
         return;
       }
@@ -185,11 +191,14 @@ void FeaturePairs::find(const SurfaceFeatures& features, const Surface& surface,
   most_pairs_ = depth.empty() ? before + most_pairs_a_feature * all + at_rest : no_limit;
   most_open_ = depth.empty() ? most_pairs_a_feature * all + features_of_pair * at_rest : no_limit;
   kept_.clear();
-  kept_.grown = changes_.grown;
-  kept_.changed = !changes_.empty();
+  kept_.young = changes_;
+  kept_.young.sort();
   const bool is_first = reach_.empty();
   reach_.resize(surface.slaves(), empty_box);
-  if (!is_first) flat_.change(features, changes_.face, changes_.edge);
+  if (is_first)
+    flat_.measure(features, motion, team);
+  else
+    flat_.change(features, motion, changes_.face, changes_.edge);
   faces_.begin_search(surface.face.size());
   rounds_.begin_search(features.all_of_faces ? 0 : features.edge.size());
   if (is_first || !changes_.empty()) {
@@ -252,7 +261,7 @@ void FeaturePairs::close_up() {
 void FeaturePairs::change(std::span<const int> nodes, std::span<const int> faces, std::span<const int> edges,
                           std::span<const int> grown) {
   if (reach_.empty()) {
-    changes_.before_first_search = true;
+    changes_.all = true;
     return;
   }
   const auto append = [](std::vector<int>& to, std::span<const int> from) {
@@ -349,8 +358,8 @@ void FeaturePairs::start_over(const Scene& scene, FeatureMotion& motion, ThreadT
   for (SearchedBoxes* boxes : {&faces_, &rounds_, &debris_}) boxes->box.build(team);
   for (const auto& [list, kept] :
        {std::pair(&node_face, &kept_.node_face), std::pair(&edge_edge, &kept_.edge_edge)}) {
-    for (const PairRecord& pair : list->records()) remember(pair, *kept);
-    std::sort(kept->begin(), kept->end());
+    for (const PairRecord& pair : list->records()) kept->add(pair, kept_.young);
+    kept->sort();
   }
   for (PairList* list : {&face_face, &round_face, &node_face, &edge_edge}) list->clear();
 }

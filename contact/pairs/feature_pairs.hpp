@@ -17,6 +17,7 @@
 /// Diagonals of flat faces are not paired, nor are sides between faces in one plane with edges that are not
 /// longer than these are wide (flatness.hpp).
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -58,6 +59,9 @@ class FeaturePairs {
   PairList node_face, edge_edge;  ///< features of pairs that are open; debris and faces; beams and particles
   SearchCounts counts;
 
+  /// At the start of each step: whether a search is due, or edges are paired now that were not by lengths.
+  bool begin_step(const SurfaceFeatures& features, const Surface& surface, const FeatureMotion& motion,
+                  ThreadTeam& team);
   /// Whether some node's step ends outside of its box, a face bends more than it did, or there has been no
   /// search since `expire`.
   bool is_due(const SurfaceFeatures& features, const Surface& surface, const FeatureMotion& motion,
@@ -65,6 +69,8 @@ class FeaturePairs {
   /// The same after the solution of a step at whose start no search was due, or was made.
   bool is_due_after_solution(const SurfaceFeatures& features, const Surface& surface,
                              const FeatureMotion& motion, ThreadTeam& team);
+  /// Before a search: constraints that stay in the list.
+  void hold(std::span<const Contact> constraints) { flat_.hold(constraints); }
   /// Renew the pairs of faces that have left their boxes, or, if these are many, all; then the paths of the
   /// motion restart. \throws TooManyNear where there is no depth. \param depth to which features of different
   /// bodies are paired, at once; not empty: a face is flat for all pairs or none
@@ -156,8 +162,6 @@ class FeaturePairs {
   void pair_edges(const Scene& scene, FeatureMotion& motion, const PairRecord& pair);
   void add_hidden(const Scene& scene, FeatureMotion& motion);
   static bool owns_opposite_sides(const Scene& scene, int face);
-  void remember(const PairRecord& record, std::vector<std::uint64_t>& kept) const;
-  Spacing spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b, bool only_skins) const;
   Spacing node_face_spacing(const Scene& scene, int slave, int face) const;
   Spacing edge_edge_spacing(const Scene& scene, int first, int second) const;
   bool boxes_meet(const Scene& scene, int slave, int face) const;
@@ -172,34 +176,56 @@ class FeaturePairs {
   std::vector<int> round_of_node_;                  ///< of each slave node: its first beam or particle; -1
   std::vector<int> debris_node_;                    ///< slaves, ascending
 
-  struct Changes {
+  /// Features that are new, have changed, or are no more.
+  struct Young {
     std::vector<int> node, face, edge, grown;
-    bool before_first_search = false;
-    bool empty() const { return node.empty() && face.empty() && edge.empty() && !before_first_search; }
+    bool all = false;  ///< before the first search
+    bool empty() const { return node.empty() && face.empty() && edge.empty() && !all; }
     void clear() {
       for (std::vector<int>* list : {&node, &face, &edge, &grown}) list->clear();
-      before_first_search = false;
+      all = false;
+    }
+    void sort() {
+      for (std::vector<int>* list : {&node, &face, &edge, &grown}) std::sort(list->begin(), list->end());
+    }
+    /// Once they are sorted.
+    static bool is_in(const std::vector<int>& list, int i) {
+      return std::binary_search(list.begin(), list.end(), i);
+    }
+    /// Whether an edge, or a node of it.
+    bool contains(const SurfaceFeatures& features, int edge) const;
+    template <class Archive>
+    void serialize(Archive& archive) {
+      archive(node, face, edge, grown, all);
+    }
+  } changes_;  ///< since the last search
+  /// Pairs of features taken out in a search: those that wait and, if it followed a change, those with radii.
+  struct KeptPairs {
+    std::vector<std::uint64_t> radii, waiting;  ///< ascending
+    void add(const PairRecord& pair, const Young& young);
+    void sort();
+    Spacing spacing_of_new(int a, int b, bool is_young) const;
+    void clear() {
+      radii.clear();
+      waiting.clear();
     }
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(node, face, edge, grown, before_first_search);
+      archive(radii, waiting);
     }
-  } changes_;  ///< since the last search
-  /// Of features taken out in the last search, until pairs are opened again: those with radii where the
-  /// search followed a change, else those that wait. Ascending.
+  };
+  /// Of the last search, until pairs are opened again.
   struct Kept {
-    std::vector<std::uint64_t> node_face, edge_edge;
-    std::vector<int> grown;  ///< Changes::grown
-    bool changed = false;
+    KeptPairs node_face, edge_edge;
+    Young young;  ///< ascending
     void clear() {
       node_face.clear();
       edge_edge.clear();
-      grown.clear();
-      changed = false;
+      young.clear();
     }
     template <class Archive>
     void serialize(Archive& archive) {
-      archive(node_face, edge_edge, grown, changed);
+      archive(node_face, edge_edge, young);
     }
   } kept_;
   std::vector<int> awake_;  ///< working space, as what follows

@@ -22,13 +22,6 @@ bool is_open(const PairList& list, std::size_t pair) {
   return list.wake[pair] == infinity && list.spacing(pair) != Spacing::none;
 }
 
-/// Opposite sides of a face.
-bool is_of_one_face(const EdgeFeature& a, const EdgeFeature& b) {
-  return std::any_of(a.face.begin(), a.face.end(), [&](int f) {
-    return f >= 0 && std::find(b.face.begin(), b.face.end(), f) != b.face.end();
-  });
-}
-
 /// What is nearer than its radii although all of the pair was of one piece waits.
 Spacing spacing_under(const PairRecord& parent, Spacing spacing) {
   return spacing == Spacing::radii && parent.spacing == Spacing::skins ? Spacing::waiting : spacing;
@@ -266,27 +259,40 @@ void FeaturePairs::drop_pairs(const Scene& scene, const FeatureMotion& motion, T
                                     : fate_of(pair.parent) >= PairFate::closes;
   };
   node_face.remove_if([&](std::size_t i) { return leaves(node_face[i], debris_, faces_); }, team,
-                      [&](const PairRecord& pair) { remember(pair, kept_.node_face); });
+                      [&](const PairRecord& pair) { kept_.node_face.add(pair, kept_.young); });
   edge_edge.remove_if([&](std::size_t i) { return leaves(edge_edge[i], rounds_, rounds_); }, team,
-                      [&](const PairRecord& pair) { remember(pair, kept_.edge_edge); });
-  std::sort(kept_.node_face.begin(), kept_.node_face.end());
-  std::sort(kept_.edge_edge.begin(), kept_.edge_edge.end());
+                      [&](const PairRecord& pair) { kept_.edge_edge.add(pair, kept_.young); });
+  kept_.node_face.sort();
+  kept_.edge_edge.sort();
   for (const auto& [list, parents] :
        {std::pair(&face_face, Parents::faces), std::pair(&round_face, Parents::rounds)})
     list->remove_if([&fate = fate_[index(parents)]](std::size_t i) { return fate[i] == PairFate::leaves; },
                     team, [](const PairRecord&) {});
 }
 
-void FeaturePairs::remember(const PairRecord& pair, std::vector<std::uint64_t>& kept) const {
-  if (pair.spacing == (kept_.changed ? Spacing::radii : Spacing::waiting))
-    kept.push_back(key_of(pair.first, pair.second));
+void FeaturePairs::KeptPairs::add(const PairRecord& pair, const Young& young) {
+  if (pair.spacing == Spacing::waiting) waiting.push_back(key_of(pair.first, pair.second));
+  if (pair.spacing == Spacing::radii && !young.empty()) radii.push_back(key_of(pair.first, pair.second));
 }
 
-Spacing FeaturePairs::spacing_of_new(const std::vector<std::uint64_t>& kept, int a, int b,
-                                     bool only_skins) const {
-  if (only_skins) return Spacing::radii;
-  const bool was_kept = std::binary_search(kept.begin(), kept.end(), key_of(a, b));
-  return was_kept == kept_.changed ? Spacing::radii : Spacing::waiting;
+void FeaturePairs::KeptPairs::sort() {
+  std::sort(radii.begin(), radii.end());
+  std::sort(waiting.begin(), waiting.end());
+}
+
+// Of a pair of features that are not young: whether it was listed does not matter, as it has been apart if it
+// was not.
+Spacing FeaturePairs::KeptPairs::spacing_of_new(int a, int b, bool is_young) const {
+  const auto is_in = [&](const std::vector<std::uint64_t>& keys) {
+    return std::binary_search(keys.begin(), keys.end(), key_of(a, b));
+  };
+  return (is_young ? is_in(radii) : !is_in(waiting)) ? Spacing::radii : Spacing::waiting;
+}
+
+bool FeaturePairs::Young::contains(const SurfaceFeatures& features, int e) const {
+  if (empty()) return false;
+  const auto& [a, b] = at(features.edge_node, e);
+  return all || is_in(edge, e) || is_in(node, a) || is_in(node, b);
 }
 
 // With a depth, whether boxes of a node and a face, or of two edges, meet: within a body they have none.
@@ -314,9 +320,12 @@ Spacing FeaturePairs::node_face_spacing(const Scene& scene, int slave, int f) co
   if (face.has(at(scene.surface.node, slave)) || scene.surface.never_touch(slave, face)) return Spacing::none;
   if (!scene.depth.empty() && !boxes_meet(scene, slave, f)) return Spacing::none;
   if (is_excluded(scene.excluded, slave, f)) return Spacing::skins;
-  if (std::find(kept_.grown.begin(), kept_.grown.end(), slave) != kept_.grown.end()) return Spacing::waiting;
+  const Young& young = kept_.young;
+  if (young.is_in(young.grown, slave)) return Spacing::waiting;
   const double radii = at(scene.features.node_radius, slave) + at(scene.features.face_radius, f);
-  return spacing_of_new(kept_.node_face, slave, f, radii <= 2 * scene.features.skin);
+  if (radii <= 2 * scene.features.skin) return Spacing::radii;
+  const bool is_young = young.all || young.is_in(young.node, slave) || young.is_in(young.face, f);
+  return kept_.node_face.spacing_of_new(slave, f, is_young);
 }
 
 Spacing FeaturePairs::edge_edge_spacing(const Scene& scene, int first, int second) const {
@@ -326,11 +335,16 @@ Spacing FeaturePairs::edge_edge_spacing(const Scene& scene, int first, int secon
   if (!scene.depth.empty() && !boxes_meet(scene, a, b)) return Spacing::none;
   const bool spaced = !are_of_one_piece(scene.features, scene.surface, scene.excluded, a, b);
   const bool only_skins = a.radius + b.radius <= 2 * scene.features.skin;
-  const Spacing spacing =
-      spaced ? spacing_of_new(kept_.edge_edge, first, second, only_skins) : Spacing::skins;
+  const auto spacing_apart = [&] {
+    if (only_skins) return Spacing::radii;
+    const bool is_young =
+        kept_.young.contains(scene.features, first) || kept_.young.contains(scene.features, second);
+    return kept_.edge_edge.spacing_of_new(first, second, is_young);
+  };
+  const Spacing spacing = spaced ? spacing_apart() : Spacing::skins;
   // At the start nothing may be missing when such a face bends.
   const bool radii = spacing == Spacing::radii && scene.depth.empty();
-  return is_of_one_face(a, b) || flat_.pairs(scene.features, first, second, radii) ? spacing : Spacing::none;
+  return flat_.pairs(scene.features, first, second, radii) ? spacing : Spacing::none;
 }
 
 }  // namespace brio

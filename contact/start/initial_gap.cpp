@@ -333,7 +333,7 @@ class GapMaker {
     std::iota(all.node_face.begin(), all.node_face.end(), 0);
     std::iota(all.edge_edge.begin(), all.edge_edge.end(), 0);
     CrossingGuard guard;
-    find_hits(guard, all, features_, surface_, scene_.options, pairs_, motion_, team_);
+    find_hits(guard, all, features_, surface_, scene_.options, pairs_, motion_, {}, team_);
     double share = 1;
     for (const Hit& hit : guard.hits) {
       const auto p = hit.pair;

@@ -35,7 +35,7 @@ class Reference {
     std::vector<Contact> contacts;
     std::vector<FoundContact> found;
     const ProximityFilter filter(scene_.features, scene_.surface, scene_.excluded, scene_.options, all_,
-                                 motion_);
+                                 motion_, {});
     for (std::size_t i = 0; i < all_.node_face.size(); ++i) {
       if (all_.node_face.spacing(i) == Spacing::none) continue;
       const NearPair<4> near = closest_node_face(i);
@@ -59,7 +59,7 @@ class Reference {
   using Touch = std::tuple<PairKind, int, int>;
   std::vector<Touch> touches() const {
     std::vector<Touch> touches;
-    const CrossingCheck check(scene_.features, scene_.surface, scene_.options, all_, motion_);
+    const CrossingCheck check(scene_.features, scene_.surface, scene_.options, all_, motion_, {});
     for (std::size_t i = 0; i < all_.node_face.size(); ++i)
       if (all_.node_face.spacing(i) != Spacing::none && check.node_and_face(i))
         touches.emplace_back(PairKind::node_face, all_.node_face.first(i), all_.node_face.second(i));

@@ -30,7 +30,7 @@ class Pair {
       std::copy_n(velocity.data(), 3, scene_.nodes.record[index(scene_.surface.node[index(slave)])].velocity);
     FeatureMotion motion;
     motion.predict(scene_.features, scene_.surface, scene_.nodes, scene_.dt, {}, team_);
-    const CrossingCheck check(scene_.features, scene_.surface, scene_.options, all_, motion);
+    const CrossingCheck check(scene_.features, scene_.surface, scene_.options, all_, motion, {});
     return (kind == PairKind::node_face ? check.node_and_face(pair) : check.edge_and_edge(pair)).has_value();
   }
 

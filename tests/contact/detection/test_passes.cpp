@@ -32,7 +32,7 @@ struct Detector {
     active = {proximity.node_face, proximity.edge_edge};
     motion.set_limits(2, allowed_surplus(scene.features));
     find_proximities(proximity, scene.features, scene.surface, scene.excluded, scene.options, pairs, motion,
-                     team, contacts);
+                     team, {}, contacts);
   }
   void select() {
     select_active(proximity, scene.features, scene.surface, scene.excluded, scene.options, pairs, motion,
@@ -60,7 +60,7 @@ struct Detector {
     select();
   }
   void find() {
-    find_hits(guard, proximity, scene.features, scene.surface, scene.options, pairs, motion, team);
+    find_hits(guard, proximity, scene.features, scene.surface, scene.options, pairs, motion, {}, team);
   }
 
   std::vector<Reference::Touch> touches() const {
@@ -180,7 +180,7 @@ TEST(Passes, AllocateNothingForWhatTheyHaveSeen) {
     detector.motion.predict(scene.features, scene.surface, scene.nodes, scene.dt, {}, team);
     detector.select();
     find_proximities(detector.proximity, scene.features, scene.surface, scene.excluded, scene.options,
-                     detector.pairs, detector.motion, team, detector.contacts);
+                     detector.pairs, detector.motion, team, {}, detector.contacts);
     detector.find();
   };
   detector.begin();

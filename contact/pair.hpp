@@ -2,7 +2,9 @@
 /// One contact constraint: a slave node and a face, or two edges, in contact or possibly in contact within
 /// the time step.
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include "src/base/tensor.hpp"
 
@@ -34,5 +36,12 @@ struct Contact {
             friction);
   }
 };
+
+/// Whether a pair of edges is in a list that is ordered by Contact::slave. \param first the number of the
+/// first edge \param nodes Contact::node
+inline bool has_edges(std::span<const Contact> contacts, int first, const std::array<int, 5>& nodes) {
+  const auto range = std::ranges::equal_range(contacts, first_edge_slave + first, {}, &Contact::slave);
+  return std::ranges::find(range, nodes, &Contact::node) != range.end();
+}
 
 }  // namespace brio

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/detection/approach.hpp"
 #include "contact/geometry/closest_segments.hpp"
 #include "contact/geometry/edge_check.hpp"
 #include "contact/geometry/hull_point.hpp"

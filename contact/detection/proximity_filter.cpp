@@ -91,7 +91,7 @@ bool ProximityFilter::look_away(const List& neighbours, const MovingPoint& foot,
   const auto look = [&](const Vector3d& from, double share) {
     return std::all_of(neighbours.begin(), neighbours.end(), [&](int neighbour) {
       if (neighbour < 0) return true;
-      const Vector3d arm = motion_.start(neighbour) + share * motion_.displacement(neighbour) - from;
+      const Vector3d arm = after(share, neighbour) - from;
       const double height = dot(arm, away);
       return height >= 0 || height * height <= slack * slack * squared_norm(arm) ||
              height >= -allowed(neighbour) || is_one_piece(neighbour, other);
@@ -174,30 +174,39 @@ std::array<int, 2> ProximityFilter::faces_of_side(int f, const std::array<int, 2
   return {f, -1};
 }
 
+double ProximityFilter::squared_distance_after(double share, int slave, int f, bool as_hull) const {
+  const std::array<int, 4>& corner = features_.face_node[index(f)];
+  const auto at = [&](std::size_t k) { return after(share, corner[k]); };
+  return closest_on_face(after(share, slave), {at(0), at(1), at(2), at(3)}, as_hull).squared_distance;
+}
+double ProximityFilter::squared_distance_after(double share, const EdgeFeature& a,
+                                               const EdgeFeature& b) const {
+  const auto at = [&](const EdgeFeature& own) {
+    return Segment{after(share, own.node[0]), after(share, own.node[1])};
+  };
+  return closest_points_of_segments(at(a), at(b)).squared_distance;
+}
+
+// Whether the gap is within the band, or the step's approach, or twice it, takes the pair there: not along
+// the direction alone but by its distance then, so that no bound of paths by which a pair may not be
+// examined, and no list of pairs whose boxes meet, leaves out what comes near.
+template <class... Pair>
+bool ProximityFilter::is_near(const Contact& contact, double distance, const Pair&... pair) const {
+  if (contact.gap <= band_) return true;
+  Vector3d relative{};
+  for (std::size_t k = 0; k < 5; ++k) relative += contact.weight[k] * motion_.displacement(contact.node[k]);
+  const double approach = -dot(contact.normal, relative);
+  if (!(contact.gap <= band_ + approach_factor * approach)) return false;
+  const double share = std::min((contact.gap - 0.5 * band_) / approach, approach_factor);
+  return squared_distance_after(share, pair...) <= square(distance - contact.gap + band_);
+}
+
 // Whether the motion of the step passes without coming nearer than `reach`: it would be stopped along the
 // direction at the start. Crossings are found by continuous collision detection.
-bool ProximityFilter::passes_by(int slave, int f, bool as_hull, double reach) const {
-  const std::array<int, 4>& corner = features_.face_node[index(f)];
-  for (const double share : looked_at_shares) {
-    const auto at = [&](int node) {
-      return Vector3d(motion_.start(node) + share * motion_.displacement(node));
-    };
-    const HullPoint seen =
-        closest_on_face(at(slave), {at(corner[0]), at(corner[1]), at(corner[2]), at(corner[3])}, as_hull);
-    if (seen.squared_distance < reach * reach) return false;
-  }
-  return true;
-}
-bool ProximityFilter::passes_by(const EdgeFeature& a, const EdgeFeature& b, double reach) const {
-  for (const double share : looked_at_shares) {
-    const auto at = [&](int node) {
-      return Vector3d(motion_.start(node) + share * motion_.displacement(node));
-    };
-    const ClosestSegments seen =
-        closest_points_of_segments({at(a.node[0]), at(a.node[1])}, {at(b.node[0]), at(b.node[1])});
-    if (seen.squared_distance < reach * reach) return false;
-  }
-  return true;
+template <class... Pair>
+bool ProximityFilter::passes_by(double reach, const Pair&... pair) const {
+  return std::none_of(looked_at_shares.begin(), looked_at_shares.end(),
+                      [&](double share) { return squared_distance_after(share, pair...) < reach * reach; });
 }
 
 // If the direction to the rim of a face deviates from its normal by no more than the slack, the constraint is
@@ -232,8 +241,8 @@ bool ProximityFilter::lay_in_plane(const NearPair<4>& near, double slack, Contac
 // another face. \param contact its gap is enlarged at sharp edges
 bool ProximityFilter::is_kept_beside_rim(const NearPair<4>& near, const std::array<int, 2>& support,
                                          bool in_plane, double slack, Contact& contact) const {
-  if (in_plane && contact.gap <= passing_gap(0))
-    return is_near(contact, near.reach);  // whatever the faces at both
+  if (in_plane && contact.gap <= band_) return true;  // whatever the faces at both
+  const bool as_hull = pairs_.node_face.has_radii(index(near.pair));
   const int s = contact.slave, f = contact.face;
   const std::array<int, 2> beside = support[1] >= 0 ? faces_of_side(f, support) : std::array{-1, -1};
   const std::span<const int> at_foot =
@@ -247,10 +256,9 @@ bool ProximityFilter::is_kept_beside_rim(const NearPair<4>& near, const std::arr
   const bool skins = of_face.sharp && of_node.sharp && !surface_.face[index(f)].shell &&
                      features_.node_radius[index(s)] <= features_.skin;
   if (skins) contact.gap += spared_skin(tilt);
-  if (!is_near(contact, near.reach)) return false;
+  if (!is_near(contact, near.distance, s, f, as_hull)) return false;
   const double reach = near.reach - (skins ? spared_skin(tilted_angle) : 0);
-  const bool as_hull = pairs_.node_face.has_radii(index(near.pair));
-  return contact.gap <= passing_gap(tilt) || !passes_by(s, f, as_hull, reach);
+  return contact.gap <= passing_gap(tilt) || !passes_by(reach, s, f, as_hull);
 }
 
 void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundContact>& found) const {
@@ -268,7 +276,7 @@ void ProximityFilter::node_and_face(const NearPair<4>& near, std::vector<FoundCo
   for (std::size_t k = 0; k < 4; ++k) contact.weight[k + 1] = -near.at[k];
   contact.normal = near.normal;
   contact.gap = near.distance - near.reach;
-  if (!is_near(contact, near.reach)) return;
+  if (!is_near(contact, near.distance, s, f, pairs_.node_face.has_radii(pair))) return;
   std::array<int, 2> support{};
   MovingPoint foot{motion_.start(s) - near.distance * near.normal, Vector3d{}};
   foot.end = foot.start;
@@ -378,9 +386,9 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   const double tilt = of_faces ? tilt_of(std::max(of_a.cosine, of_b.cosine)) : 0;
   const bool skins = of_faces && of_a.sharp && of_b.sharp && !a.shell && !b.shell;
   if (skins) contact.gap += spared_skin(tilt);
-  if (!is_near(contact, near.reach)) return;
+  if (!is_near(contact, near.distance, a, b)) return;
   if (contact.gap > passing_gap(tilt) &&
-      passes_by(a, b, near.reach - (skins ? spared_skin(tilted_angle) : 0)))
+      passes_by(near.reach - (skins ? spared_skin(tilted_angle) : 0), a, b))
     return;
   contact.friction_coefficient = surface_.pairs.friction_of_parts(a.part, b.part, options_.friction);
   found.push_back({contact, {on_a, on_b}});

@@ -4,7 +4,6 @@
 
 #include <span>
 
-#include "contact/detection/approach.hpp"
 #include "contact/detection/proximity.hpp"
 #include "contact/geometry/closest_point.hpp"
 #include "src/base/index.hpp"
@@ -66,9 +65,14 @@ class ProximityFilter {
                        const EdgePair& pair, OtherSide other) const;
   MovingPoint point_of(int node) const;
   static double slack_of(const Vector3d& foot, double distance);
-  bool is_near(const Contact& contact, double reach) const {
-    return closes_gap(contact, motion_, band_) && paths_meet(contact, motion_, reach, band_);
+  /// A share of the step later, or more than all of it.
+  Vector3d after(double share, int node) const {
+    return motion_.start(node) + share * motion_.displacement(node);
   }
+  double squared_distance_after(double share, int slave, int face, bool as_hull) const;
+  double squared_distance_after(double share, const EdgeFeature& a, const EdgeFeature& b) const;
+  template <class... Pair>
+  bool is_near(const Contact& contact, double distance, const Pair&... pair) const;
   double rounding_of_foot(double slack, double distance) const;
   bool is_minimum_on_face(int face, const std::array<double, 4>& weights, const MovingPoint& foot,
                           const Vector3d& normal, double slack, OtherSide other,
@@ -89,8 +93,8 @@ class ProximityFilter {
   static double tilt_of(double cosine);
   double spared_skin(double tilt) const;
   double passing_gap(double tilt) const;
-  bool passes_by(int slave, int face, bool as_hull, double reach) const;
-  bool passes_by(const EdgeFeature& a, const EdgeFeature& b, double reach) const;
+  template <class... Pair>
+  bool passes_by(double reach, const Pair&... pair) const;
   std::array<int, 2> faces_of_side(int face, const std::array<int, 2>& ends) const;
   bool are_parallel(const EdgeFeature& a, const EdgeFeature& b, double sine) const;
   enum class Flatness : std::uint8_t { none, rim, inside };

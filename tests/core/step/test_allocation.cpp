@@ -117,7 +117,6 @@ Deck lines_on_lines(double speed) {
 
 struct Counted {
   std::size_t allocations = 0;  ///< in steps without a search
-  int growing = 0;              ///< of these steps, those that allocate
   int searches = 0;
   int active = 0;  ///< contacts with an impulse, over all counted steps
   int edges = 0;   ///< of these, of edges
@@ -130,15 +129,21 @@ Counted count(const Deck& deck, int threads, int steps) {
   ThreadTeam team(threads);
   const auto advance = [&](int count) { make_steps(model, count, deck.numerics.energy_error_limit, team); };
   const Model start = model;
-  advance(steps);
-  model.step = start.step;
-  model.times = start.times;
-  model.control = start.control;
-  model.assembled_step = start.assembled_step;
-  model.nodes = start.nodes;
-  model.blocks = start.blocks;
-  model.energy = start.energy;
-  model.ties = start.ties;
+  const auto restart = [&] {
+    model.step = start.step;
+    model.times = start.times;
+    model.control = start.control;
+    model.assembled_step = start.assembled_step;
+    model.nodes = start.nodes;
+    model.blocks = start.blocks;
+    model.energy = start.energy;
+    model.ties = start.ties;
+  };
+  // Twice: what is a constraint depends on the constraints before, those at the end of a run included.
+  for (int run = 0; run < 2; ++run) {
+    advance(steps);
+    restart();
+  }
   advance(10);
   Counted counted;
   for (int step = 10; step < steps; ++step) {
@@ -147,7 +152,6 @@ Counted count(const Deck& deck, int threads, int steps) {
     const bool searched = std::any_of(model.contacts.begin(), model.contacts.end(),
                                       [](const ContactScene& scene) { return scene.step.searched; });
     if (!searched) counted.allocations += allocations.count();
-    if (!searched && allocations.count() > 0) ++counted.growing;
     for (const ContactScene& scene : model.contacts) {
       counted.searches += scene.step.searched ? 1 : 0;
       counted.active += scene.step.active;
@@ -198,13 +202,10 @@ TEST(StepAllocation, NoneWhereBlocksSlideOverEachOther) {
   }
 }
 
-// Of rows that converge last, and are solved alone, there may be more than in the first run, whatever the
-// number of contacts: a buffer grows, once.
 TEST(StepAllocation, NoneInASceneOfShellsWithContactAndFriction) {
   for (int threads : {1, 2}) {
     const Counted counted = count(can_under_block(), threads, 300);
-    EXPECT_LE(counted.growing, 1) << threads;
-    EXPECT_LT(counted.allocations, 20u) << threads;
+    EXPECT_EQ(counted.allocations, 0u) << threads;
     EXPECT_GT(counted.searches, 1);
     EXPECT_GT(counted.active, 200);
   }
@@ -218,8 +219,7 @@ TEST(StepAllocation, NoneWhereForcesAreSummed) {
   forces.sections = {{"waist", "can", {0, 0, 0.5}, {0, 0, 1}}};
   for (int threads : {1, 2}) {
     const Counted counted = count(deck, threads, 300);
-    EXPECT_LE(counted.growing, 1) << threads;
-    EXPECT_LT(counted.allocations, 20u) << threads;
+    EXPECT_EQ(counted.allocations, 0u) << threads;
     EXPECT_GT(counted.active, 200);
   }
 }

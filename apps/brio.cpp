@@ -268,6 +268,7 @@ int run_command(int argument_count, char** arguments) {
   try {
     program.parse(argument_count, arguments);
   } catch (const CLI::ParseError& end) {
+    if (const brio::Ranks* ranks = brio::join_ranks()) brio::mute(ranks->number() > 0);
     return end_of_parsing(program, end, argument_count, arguments);
   }
   return exit_code;

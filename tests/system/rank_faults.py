@@ -56,6 +56,13 @@ def bad_deck(program, folder, ranks, chance):
     return seconds
 
 
+def bad_command_line(program, folder, ranks, chance):
+    code, said, seconds = on_ranks(program, [[]] * ranks, ["run", "--no-such-option", str(CAN)])
+    require(code == 2, f"a bad command line ends with {code}")
+    says_once(said, "--no-such-option")
+    return seconds
+
+
 def full_disk(program, folder, ranks, chance):
     """A file of the first rank, which writes, may not grow beyond some dumps."""
     results = folder / "full"
@@ -81,7 +88,7 @@ def little_memory(program, folder, ranks, chance):
     return seconds
 
 
-FAULTS = {"bad_deck": bad_deck, "full_disk": full_disk, "little_memory": little_memory}
+FAULTS = {fault.__name__: fault for fault in [bad_deck, bad_command_line, full_disk, little_memory]}
 
 
 def main():

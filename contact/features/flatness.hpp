@@ -34,10 +34,11 @@ enum class Flatness : std::uint8_t { all, radii, none };
 /// Thickness of the hull of faces with that radius below which they are flat.
 double flat_thickness(const SurfaceFeatures& features, double radius, Flatness flatness);
 
-/// Of a pair of edges, and when it is asked whether a flat shape hides one of them from the other.
+/// Of a step.
 enum class Moment : std::uint8_t { start, end };
+/// Whether a flat shape hides one of two edges from the other.
 struct FlatnessQuery {
-  bool radii = false;  ///< what they keep
+  bool radii = false;  ///< that is what they keep
   Moment moment = Moment::start;
 };
 
@@ -85,8 +86,8 @@ class SurfaceFlatness {
   /// The surface has changed. \param faces, edges that are not flat until they are watched anew
   void change(const SurfaceFeatures& features, const FeatureMotion& motion, std::span<const int> faces,
               std::span<const int> edges);
-  /// Edges of these constraints hide behind none that is watched from now on: once a pair is a constraint it
-  /// is in the list until it parts.
+  /// Before faces are watched: no shape of these edges will be found flat, as a pair that is a constraint is
+  /// in the list until it parts. \param constraints of the last step, or of this one
   void hold(std::span<const Contact> constraints);
   /// A face and its sides, as they are over the present step.
   void watch(const SurfaceFeatures& features, const FeatureMotion& motion, int face);

@@ -40,8 +40,12 @@ struct Contact {
 /// Whether a pair of edges is in a list that is ordered by Contact::slave. \param first the number of the
 /// first edge \param nodes Contact::node
 inline bool has_edges(std::span<const Contact> contacts, int first, const std::array<int, 5>& nodes) {
-  const auto range = std::ranges::equal_range(contacts, first_edge_slave + first, {}, &Contact::slave);
-  return std::ranges::find(range, nodes, &Contact::node) != range.end();
+  const int slave = first_edge_slave + first;
+  auto contact = std::lower_bound(contacts.begin(), contacts.end(), slave,
+                                  [](const Contact& one, int value) { return one.slave < value; });
+  for (; contact != contacts.end() && contact->slave == slave; ++contact)
+    if (contact->node == nodes) return true;
+  return false;
 }
 
 }  // namespace brio

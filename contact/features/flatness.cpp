@@ -243,8 +243,11 @@ void SurfaceFlatness::change(const SurfaceFeatures& features, const FeatureMotio
 void SurfaceFlatness::hold(std::span<const Contact> constraints) {
   held_.clear();
   for (const Contact& contact : constraints)
-    if (contact.of_edges())
-      for (const std::size_t k : {0, 2}) held_.push_back({contact.node[k], contact.node[k + 1]});
+    if (contact.of_edges()) {
+      const std::array<int, 5>& node = contact.node;
+      held_.push_back({node[0], node[1]});
+      held_.push_back({node[2], node[3]});
+    }
   std::sort(held_.begin(), held_.end());
 }
 

@@ -80,8 +80,8 @@ bool CrossingCheck::is_hidden(int a, int b, bool radii) const {
   for (const Moment moment : {Moment::start, Moment::end})
     if (pairs_.flatness().are_features(features_, motion_, a, b, {.radii = radii, .moment = moment}))
       return false;
-  const std::array<int, 2>&first = features_.edge_node[index(a)], &second = features_.edge_node[index(b)];
-  return !has_edges(constraints_, a, {first[0], first[1], second[0], second[1], second[1]});
+  return !has_edges(constraints_, a,
+                    nodes_of_edges(features_.edge_node[index(a)], features_.edge_node[index(b)]));
 }
 
 std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
@@ -107,7 +107,7 @@ std::optional<Hit> CrossingCheck::edge_and_edge(std::size_t pair) const {
   contact.face = -1;
   contact.body = b.body;
   contact.own = 2;
-  contact.node = {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
+  contact.node = nodes_of_edges(a.node, b.node);
   contact.friction_coefficient = surface_.pairs.friction_of_parts(a.part, b.part, options_.friction);
   const auto weigh = [&](const std::array<double, 2>& at) {
     contact.weight = {1 - at[0], at[0], at[1] - 1, -at[1], 0};

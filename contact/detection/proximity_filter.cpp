@@ -122,12 +122,8 @@ bool ProximityFilter::wings_look_away(const EdgeFeature& own, const MovingPoint&
   });
 }
 
-std::array<int, 5> ProximityFilter::nodes_of(const EdgePair& pair) const {
-  const EdgeFeature &a = edge(pair.first), &b = edge(pair.second);
-  return {a.node[0], a.node[1], b.node[0], b.node[1], b.node[1]};
-}
 bool ProximityFilter::was_constraint(const EdgePair& pair) const {
-  return has_edges(last_, pair.first, nodes_of(pair));
+  return has_edges(last_, pair.first, nodes_of_edges(edge(pair.first).node, edge(pair.second).node));
 }
 
 // Whether no flat shape hides one of them. Once they are a constraint they are one until they part: shapes
@@ -377,7 +373,7 @@ void ProximityFilter::edge_and_edge(const NearPair<2>& near, std::vector<FoundCo
   contact.face = -1;
   contact.body = b.body;
   contact.own = 2;
-  contact.node = nodes_of(edges);
+  contact.node = nodes_of_edges(a.node, b.node);
   contact.weight = {1 - near.at[0], near.at[0], near.at[1] - 1, -near.at[1], 0};
   contact.normal = near.normal;
   contact.gap = near.distance - near.reach;

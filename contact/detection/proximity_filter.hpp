@@ -44,7 +44,6 @@ class ProximityFilter {
     int first, second;
     bool radii;  ///< whether these are kept
   };
-  std::array<int, 5> nodes_of(const EdgePair& pair) const;
   bool was_constraint(const EdgePair& pair) const;
   bool are_features(const EdgePair& pair) const;
   /// At both ends of the step, as predicted.

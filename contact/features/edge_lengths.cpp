@@ -15,7 +15,7 @@ Extent extent_of(const SurfaceFeatures& features, const FeatureMotion& motion, c
   if (!edge.of_face()) return {.length = std::numeric_limits<float>::infinity()};
   const double length = norm(motion.start(edge.node[1]) - motion.start(edge.node[0]));
   Extent extent{.length = static_cast<float>(length)};
-  if (edge.is_diagonal() || edge.faces != 2 || edge.face[1] < 0) return extent;
+  if (!edge.joins_faces()) return extent;
   double area = std::numeric_limits<double>::infinity();
   for (int face : edge.face) {
     const std::array<int, 4>& corner = features.face_node[index(face)];

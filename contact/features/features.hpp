@@ -44,12 +44,19 @@ struct EdgeFeature {
   bool of_face() const { return kind <= EdgeKind::cross_diagonal; }
   bool is_diagonal() const { return kind == EdgeKind::diagonal || kind == EdgeKind::cross_diagonal; }
   bool alive() const { return kind != EdgeKind::none; }
+  /// A side between two faces.
+  bool joins_faces() const { return kind == EdgeKind::side && faces == 2 && face[1] >= 0; }
   /// Opposite sides of a face do, as neither is a diagonal.
   bool shares_face(const EdgeFeature& other) const {
     const auto has = [&](int f) { return f >= 0 && (f == other.face[0] || f == other.face[1]); };
     return has(face[0]) || has(face[1]);
   }
 };
+
+/// Of a constraint of two edges: Contact::node.
+constexpr std::array<int, 5> nodes_of_edges(const std::array<int, 2>& a, const std::array<int, 2>& b) {
+  return {a[0], a[1], b[0], b[1], b[1]};
+}
 
 /// Distances below this fraction of the smallest edge have no direction.
 inline constexpr double no_distance = 1e-12;

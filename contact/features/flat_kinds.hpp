@@ -46,10 +46,7 @@ struct FlatSides {
   const SurfaceFeatures& features = faces.features;
   const FeatureMotion& motion = faces.motion;
 
-  bool exists(std::size_t e) const {
-    const EdgeFeature& edge = features.edge[e];
-    return edge.kind == EdgeKind::side && edge.faces == 2 && edge.face[1] >= 0;
-  }
+  bool exists(std::size_t e) const { return features.edge[e].joins_faces(); }
   const std::array<int, 6>& nodes(std::size_t e) const { return node[e]; }
   std::size_t face(std::size_t e, std::size_t k) const { return index(features.edge[e].face[k]); }
   double radius(std::size_t e) const { return std::min(faces.radius(face(e, 0)), faces.radius(face(e, 1))); }

@@ -154,7 +154,7 @@ TEST(HiddenEdges, LengthsAreMeasuredEvery128Steps) {
   stretch(0.9 * 1.019);
   EXPECT_EQ(steps_until_paired(), 0) << "by less than a fiftieth";
   stretch(1.1);
-  EXPECT_TRUE(!plate.are_features(plate.bar(), plate.side())) << "as measured";
+  EXPECT_FALSE(plate.are_features(plate.bar(), plate.side())) << "as measured";
   // 999 steps twice before, of which 1,920 were whole periods.
   EXPECT_EQ(steps_until_paired(), 128 - (2 * 999) % 128);
   EXPECT_TRUE(plate.are_features(plate.bar(), plate.side()));
